@@ -1,0 +1,74 @@
+"""The only door to numba: compiled kernels, cached in a folder named by the content of every physics source file.
+
+numba notices edits in a cached function's own file only, so a kernel that calls into another file could go on serving
+old physics. A cache folder per content hash cannot.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import tempfile
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import numba
+
+Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+
+
+def fingerprint() -> str:
+    """Hash of the text of every Python file of the physics package, 16 hexadecimal digits."""
+    root = Path(__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        digest.update(path.relative_to(root).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _cache_folder() -> Path:
+    chosen = os.environ.get("SPALLGEN_CACHE") or os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    folder = Path(chosen) / "spallgen" / f"{fingerprint()}-numba{numba.__version__}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return Path(tempfile.mkdtemp(prefix="spallgen-cache-"))
+
+
+CACHE_FOLDER = _cache_folder()
+setattr(numba.config, "CACHE_DIR", str(CACHE_FOLDER))
+
+
+def njit(kernel: Kernel) -> Kernel:
+    """Compile `kernel` on first call, without fast-math, so that its bits do not depend on the vector width."""
+    compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True)(kernel)
+    return cast(Kernel, compiled)
+
+
+def njit_inline(kernel: Kernel) -> Kernel:
+    """Like `njit`, and pasted into compiled callers, which spares the reference counting of its array arguments."""
+    compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True, inline="always")(kernel)
+    return cast(Kernel, compiled)
+
+
+def specialise(template: Callable[..., Any], name: str, **bindings: Any) -> Callable[..., Any]:
+    """Compile a copy of `template` under `name`, with `bindings` in place of its module's names.
+
+    A compiled function given as an argument or a closure would miss the compile cache in every process.
+    """
+    copy = types.FunctionType(template.__code__, {**template.__globals__, **bindings}, name, template.__defaults__)
+    copy.__qualname__ = name
+    copy.__doc__ = template.__doc__
+    return njit(copy)
+
+
+def discard_cache() -> None:
+    """Delete the compiled kernels: the cure for a cache file cut short by a crash."""
+    shutil.rmtree(CACHE_FOLDER, ignore_errors=True)
+    CACHE_FOLDER.mkdir(parents=True, exist_ok=True)

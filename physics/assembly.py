@@ -1,0 +1,136 @@
+"""The one place where a Scene becomes the plain arrays that the kernels read."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.cage import CagePath
+from physics.contact import (
+    ANGLE,
+    BALL_ROWS,
+    CAGE,
+    COSINE,
+    FIRST_BALL,
+    FIRST_BREAK,
+    FIRST_CUBIC,
+    FIRST_PIECE,
+    FRAME_COLUMNS,
+    GAP,
+    PIECES,
+    SIGN,
+    SINE,
+    SPEED,
+    ContactModel,
+    Law,
+    Track,
+)
+from physics.imperfections import Waviness
+from physics.profile import DepthPath, build_path, hermite_cubics
+from physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+LANES = 4
+PADDING_GAP = 1.0
+WAVINESS_CELLS_PER_WAVE = 64
+
+
+def assemble(scene: Scene) -> ContactModel:
+    """The contact model of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
+    bearing, rig = scene.rig.bearing, scene.rig
+    alpha = math.cos(bearing.contact_angle)
+    cages = [scene.cage] if scene.second_cage is None else [scene.cage, scene.second_cage]
+    balls, row, ball = _lay_out_balls(scene, len(cages))
+    frames = np.zeros((len(cages), FRAME_COLUMNS))
+    law = Law(
+        stiffness=bearing.load_deflection * alpha ** (bearing.exponent + 1.0),
+        exponent=bearing.exponent,
+        damping=rig.film_damping * alpha**2,
+        no_tension=scene.contact_law == "no_tension",
+    )
+    paths = [build_path(spall, bearing) for spall in scene.spalls]
+    cage, clock = _cage_arrays(cages)
+    track = Track(
+        cage=cage,
+        clock=clock,
+        spalls=_spall_table(scene, paths, len(cages)),
+        breaks=np.concatenate([np.zeros(0), *(path.breaks for path in paths)]),
+        cells=np.concatenate([np.zeros(0, dtype=np.int64), *(path.cells for path in paths)]),
+        cubics=np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *(path.cubics for path in paths)])),
+        waviness=_waviness_cubics(scene.imperfections.waviness),
+        row_size=bearing.balls,
+        spacing=bearing.spacing,
+        shaft_speed=scene.operation.shaft_speed,
+    )
+    return ContactModel(balls, frames, law, track, row, ball)
+
+
+def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
+    table = np.zeros((len(paths), 9))
+    piece = first_break = cubic = 0
+    for index, (spall, path) in enumerate(zip(scene.spalls, paths, strict=True)):
+        row = spall.row - 1
+        table[index, FIRST_BALL] = row * scene.rig.bearing.balls if cages == 1 else 0
+        table[index, CAGE] = row if cages > 1 else 0
+        table[index, SIGN] = spall.travel_sign
+        table[index, ANGLE] = spall.angle - row * scene.rig.bearing.stagger
+        table[index, SPEED] = race_speed(scene, spall.race)
+        table[index, FIRST_PIECE], table[index, PIECES] = piece, path.cells.size
+        table[index, FIRST_BREAK], table[index, FIRST_CUBIC] = first_break, cubic
+        piece += path.cells.size
+        first_break += path.breaks.size
+        cubic += path.cubics.shape[0]
+    return table
+
+
+def race_speed(scene: Scene, race: str) -> float:
+    """Angular speed of a race, rad/s: the shaft's for the inner race, zero for the outer one."""
+    return scene.operation.shaft_speed if race == "inner" else 0.0
+
+
+def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
+    """Ball table (G, 9, M) with angles and gaps filled in, and row and ball of each column (G · M,)."""
+    bearing = scene.rig.bearing
+    rows_per_cage = bearing.rows if cages == 1 else 1
+    size = rows_per_cage * bearing.balls
+    padded = size + -size % LANES
+    deviation = np.array(scene.imperfections.ball_deviation or np.zeros((bearing.rows, bearing.balls)))
+    balls = np.zeros((cages, BALL_ROWS, padded))
+    balls[:, COSINE], balls[:, GAP] = 1.0, PADDING_GAP
+    row, ball = np.full((cages, padded), -1), np.full((cages, padded), -1)
+    for r in range(bearing.rows):
+        cage, place = (0, r) if cages == 1 else (r, 0)
+        here = slice(place * bearing.balls, (place + 1) * bearing.balls)
+        angle = bearing.stagger * r + bearing.spacing * np.arange(bearing.balls)
+        balls[cage, COSINE, here], balls[cage, SINE, here] = np.cos(angle), np.sin(angle)
+        balls[cage, GAP, here] = bearing.clearance - deviation[r]
+        row[cage, here], ball[cage, here] = r, np.arange(bearing.balls)
+    return balls, row.ravel().astype(np.int64), ball.ravel().astype(np.int64)
+
+
+def _cage_arrays(cages: list[CagePath]) -> tuple[Array, Array]:
+    intervals = max(cage.polynomial.c.shape[1] for cage in cages)
+    quartics = np.zeros((len(cages), intervals, 5))
+    clock = np.zeros((len(cages), 2))
+    for g, cage in enumerate(cages):
+        coefficients = cage.polynomial.c
+        quartics[g, : coefficients.shape[1], 5 - coefficients.shape[0] :] = coefficients.T
+        clock[g] = cage.polynomial.x[0], 1.0 / cage.knot_step if cage.knot_values else 0.0
+    return quartics, clock
+
+
+def _waviness_cubics(waves: tuple[Waviness, ...]) -> Array:
+    if not waves:
+        return np.zeros((2, 0, 4))
+    count = WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves))
+    nodes = 2.0 * np.pi * np.arange(count + 1) / count
+    width = 2.0 * np.pi / count
+    cubics = np.zeros((2, count, 4))
+    for wave in waves:
+        value = wave.amplitude * np.cos(wave.order * nodes + wave.phase)
+        rate = -wave.amplitude * wave.order * np.sin(wave.order * nodes + wave.phase) * width
+        cubics[0 if wave.race == "outer" else 1] += hermite_cubics(value, rate)
+    return cubics

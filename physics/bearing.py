@@ -1,0 +1,122 @@
+"""Rolling bearings: geometry, load-deflection law and characteristic frequencies."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from physics.checks import require, require_between, require_count, require_finite, require_positive
+
+DEFAULT_CONFORMITY = 0.52
+SMALLEST_CONFORMITY = 0.501
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A radially loaded bearing with one or more staggered rows of rolling elements (SI units).
+
+    `load_deflection` is K of F = K δⁿ for one rolling element between both races (N/mⁿ, δ along the contact normal),
+    `exponent` is n: 3/2 for balls, 10/9 for rollers [P14 Eq. 6].
+    `clearance` is radial: half the diametral play. `row_offset` is the stagger of neighbouring rows (rad);
+    None means half a ball spacing [P14 Eq. 2]. A conformity is groove radius over ball diameter; it sets the width of
+    the contacts, never K, and an outer raceway that is a sphere has raceway radius over ball diameter.
+    """
+
+    name: str
+    balls: int
+    rows: int
+    pitch_diameter: float
+    ball_diameter: float
+    load_deflection: float
+    exponent: float = 1.5
+    contact_angle: float = 0.0
+    clearance: float = 0.0
+    row_offset: float | None = None
+    inner_conformity: float = DEFAULT_CONFORMITY
+    outer_conformity: float = DEFAULT_CONFORMITY
+
+    def __post_init__(self) -> None:
+        require_count("balls", self.balls, 3, 200)
+        require_count("rows", self.rows, 1, 2)
+        require_positive("pitch_diameter", self.pitch_diameter, "m")
+        require_positive("ball_diameter", self.ball_diameter, "m")
+        require_positive("load_deflection", self.load_deflection, "N/m^n")
+        require_between("exponent", self.exponent, 1.0, 2.0)
+        require_between("contact_angle", self.contact_angle, 0.0, math.radians(60.0), "rad")
+        require_between("clearance", self.clearance, -1e-3, 1e-3, "m")
+        require_finite("row_offset", self.stagger, "rad")
+        require_between("inner_conformity", self.inner_conformity, SMALLEST_CONFORMITY, 1e3)
+        require_between("outer_conformity", self.outer_conformity, SMALLEST_CONFORMITY, 1e3)
+        chord = self.pitch_diameter * math.sin(math.pi / self.balls)
+        require(
+            chord >= self.ball_diameter,
+            f"{self.balls} balls of {self.ball_diameter * 1e3:.3f} mm do not fit on a pitch circle of "
+            f"{self.pitch_diameter * 1e3:.3f} mm: neighbours are {chord * 1e3:.3f} mm apart",
+            "ball_diameter",
+        )
+
+    @property
+    def spacing(self) -> float:
+        """Angle between neighbouring balls of one row, rad."""
+        return 2.0 * math.pi / self.balls
+
+    @property
+    def stagger(self) -> float:
+        """Angle by which each row is ahead of the one before, rad."""
+        return math.pi / self.balls if self.row_offset is None else self.row_offset
+
+    @property
+    def ball_radius(self) -> float:
+        """Radius of a ball, m."""
+        return self.ball_diameter / 2.0
+
+    def raceway_radius(self, race: str) -> float:
+        """Radius of the raceway at the contact, m: `race` is "outer" or "inner"."""
+        shift = self.ball_diameter * math.cos(self.contact_angle)
+        if race == "outer":
+            return (self.pitch_diameter + shift) / 2.0
+        require(race == "inner", f'race = "{race}"; allowed: outer, inner', "race")
+        return (self.pitch_diameter - shift) / 2.0
+
+    @property
+    def diameter_ratio(self) -> float:
+        """Db cos α / Dp, dimensionless."""
+        return self.ball_diameter * math.cos(self.contact_angle) / self.pitch_diameter
+
+    def cage_speed(self, shaft_speed: float) -> float:
+        """Nominal cage speed in rad/s for a shaft speed in rad/s [P14 Eq. 1]."""
+        return 0.5 * shaft_speed * (1.0 - self.diameter_ratio)
+
+    @property
+    def ftf(self) -> float:
+        """Fundamental train (cage) frequency in orders of the shaft."""
+        return 0.5 * (1.0 - self.diameter_ratio)
+
+    @property
+    def bpfo(self) -> float:
+        """Ball-pass frequency of the outer race in orders of the shaft."""
+        return self.balls * self.ftf
+
+    @property
+    def bpfi(self) -> float:
+        """Ball-pass frequency of the inner race in orders of the shaft."""
+        return self.balls * (1.0 - self.ftf)
+
+    @property
+    def bsf(self) -> float:
+        """Ball spin frequency in orders of the shaft."""
+        return 0.5 * self.pitch_diameter / self.ball_diameter * (1.0 - self.diameter_ratio**2)
+
+    def conformity(self, race: str) -> float:
+        """Groove radius over ball diameter, dimensionless: `race` is "outer" or "inner"."""
+        return self.outer_conformity if race == "outer" else self.inner_conformity
+
+    @property
+    def stribeck_factor(self) -> float:
+        """Peak load over mean load of the balls of a row at zero clearance: 4.37 for balls, 4.08 for rollers."""
+        n = self.exponent
+        return 2.0 * math.sqrt(math.pi) * math.gamma((n + 3.0) / 2.0) / math.gamma((n + 2.0) / 2.0)
+
+    def stribeck_peak_load(self, load: float) -> float:
+        """Load of the most loaded ball at zero clearance under the radial `load`, N [P14 Eq. 24]."""
+        return self.stribeck_factor * load / (self.rows * self.balls * math.cos(self.contact_angle))

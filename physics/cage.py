@@ -1,0 +1,147 @@
+"""The cage's path in continuous time: slip drawn once, read alike by every method, step and sample rate."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PPoly
+
+from physics.checks import require, require_between, require_finite, require_not_negative, require_positive
+
+KNOTS_PER_CORRELATION_TIME = 4
+LARGEST_SLIP = 0.5
+INTERPOLATION_RULE = (
+    "slip s(t) is the natural cubic spline through the knots (scipy.interpolate.CubicSpline(t, s, bc_type='natural')); "
+    "cage speed = nominal_speed * (1 - mean_slip + s(t)); cage angle = phi_c0 + integral of the cage speed from t = 0"
+)
+
+
+@dataclass(frozen=True)
+class CagePath:
+    """Cage angle φc(t) = φc(0) + ∫ ωc (1 − s̄ + s(t)) dt, rad, from t = 0 to `duration` (s).
+
+    `knot_values` are s at the times `start + k · knot_step`; none means constant slip s̄. This replaces [P14 Eq. 3],
+    whose random step depends on the solver's step.
+    """
+
+    nominal_speed: float
+    duration: float
+    start_angle: float = 0.0
+    mean_slip: float = 0.0
+    knot_step: float = 0.0
+    knot_start: float = 0.0
+    knot_values: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        require_positive("nominal_speed", self.nominal_speed, "rad/s")
+        require_positive("duration", self.duration, "s")
+        require_finite("start_angle", self.start_angle, "rad")
+        require_between("mean_slip", self.mean_slip, -0.2, 0.2)
+        if self.knot_values:
+            self._check_knots()
+
+    def _check_knots(self) -> None:
+        require_positive("knot_step", self.knot_step, "s")
+        require_finite("knot_start", self.knot_start, "s")
+        last = self.knot_start + self.knot_step * (len(self.knot_values) - 1)
+        require(
+            self.knot_start <= 0.0 and last >= self.duration,
+            f"slip knots cover {self.knot_start:g} to {last:g} s; they must cover 0 to {self.duration:g} s",
+            "knot_values",
+        )
+        for slip in self.knot_values:
+            require_between("knot_values", slip, -LARGEST_SLIP, LARGEST_SLIP)
+
+    @property
+    def mean_speed(self) -> float:
+        """Cage speed without the random part, rad/s."""
+        return self.nominal_speed * (1.0 - self.mean_slip)
+
+    @cached_property
+    def knot_times(self) -> NDArray[np.float64]:
+        """Times of the knots, shape (K,), s."""
+        return self.knot_start + self.knot_step * np.arange(len(self.knot_values), dtype=np.float64)
+
+    @cached_property
+    def polynomial(self) -> PPoly:
+        """The angle as a piecewise polynomial in time (rad); one piece between each two knots."""
+        if not self.knot_values:
+            straight = np.array([[self.mean_speed], [self.start_angle]])
+            return PPoly(straight, np.array([0.0, self.duration]), extrapolate=True)
+        slip = CubicSpline(self.knot_times, np.array(self.knot_values), bc_type="natural")
+        speed = PPoly(self.nominal_speed * slip.c, slip.x)
+        speed.c[-1] += self.mean_speed
+        angle = speed.antiderivative()
+        angle.c[-1] += self.start_angle - float(angle(0.0))
+        return angle
+
+    def angle(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Unwrapped cage angle at `time` (T,), rad: the position of ball 1 of row 1."""
+        return np.asarray(self.polynomial(time))
+
+    def speed(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Cage speed at `time` (T,), rad/s."""
+        return np.asarray(self.polynomial.derivative()(time))
+
+    def crossing_times(self, target: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Times (N,) at which the cage angle equals each `target` angle (N,), s; beyond the ends at the mean speed."""
+        return crossing_times(self.polynomial, self.mean_speed, self.duration, np.asarray(target, dtype=float))
+
+
+def crossing_times(
+    polynomial: PPoly, mean_speed: float, duration: float, target: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """Times (N,) at which a rising piecewise polynomial over [0, duration] equals `target` (N,).
+
+    Newton's method from linear interpolation between samples; outside [0, duration] the path goes on at `mean_speed`.
+    """
+    samples = np.linspace(0.0, duration, 4 * polynomial.c.shape[1] + 1)
+    values = polynomial(samples)
+    time = np.interp(target, values, samples)
+    slope = polynomial.derivative()
+    for _ in range(8):
+        time = np.clip(time - (polynomial(time) - target) / slope(time), 0.0, duration)
+    before = target < values[0]
+    after = target > values[-1]
+    time[before] = (target[before] - values[0]) / mean_speed
+    time[after] = duration + (target[after] - values[-1]) / mean_speed
+    return time
+
+
+def slip_knot_scale(correlation: float) -> float:
+    """Factor that gives the spline through unit-variance AR(1) knots of neighbour `correlation` unit mean variance."""
+    knots = np.arange(41)
+    fine = np.linspace(20.0, 21.0, 65)[:-1] + 1.0 / 128.0
+    weights = CubicSpline(knots, np.eye(knots.size), bc_type="natural")(fine)
+    covariance = correlation ** np.abs(knots[:, None] - knots[None, :])
+    variance = np.einsum("ti,ij,tj->t", weights, covariance, weights).mean()
+    return 1.0 / math.sqrt(float(variance))
+
+
+def draw_slip_knots(
+    generator: np.random.Generator, deviation: float, correlation_time: float, duration: float
+) -> tuple[float, float, tuple[float, ...]]:
+    """Knot step (s), first knot time (s) and knot values of a stationary slip with the stated `deviation` (1).
+
+    The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck) sequence, four per correlation time, scaled
+    so that the spline through them has the stated deviation on average; they are rounded to 1e-12 so that their
+    decimal text is exact.
+    """
+    require_not_negative("deviation", deviation)
+    require_positive("correlation_time", correlation_time, "s")
+    step = correlation_time / KNOTS_PER_CORRELATION_TIME
+    start = -2.0 * step
+    count = math.ceil((duration - start) / step) + 3
+    correlation = math.exp(-1.0 / KNOTS_PER_CORRELATION_TIME)
+    noise = generator.standard_normal(count)
+    values = np.empty(count)
+    values[0] = noise[0]
+    innovation = math.sqrt(1.0 - correlation**2)
+    for k in range(1, count):
+        values[k] = correlation * values[k - 1] + innovation * noise[k]
+    values *= deviation * slip_knot_scale(correlation)
+    return step, start, tuple(float(v) for v in np.round(values, 12))

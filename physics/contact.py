@@ -1,0 +1,249 @@
+"""Contact forces of all balls at once, branch-free in the frame of the cage [P14 Eq. 4-10].
+
+Ball j sits at a fixed angle in the cage, so one sine and cosine a call turn the displacement into the cage's frame and
+the compression of every ball becomes p cos θj + q sin θj − floor. Sums run over precomputed θj in loops with no branch
+and in a fixed order, so they use vector instructions and give the same bits on every processor; only balls inside a
+spall need the depth of their path.
+
+Kernels take few arrays: each array handed to a compiled function costs reference counting, which would cost more than
+the mechanics. What belongs to one ball is therefore one column of `balls` (G, 9, M), G cages of M balls each, padded to
+whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
+know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit, njit_inline
+from physics.profile import path_at
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+# Second index of `balls`: cosine and sine of its angle in the cage; clearance minus diameter deviation (m);
+# gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or
+# not the ball touches (N); the force of the contact set (N).
+COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE = range(9)
+BALL_ROWS = 9
+# Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
+FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
+FRAME_COLUMNS = 3
+# Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
+# zero cage angle and time (rad), speed of its race (rad/s), first piece, number of pieces, first break, first cubic.
+FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, FIRST_PIECE, PIECES, FIRST_BREAK, FIRST_CUBIC = range(9)
+
+
+class Law(NamedTuple):
+    """The contact law in radial direction: K (N/mⁿ), n, c_d (N s/m) and whether the force may pull."""
+
+    stiffness: float
+    exponent: float
+    damping: float
+    no_tension: bool
+
+
+class Track(NamedTuple):
+    """What the balls run on, as a function of time.
+
+    Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
+    Spalls (D, 9) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness` (2, N, 4):
+    cubics of the outer and inner race over N equal arcs of the circle, N = 0 for smooth races.
+    """
+
+    cage: Array
+    clock: Array
+    spalls: Array
+    breaks: Array
+    cells: Index
+    cubics: Array
+    waviness: Array
+    row_size: int
+    spacing: float
+    shaft_speed: float
+
+
+class ContactModel(NamedTuple):
+    """Everything the kernels need of a scene's contacts.
+
+    `balls` (G, 9, M) and `frames` (G, 3) as above; `row`, `ball` (G · M,) from 0, −1 for padding.
+    """
+
+    balls: Array
+    frames: Array
+    law: Law
+    track: Track
+    row: Index
+    ball: Index
+
+
+@njit_inline
+def cage_at(track: Track, cage: int, time: float) -> tuple[float, float]:
+    """Cage angle (rad) and speed (rad/s) of one cage at `time` (s)."""
+    since = time - track.clock[cage, 0]
+    interval = min(max(int(since * track.clock[cage, 1]), 0), track.cage.shape[1] - 1)
+    if interval > 0:
+        since -= interval / track.clock[cage, 1]
+    c4 = track.cage[cage, interval, 0]
+    c3 = track.cage[cage, interval, 1]
+    c2 = track.cage[cage, interval, 2]
+    c1 = track.cage[cage, interval, 3]
+    angle = (((c4 * since + c3) * since + c2) * since + c1) * since + track.cage[cage, interval, 4]
+    return angle, ((4.0 * c4 * since + 3.0 * c3) * since + 2.0 * c2) * since + c1
+
+
+@njit
+def set_time(balls: Array, frames: Array, track: Track, time: float) -> None:
+    """`move_to` as a called function, for places where a pasted copy would only cost compile time."""
+    move_to(balls, frames, track, time)
+
+
+@njit_inline
+def move_to(balls: Array, frames: Array, track: Track, time: float) -> None:
+    """Bring what depends on time alone to `time` (s): the cages' frames, the floor under each ball and its rate."""
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            balls[cage, FLOOR, j] = balls[cage, GAP, j]
+            balls[cage, FALL, j] = 0.0
+        angle, speed = cage_at(track, cage, time)
+        frames[cage, FRAME_COSINE] = math.cos(angle)
+        frames[cage, FRAME_SINE] = math.sin(angle)
+        frames[cage, FRAME_SPEED] = speed
+        if track.waviness.shape[1] > 0:
+            _add_waviness(balls, track, cage, angle, speed, time)
+        for spall in range(track.spalls.shape[0]):
+            if track.spalls[spall, CAGE] == cage:
+                _add_spall(balls, track, cage, spall, angle, speed, time)
+
+
+@njit_inline
+def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, speed: float, time: float) -> None:
+    sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
+    first_break, first_piece = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, FIRST_PIECE])
+    pieces = int(track.spalls[spall, PIECES])
+    entry, leave = track.breaks[first_break], track.breaks[first_break + pieces]
+    ahead = sign * (angle - track.spalls[spall, ANGLE] - race_speed * time)
+    turns = math.ceil((entry - ahead) / track.spacing)
+    arc = ahead + turns * track.spacing
+    while arc <= leave:
+        place = int(track.spalls[spall, FIRST_BALL]) + int(sign * turns) % track.row_size
+        depth, slope = path_at(
+            track.breaks, track.cells, track.cubics, first_break, first_piece, pieces,
+            int(track.spalls[spall, FIRST_CUBIC]), arc,
+        )  # fmt: skip
+        balls[cage, FLOOR, place] += depth
+        balls[cage, FALL, place] += slope * sign * (speed - race_speed)
+        arc += track.spacing
+        turns += 1.0
+
+
+@njit
+def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
+    cells = track.waviness.shape[1]
+    width = 2.0 * math.pi / cells
+    for j in range(balls.shape[2]):
+        place = angle + math.atan2(balls[cage, SINE, j], balls[cage, COSINE, j])
+        for race in range(2):
+            race_speed = track.shaft_speed * race
+            position = (place - race_speed * time) / width
+            whole = math.floor(position)
+            x = position - whole
+            cell = int(whole) % cells
+            c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
+            c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
+            balls[cage, FLOOR, j] += ((c3 * x + c2) * x + c1) * x + c0
+            balls[cage, FALL, j] += ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width * (speed - race_speed)
+
+
+@njit
+def press(balls: Array, frames: Array, law: Law, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
+    """Net force (N) of the contact set along x and y, pushing the outer ring [P14 Eq. 8, 10].
+
+    `dx`, `dy` (m) and `vx`, `vy` (m/s) are displacement and velocity of the inner relative to the outer ring;
+    `set_time` must have been called. Leaves compression, law and force of every ball in `balls`.
+    """
+    force_x, force_y = 0.0, 0.0
+    for cage in range(balls.shape[0]):
+        cosine, sine, speed = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE], frames[cage, FRAME_SPEED]
+        p = dx * cosine + dy * sine
+        q = dy * cosine - dx * sine
+        a = vx * cosine + vy * sine + speed * q
+        b = vy * cosine - vx * sine - speed * p
+        if law.exponent == 1.5:
+            for j in range(balls.shape[2]):
+                compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
+                rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
+                pressed = max(compression, 0.0)
+                balls[cage, COMPRESSION, j] = compression
+                balls[cage, LAW, j] = law.stiffness * pressed * math.sqrt(pressed) + law.damping * rate
+                balls[cage, FORCE, j] = balls[cage, ACTIVE, j] * balls[cage, LAW, j]
+        else:
+            for j in range(balls.shape[2]):
+                compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
+                rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
+                balls[cage, COMPRESSION, j] = compression
+                balls[cage, LAW, j] = law.damping * rate
+                if compression > 0.0:
+                    balls[cage, LAW, j] += law.stiffness * compression**law.exponent
+                balls[cage, FORCE, j] = balls[cage, ACTIVE, j] * balls[cage, LAW, j]
+        along, across = _sum_lanes(balls, cage)
+        force_x += along * cosine - across * sine
+        force_y += along * sine + across * cosine
+    return force_x, force_y
+
+
+@njit_inline
+def _sum_lanes(balls: Array, cage: int) -> tuple[float, float]:
+    """Sums of force times cosine and sine over the balls of one cage, in four lanes added in a fixed order."""
+    p0, p1, p2, p3 = 0.0, 0.0, 0.0, 0.0
+    q0, q1, q2, q3 = 0.0, 0.0, 0.0, 0.0
+    for j in range(0, balls.shape[2], 4):
+        p0 += balls[cage, FORCE, j] * balls[cage, COSINE, j]
+        p1 += balls[cage, FORCE, j + 1] * balls[cage, COSINE, j + 1]
+        p2 += balls[cage, FORCE, j + 2] * balls[cage, COSINE, j + 2]
+        p3 += balls[cage, FORCE, j + 3] * balls[cage, COSINE, j + 3]
+        q0 += balls[cage, FORCE, j] * balls[cage, SINE, j]
+        q1 += balls[cage, FORCE, j + 1] * balls[cage, SINE, j + 1]
+        q2 += balls[cage, FORCE, j + 2] * balls[cage, SINE, j + 2]
+        q3 += balls[cage, FORCE, j + 3] * balls[cage, SINE, j + 3]
+    return (p0 + p1) + (p2 + p3), (q0 + q1) + (q2 + q3)
+
+
+@njit_inline
+def of_ball(balls: Array, row: int, ball: int) -> float:
+    """One entry of `balls` for the ball numbered cage · M + place."""
+    size = balls.shape[2]
+    return balls[ball // size, row, ball % size]
+
+
+@njit
+def touches(balls: Array, law: Law, ball: int) -> bool:
+    """Whether the contact law says that `ball` is in contact, from what `press` left in `balls`."""
+    return of_ball(balls, COMPRESSION, ball) > 0.0 and (not law.no_tension or of_ball(balls, LAW, ball) > 0.0)
+
+
+@njit
+def count_changes(balls: Array, law: Law) -> int:
+    """Number of balls whose contact differs from the contact set, from what `press` left in `balls`."""
+    changed = 0
+    for cage in range(balls.shape[0]):
+        if law.no_tension:
+            for j in range(balls.shape[2]):
+                held = min(balls[cage, COMPRESSION, j], balls[cage, LAW, j]) > 0.0
+                changed += held != (balls[cage, ACTIVE, j] > 0.5)
+        else:
+            for j in range(balls.shape[2]):
+                changed += (balls[cage, COMPRESSION, j] > 0.0) != (balls[cage, ACTIVE, j] > 0.5)
+    return changed
+
+
+@njit
+def reset_contact(balls: Array, law: Law) -> None:
+    """Make the contact set what the compressions left by `press` say."""
+    size = balls.shape[2]
+    for ball in range(balls.shape[0] * size):
+        balls[ball // size, ACTIVE, ball % size] = 1.0 if touches(balls, law, ball) else 0.0

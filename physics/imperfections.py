@@ -1,0 +1,43 @@
+"""What a perfect bearing lacks: waviness of the races and balls of unequal diameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from physics.checks import require, require_between, require_count, require_finite, require_positive
+
+
+@dataclass(frozen=True)
+class Waviness:
+    """One harmonic of a race: depth(ψ) = amplitude · cos(order · ψ + phase), ψ the angle on that race at t = 0.
+
+    Positive depth is material missing (it relieves the ball), like the depth of a spall. Applies to every row.
+    """
+
+    race: str
+    order: int
+    amplitude: float
+    phase: float = 0.0
+
+    def __post_init__(self) -> None:
+        require(self.race in ("outer", "inner"), f'race = "{self.race}"; allowed: outer, inner', "race")
+        require_count("order", self.order, 1, 2000)
+        require_positive("amplitude", self.amplitude, "m")
+        require_finite("phase", self.phase, "rad")
+
+
+@dataclass(frozen=True)
+class Imperfections:
+    """Departures from a perfect healthy bearing; all absent by default.
+
+    `ball_deviation[r][j]` is the diameter of ball j + 1 on row r + 1 minus the nominal one (m); empty means equal
+    balls.
+    """
+
+    waviness: tuple[Waviness, ...] = ()
+    ball_deviation: tuple[tuple[float, ...], ...] = ()
+
+    def __post_init__(self) -> None:
+        for row in self.ball_deviation:
+            for deviation in row:
+                require_between("ball_deviation", deviation, -1e-3, 1e-3, "m")

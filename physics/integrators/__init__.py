@@ -1,0 +1,1 @@
+"""Numerical methods for the equations of motion: one method, one file."""

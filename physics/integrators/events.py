@@ -1,0 +1,154 @@
+"""Locating, inside a step, the instant at which a ball starts or stops touching.
+
+Within a step the contact set is frozen, so the trial solution is smooth; between its ends the relative displacement is
+the quintic through displacement, velocity and acceleration at both, and cage angle and depth are known exactly. The
+earliest zero of the contact condition is bracketed and found by the Illinois variant of false position.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.contact import ACTIVE, COMPRESSION, LAW, Law, Track, of_ball, press, set_time, touches
+from physics.motion import MotionModel, outer_load, relative_acceleration
+
+Array = NDArray[np.float64]
+
+SMALLEST_SHARE = 1e-9
+MOST_ITERATIONS = 60
+
+
+@njit
+def relative_motion(
+    motion: MotionModel, time: float, step: float, state: Array, force: tuple[float, float], ends: Array
+) -> None:
+    """Fill `ends` (3, 2): displacement, step · velocity and step² · acceleration of inner relative to outer ring."""
+    load = outer_load(motion, time)
+    for axis in range(2):
+        ends[0, axis] = state[axis] - state[2 + axis]
+        ends[1, axis] = step * (state[6 + axis] - state[8 + axis])
+        ends[2, axis] = step * step * relative_acceleration(motion, state, axis, load[axis], force[axis])
+
+
+@njit
+def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float]:
+    """Value, and derivative to the share x, of the quintic through both ends at the share `x` (0 to 1) of the step."""
+    rise = end[0, axis] - begin[0, axis] - begin[1, axis] - 0.5 * begin[2, axis]
+    speed = end[1, axis] - begin[1, axis] - begin[2, axis]
+    bend = end[2, axis] - begin[2, axis]
+    c3 = 10.0 * rise - 4.0 * speed + 0.5 * bend
+    c4 = -15.0 * rise + 7.0 * speed - bend
+    c5 = 6.0 * rise - 3.0 * speed + 0.5 * bend
+    value = begin[0, axis] + x * (begin[1, axis] + x * (0.5 * begin[2, axis] + x * (c3 + x * (c4 + x * c5))))
+    slope = begin[1, axis] + x * (begin[2, axis] + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))
+    return value, slope
+
+
+@njit
+def contact_condition(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    ball: int,
+    time: float,
+    step: float,
+    share: float,
+    begin: Array,
+    end: Array,
+) -> float:
+    """A number that is above zero while `ball` touches, at the `share` of the step."""
+    set_time(balls, frames, track, time + share * step)
+    x, u = quintic(begin, end, 0, share)
+    y, v = quintic(begin, end, 1, share)
+    press(balls, frames, law, x, y, u / step, v / step)
+    if law.no_tension:
+        # Compression (m) is brought to the scale of a force so that one number carries both conditions.
+        return min(law.stiffness * 1e-3 * of_ball(balls, COMPRESSION, ball), of_ball(balls, LAW, ball))
+    return of_ball(balls, COMPRESSION, ball)
+
+
+@njit
+def earliest_change(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    time: float,
+    step: float,
+    begin: Array,
+    end: Array,
+    suspects: Array,
+) -> tuple[float, int]:
+    """Share of the step and number of the ball that first contradicts the contact set.
+
+    `suspects` (M,) holds, per ball, the share of the step at which it was seen to contradict the set, or 0.
+    Returns (2.0, −1) if no suspect is confirmed.
+    """
+    first_share, first_ball = 2.0, -1
+    for ball in range(suspects.size):
+        if suspects[ball] > 0.0:
+            share = _root(balls, frames, law, track, ball, time, step, begin, end, min(suspects[ball], first_share))
+            if share < first_share:
+                first_share, first_ball = share, ball
+    return first_share, first_ball
+
+
+@njit
+def _root(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    ball: int,
+    time: float,
+    step: float,
+    begin: Array,
+    end: Array,
+    upper: float,
+) -> float:
+    """Earliest share at which `ball` leaves the state the contact set gives it, or 2.0 if it does not up to `upper`."""
+    sign = 1.0 if of_ball(balls, ACTIVE, ball) > 0.5 else -1.0
+    high = upper
+    at_high = sign * contact_condition(balls, frames, law, track, ball, time, step, high, begin, end)
+    if at_high > 0.0:
+        return 2.0
+    low = 0.0
+    at_low = sign * contact_condition(balls, frames, law, track, ball, time, step, low, begin, end)
+    if at_low <= 0.0:
+        # A ball toggled at the start of the step sits at zero to round-off: look just behind it.
+        low = 1e-4 * upper
+        at_low = sign * contact_condition(balls, frames, law, track, ball, time, step, low, begin, end)
+        if at_low <= 0.0:
+            return 0.0
+    side = 0
+    for _ in range(MOST_ITERATIONS):
+        if high - low <= SMALLEST_SHARE:
+            break
+        middle = (at_low * high - at_high * low) / (at_low - at_high)
+        if not low < middle < high:
+            middle = 0.5 * (low + high)
+        value = sign * contact_condition(balls, frames, law, track, ball, time, step, middle, begin, end)
+        if value > 0.0:
+            low, at_low = middle, value
+            if side == 1:
+                at_high *= 0.5
+            side = 1
+        else:
+            high, at_high = middle, value
+            if side == -1:
+                at_low *= 0.5
+            side = -1
+            if value > -1e-18:
+                break
+    return high
+
+
+@njit
+def mark_suspects(balls: Array, law: Law, share: float, suspects: Array) -> None:
+    """Note `share` for every ball that contradicts the contact set now and was not noted before."""
+    for ball in range(suspects.size):
+        if suspects[ball] == 0.0 and touches(balls, law, ball) != (of_ball(balls, ACTIVE, ball) > 0.5):
+            suspects[ball] = share

@@ -1,0 +1,286 @@
+"""Marching a one-step method from sample to sample, stopping at every change of the contact set and every known kink.
+
+A trial step is made with the contact set frozen. If at its end, or halfway, a ball contradicts the set, the instant of
+the first contradiction is located, the step is repeated up to it, the ball changes sides, and the march goes on from
+there. Times at which a ball crosses an edge of its path are known beforehand and are step ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit, specialise
+from physics.contact import ACTIVE, FORCE, Law, Track, count_changes, of_ball, press, reset_contact, set_time
+from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
+from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
+from physics.motion import MotionModel, resonator_acceleration
+
+Array = NDArray[np.float64]
+
+DONE, NOT_FINITE, LOG_FULL = 0, 1, 2
+SMALLEST_STEP_SHARE = 1e-7
+MOST_CHANGES_PER_STEP = 100
+LARGEST_ACCELERATION = 1e12
+
+# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension.
+LOGGED, UNLOCATED, HELD, PULLED = range(4)
+
+
+class Grid(NamedTuple):
+    """`samples` instants, `substeps` steps of `step` (s) apart, from t = 0."""
+
+    samples: int
+    substeps: int
+    step: float
+
+
+class Stops(NamedTuple):
+    """Known kinks in time order: `time` (S,) s and the `ball` (S,), numbered as in the contact model, that crosses."""
+
+    time: Array
+    ball: NDArray[np.int64]
+
+
+class Output(NamedTuple):
+    """Arrays to fill: `acceleration` (T, 2); `state` (T, 12) and `force` (T, M), of zero length if not wanted;
+    `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
+    contact set; `tally` (4,)."""
+
+    acceleration: Array
+    state: Array
+    force: Array
+    change_time: Array
+    change_ball: NDArray[np.int64]
+    change_made: NDArray[np.bool_]
+    initial: Array
+    tally: NDArray[np.int64]
+
+
+@njit
+def locate(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    motion: MotionModel,
+    time: float,
+    step: float,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
+    after: tuple[float, float],
+    halfway: bool,
+) -> tuple[float, int]:
+    """Share of the step and ball of the first contact change in the trial step `now` to `then`; ball −1 if none."""
+    begin, end = np.empty((3, 2)), np.empty((3, 2))
+    suspects = np.zeros(balls.shape[0] * balls.shape[2])
+    relative_motion(motion, time, step, now, force, begin)
+    relative_motion(motion, time + step, step, then, after, end)
+    if halfway:
+        set_time(balls, frames, track, time + 0.5 * step)
+        x, u = quintic(begin, end, 0, 0.5)
+        y, v = quintic(begin, end, 1, 0.5)
+        press(balls, frames, law, x, y, u / step, v / step)
+        mark_suspects(balls, law, 0.5, suspects)
+        set_time(balls, frames, track, time + step)
+        press_state(balls, frames, law, then)
+    mark_suspects(balls, law, 1.0, suspects)
+    return earliest_change(balls, frames, law, track, time, step, begin, end, suspects)
+
+
+@njit
+def press_state(balls: Array, frames: Array, law: Law, state: Array) -> tuple[float, float]:
+    """Net force (N) of the contact set in `state` (12,)."""
+    return press(balls, frames, law, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
+
+
+@njit
+def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
+    """Move `ball` to the other side of the contact set and log it."""
+    made = of_ball(balls, ACTIVE, ball) < 0.5
+    balls[ball // balls.shape[2], ACTIVE, ball % balls.shape[2]] = 1.0 if made else 0.0
+    place = output.tally[LOGGED]
+    if place < output.change_time.size:
+        output.change_time[place] = time
+        output.change_ball[place] = ball
+        output.change_made[place] = made
+        output.tally[LOGGED] += 1
+
+
+@njit
+def record(balls: Array, motion: MotionModel, state: Array, sample: int, output: Output) -> bool:
+    """Write one sample; False if the response is no longer finite."""
+    output.acceleration[sample, 0] = resonator_acceleration(motion, state, 0)
+    output.acceleration[sample, 1] = resonator_acceleration(motion, state, 1)
+    if output.state.shape[0] > 0:
+        output.state[sample] = state
+    if output.force.shape[0] > 0:
+        for ball in range(output.force.shape[1]):
+            output.force[sample, ball] = of_ball(balls, FORCE, ball)
+    held, pulled = 0, 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            held += balls[cage, ACTIVE, j] > 0.5
+            pulled += balls[cage, FORCE, j] < 0.0
+    output.tally[HELD] += held
+    output.tally[PULLED] += pulled
+    size = abs(output.acceleration[sample, 0]) + abs(output.acceleration[sample, 1])
+    return size < LARGEST_ACCELERATION
+
+
+@njit
+def next_kink(balls: Array, stops: Stops, place: int, time: float, finish: float) -> int:
+    """Index of the first kink after `time` and before `finish` that a ball in contact crosses, or of one after that."""
+    while place < stops.time.size and stops.time[place] < finish:
+        if stops.time[place] > time and of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
+            break
+        place += 1
+    return place
+
+
+def _unbound(*_arguments: object) -> Any:
+    raise RuntimeError("a march needs the step of a method: use bind_method")
+
+
+# Bound by `bind_method`: the step of the method, pasted into the march's fast path and called from its slow path.
+step_pasted: Callable[..., int] = _unbound
+step_called: Callable[..., int] = _unbound
+cross: Callable[..., tuple[float, float]] = _unbound
+
+
+def _cross(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    motion: MotionModel,
+    series: PowerSeries,
+    full_step: float,
+    stops: Stops,
+    place: int,
+    start: float,
+    finish: float,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
+    output: Output,
+) -> tuple[float, float]:
+    """Advance `now` from `start` to `finish` in as many parts as kinks and contact changes ask for."""
+    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
+    time, tried = start, 0
+    smallest = SMALLEST_STEP_SHARE * full_step
+    while finish - time > smallest:
+        place = next_kink(balls, stops, place, time + smallest, finish - smallest)
+        target = finish
+        if place < stops.time.size and stops.time[place] < finish - smallest:
+            target = stops.time[place]
+        step = target - time
+        set_step(series, weights, step / full_step)
+        contradicted = step_called(balls, frames, law, track, motion, weights, time, step, now, force, then, stage)
+        after = press_state(balls, frames, law, then)
+        changed = count_changes(balls, law)
+        if (changed > 0 or contradicted > 0) and tried < MOST_CHANGES_PER_STEP:
+            tried += 1
+            share, ball = locate(
+                balls, frames, law, track, motion, time, step, now, force, then, after, contradicted > 0
+            )
+            if ball >= 0:
+                length = share * step
+                if length > smallest:
+                    set_step(series, weights, length / full_step)
+                    step_called(balls, frames, law, track, motion, weights, time, length, now, force, then, stage)
+                    now[:] = then
+                    time += length
+                set_time(balls, frames, track, time)
+                toggle(balls, ball, time, output)
+                force = press_state(balls, frames, law, now)
+                continue
+            set_time(balls, frames, track, target)
+            after = press_state(balls, frames, law, then)
+        elif changed > 0:
+            output.tally[UNLOCATED] += changed
+            reset_contact(balls, law)
+            after = press_state(balls, frames, law, then)
+        now[:] = then
+        force = after
+        time = target
+    return force
+
+
+def _march(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    motion: MotionModel,
+    series: PowerSeries,
+    grid: Grid,
+    stops: Stops,
+    start_state: Array,
+    output: Output,
+) -> int:
+    """Fill `output` from the state (12,) at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
+    now, then = start_state.copy(), np.empty(12)
+    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
+    set_step(series, weights, 1.0)
+    set_time(balls, frames, track, 0.0)
+    press_state(balls, frames, law, now)
+    reset_contact(balls, law)
+    for ball in range(output.initial.size):
+        output.initial[ball] = of_ball(balls, ACTIVE, ball)
+    force = press_state(balls, frames, law, now)
+    place = 0
+    for sample in range(grid.samples):
+        if not record(balls, motion, now, sample, output):
+            return NOT_FINITE
+        if sample == grid.samples - 1:
+            break
+        for substep in range(grid.substeps):
+            start = (sample * grid.substeps + substep) * grid.step
+            finish = (sample * grid.substeps + substep + 1) * grid.step
+            place = next_kink(balls, stops, place, start, finish)
+            if place == stops.time.size or stops.time[place] >= finish:
+                contradicted = step_pasted(
+                    balls, frames, law, track, motion, weights, start, grid.step, now, force, then, stage
+                )
+                after = press_state(balls, frames, law, then)
+                if contradicted + count_changes(balls, law) == 0:
+                    now, then = then, now
+                    force = after
+                    continue
+            force = cross(
+                balls, frames, law, track, motion, series, grid.step, stops, place,
+                start, finish, now, force, then, output,
+            )  # fmt: skip
+            if output.tally[LOGGED] >= output.change_time.size:
+                return LOG_FULL
+    return DONE
+
+
+def _step(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    motion: MotionModel,
+    weights: Array,
+    time: float,
+    step: float,
+    start: Array,
+    force: tuple[float, float],
+    end: Array,
+    stage: Array,
+) -> int:
+    """The step of the method as a called function."""
+    return step_pasted(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)
+
+
+def bind_method(name: str, step: Callable[..., int]) -> Callable[..., int]:
+    """The march with `step` built in, compiled and cached under the method's `name`."""
+    called = specialise(_step, f"step_{name}_called", step_pasted=step)
+    crossing = specialise(_cross, f"cross_{name}", step_called=called)
+    return specialise(_march, f"march_{name}", step_pasted=step, cross=crossing)

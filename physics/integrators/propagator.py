@@ -1,0 +1,131 @@
+"""The linear part of the motion solved exactly: outer ring and resonator under a force that is a polynomial in time.
+
+Each direction is u' = L u + b F with u = (xo, vo, xr, vr). A step of length h needs exp(hL) and the φ-functions
+φm(hL) b h; both are power series in h whose matrix powers are computed once per scene, so any step length is cheap.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.motion import MotionModel
+
+Array = NDArray[np.float64]
+
+LONGEST_REACH = 8.0
+SERIES_TOLERANCE = 1e-18
+
+
+class PowerSeries(NamedTuple):
+    """`power` (2, J, 4, 4): (h0 L)^j and `kick` (2, J, 4): (h0 L)^j b h0, per axis; `step` is h0 in s."""
+
+    power: Array
+    kick: Array
+    step: float
+
+
+# Rows of the weights of one step, (2, 12, 4), first index the axis: exp(hL) in the order (xo, vo, xr, vr); the rows
+# (xo, vo) of exp(hL/2); the weights of the stages' forces in the new state; and, in pairs for (xo, vo), the weights of
+# the forces in later stages, for the exponential Runge-Kutta method of Krogstad.
+WHOLE, HALF, FIRST, MIDDLE, LAST, TO_2_3, TO_3_4, TO_4 = 0, 4, 6, 7, 8, 9, 10, 11
+WEIGHT_ROWS = 12
+
+
+def linear_matrix(motion: MotionModel, axis: int) -> Array:
+    """L (4, 4) of (xo, vo, xr, vr) along one axis [P14 Eq. 13-15]."""
+    mo, mr = motion.outer_mass, motion.resonator_mass
+    kr, cr = motion.resonator_stiffness, motion.resonator_damping
+    ko, co = float(motion.support_stiffness[axis]), float(motion.support_damping[axis])
+    return np.array(
+        [
+            [0.0, 1.0, 0.0, 0.0],
+            [-(ko + kr) / mo, -(co + cr) / mo, kr / mo, cr / mo],
+            [0.0, 0.0, 0.0, 1.0],
+            [kr / mr, cr / mr, -kr / mr, -cr / mr],
+        ]
+    )
+
+
+def reach(motion: MotionModel, step: float) -> float:
+    """Largest |eigenvalue| of the linear part times `step`: how many radians its fastest mode turns in one step."""
+    values = [np.abs(np.linalg.eigvals(linear_matrix(motion, axis))).max() for axis in range(2)]
+    return float(max(values) * step)
+
+
+def power_series(motion: MotionModel, step: float) -> PowerSeries:
+    """Matrix powers for steps up to `step` (s), enough of them for round-off accuracy."""
+    size = reach(motion, step)
+    terms = 2
+    while size**terms / math.factorial(terms) > SERIES_TOLERANCE:
+        terms += 1
+    power = np.zeros((2, terms + 1, 4, 4))
+    kick = np.zeros((2, terms + 1, 4))
+    for axis in range(2):
+        scaled = step * linear_matrix(motion, axis)
+        power[axis, 0] = np.eye(4)
+        for j in range(1, terms + 1):
+            power[axis, j] = scaled @ power[axis, j - 1]
+        kick[axis] = power[axis] @ np.array([0.0, step / motion.outer_mass, 0.0, 0.0])
+    return PowerSeries(power, kick, step)
+
+
+@njit
+def set_step(series: PowerSeries, weights: Array, share: float) -> None:
+    """Fill `weights` (2, 12, 4) for a step of `share` (0 to 1) times the step of the series."""
+    phi = np.zeros((4, 4))
+    for axis in range(2):
+        _sum_matrix(series.power[axis], share, weights[axis, WHOLE : WHOLE + 4])
+        _sum_matrix(series.power[axis, :, :2], 0.5 * share, weights[axis, HALF : HALF + 2])
+        _sum_phi(series.kick[axis], 0.5 * share, phi)
+        for row in range(2):
+            # These φ are of half the step and carry the factor h/2.
+            weights[axis, TO_2_3, row] = phi[1, row]
+            weights[axis, TO_2_3, 2 + row] = phi[1, row] - 2.0 * phi[2, row]
+            weights[axis, TO_3_4, row] = 2.0 * phi[2, row]
+        _sum_phi(series.kick[axis], share, phi)
+        for row in range(4):
+            weights[axis, FIRST, row] = phi[1, row] - 3.0 * phi[2, row] + 4.0 * phi[3, row]
+            weights[axis, MIDDLE, row] = 2.0 * phi[2, row] - 4.0 * phi[3, row]
+            weights[axis, LAST, row] = 4.0 * phi[3, row] - phi[2, row]
+        for row in range(2):
+            weights[axis, TO_3_4, 2 + row] = phi[1, row] - 2.0 * phi[2, row]
+            weights[axis, TO_4, row] = 2.0 * phi[2, row]
+
+
+@njit
+def _sum_matrix(power: Array, share: float, total: Array) -> None:
+    total[:] = 0.0
+    weight = 1.0
+    for j in range(power.shape[0]):
+        for row in range(total.shape[0]):
+            for column in range(4):
+                total[row, column] += weight * power[j, row, column]
+        weight *= share / (j + 1.0)
+        if abs(weight) < 1e-40:
+            break
+
+
+@njit
+def _sum_phi(kick: Array, share: float, phi: Array) -> None:
+    """Rows m = 1, 2, 3 of `phi`: φm(share h0 L) b share h0 = Σ_j share^(j + 1) (h0 L)^j b h0 / (j + m)!"""
+    phi[:] = 0.0
+    weight = share
+    factorial = 1.0
+    for j in range(kick.shape[0]):
+        if j > 0:
+            factorial *= j
+        one = weight / (factorial * (j + 1.0))
+        two = one / (j + 2.0)
+        three = two / (j + 3.0)
+        for row in range(4):
+            phi[1, row] += one * kick[j, row]
+            phi[2, row] += two * kick[j, row]
+            phi[3, row] += three * kick[j, row]
+        weight *= share
+        if one < 1e-40:
+            break

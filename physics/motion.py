@@ -1,0 +1,97 @@
+"""Equations of motion of inner ring, outer ring and resonator around the contact forces [P14 Eq. 11-16].
+
+State (12,): displacements xi, yi, xo, yo, xr, yr (m), then their velocities (m/s).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+class MotionModel(NamedTuple):
+    """Masses (kg), springs (N/m), dampers (N s/m), loads (N) and shaft speed (rad/s) as the kernels read them.
+
+    `support_stiffness`, `support_damping`: along x and along y.
+    """
+
+    inner_mass: float
+    outer_mass: float
+    resonator_mass: float
+    support_stiffness: tuple[float, float]
+    support_damping: tuple[float, float]
+    resonator_stiffness: float
+    resonator_damping: float
+    load: float
+    load_fluctuation: float
+    fluctuation_phase: float
+    unbalance_force: float
+    unbalance_phase: float
+    shaft_speed: float
+
+
+def motion_model(scene: Scene) -> MotionModel:
+    """The numbers of the equations of motion of `scene`."""
+    rig, run = scene.rig, scene.operation
+    return MotionModel(
+        inner_mass=rig.inner_mass,
+        outer_mass=rig.outer_mass,
+        resonator_mass=rig.resonator_mass,
+        support_stiffness=(rig.support_stiffness_x, rig.support_stiffness_y),
+        support_damping=(rig.support_damping_x, rig.support_damping_y),
+        resonator_stiffness=rig.resonator_stiffness,
+        resonator_damping=rig.resonator_damping,
+        load=run.load,
+        load_fluctuation=run.load_fluctuation,
+        fluctuation_phase=run.fluctuation_phase,
+        unbalance_force=run.unbalance_force,
+        unbalance_phase=run.unbalance_phase,
+        shaft_speed=run.shaft_speed,
+    )
+
+
+@njit
+def outer_load(motion: MotionModel, time: float) -> tuple[float, float]:
+    """Load on the shaft along x and y at `time`, N: unbalance, and the static load with its fluctuation."""
+    if motion.unbalance_force == 0.0 and motion.load_fluctuation == 0.0:
+        return 0.0, -motion.load
+    turn = motion.shaft_speed * time
+    load = motion.load * (1.0 + motion.load_fluctuation * math.cos(turn + motion.fluctuation_phase))
+    return (
+        motion.unbalance_force * math.cos(turn + motion.unbalance_phase),
+        motion.unbalance_force * math.sin(turn + motion.unbalance_phase) - load,
+    )
+
+
+@njit
+def resonator_acceleration(motion: MotionModel, state: Array, axis: int) -> float:
+    """Acceleration of the resonator's mass along x (0) or y (1), m/s²."""
+    stretch = state[2 + axis] - state[4 + axis]
+    rate = state[8 + axis] - state[10 + axis]
+    return (motion.resonator_stiffness * stretch + motion.resonator_damping * rate) / motion.resonator_mass
+
+
+@njit
+def relative_acceleration(motion: MotionModel, state: Array, axis: int, load: float, force: float) -> float:
+    """Acceleration of the inner relative to the outer ring along one axis, m/s², under load and contact force (N)."""
+    outer = force - motion.support_stiffness[axis] * state[2 + axis] - motion.support_damping[axis] * state[8 + axis]
+    outer -= motion.resonator_mass * resonator_acceleration(motion, state, axis)
+    return (load - force) / motion.inner_mass - outer / motion.outer_mass
+
+
+def starting_state(motion: MotionModel, displacement: Array) -> Array:
+    """State (12,) at rest in quasi-static equilibrium, for inner relative to outer displacement (2,) m at t = 0."""
+    state = np.zeros(12)
+    for axis, load in enumerate(outer_load(motion, 0.0)):
+        outer = load / motion.support_stiffness[axis]
+        state[axis] = outer + displacement[axis]
+        state[2 + axis] = state[4 + axis] = outer
+    return state

@@ -1,0 +1,31 @@
+"""How a machine is run: speed, static load, and loads that turn with the shaft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from physics.checks import require_between, require_finite, require_not_negative, require_positive
+
+
+@dataclass(frozen=True)
+class Operation:
+    """Constant shaft speed (rad/s) and static load W along −y (N), with optional loads of shaft order.
+
+    `unbalance_force` (N) turns with the shaft at angle ωs t + `unbalance_phase`;
+    `load_fluctuation` (share of W) scales the static load by 1 + share · cos(ωs t + `fluctuation_phase`).
+    """
+
+    shaft_speed: float
+    load: float
+    unbalance_force: float = 0.0
+    unbalance_phase: float = 0.0
+    load_fluctuation: float = 0.0
+    fluctuation_phase: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_positive("shaft_speed", self.shaft_speed, "rad/s")
+        require_between("load", self.load, -1e7, 1e7, "N")
+        require_not_negative("unbalance_force", self.unbalance_force, "N")
+        require_finite("unbalance_phase", self.unbalance_phase, "rad")
+        require_between("load_fluctuation", self.load_fluctuation, 0.0, 10.0)
+        require_finite("fluctuation_phase", self.fluctuation_phase, "rad")

@@ -1,0 +1,37 @@
+"""How a calculation can end: a closed list of outcomes, each with its remedy."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class StaticOutcome(Enum):
+    """How the search for a quasi-static equilibrium ended; the value is a sentence."""
+
+    LOADED = "the load is carried and the equilibrium is unique"
+    NOT_UNIQUE = "the load is carried but the stiffness is singular: the shaft can move without changing any load"
+    NOT_LOADED = "no load, so no ball is pressed and every position inside the clearance is an equilibrium"
+    NO_EQUILIBRIUM = "no position of the shaft carries the load"
+
+
+class Outcome(Enum):
+    """Why a simulation could not be completed; the value is the remedy."""
+
+    NO_START = "give a load that the bearing can carry, or fewer or smaller gaps in the loaded race"
+    NOT_FINITE = "use a shorter step (more substeps), or check masses, stiffness and damping for extreme values"
+    STEP_TOO_LONG = "use a shorter step: more substeps per sample"
+    TOO_MANY_CHANGES = "use the no-tension contact law, more film damping or a shorter step"
+    BAD_REQUEST = "correct the argument named in the message"
+
+
+class SimulationFailed(RuntimeError):
+    """A simulation that could not be completed; `outcome` names the reason and `remedy` the way out."""
+
+    def __init__(self, outcome: Outcome, message: str) -> None:
+        super().__init__(f"{message}; {outcome.value}")
+        self.outcome = outcome
+
+    @property
+    def remedy(self) -> str:
+        """What to change, one sentence."""
+        return str(self.outcome.value)

@@ -1,0 +1,53 @@
+"""When balls cross a given point of a spall, from the cage path alone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+
+from physics.cage import crossing_times
+from physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Passages:
+    """Crossings of one point of one spall by the balls of its row, in time order: `time` (P,) s, `ball` (P,) from 1."""
+
+    time: Array
+    ball: NDArray[np.int64]
+
+
+def passages(scene: Scene, spall_index: int, arc: float, start: float, stop: float) -> Passages:
+    """Every crossing, from `start` to `stop` (s), of the point at `arc` (rad from the spall's centre, along the travel).
+
+    Outside [0, duration] the cage goes on at its mean speed.
+    """
+    spall = scene.spalls[spall_index]
+    bearing = scene.rig.bearing
+    cage = scene.cage if spall.row == 1 or scene.second_cage is None else scene.second_cage
+    sign = float(spall.travel_sign)
+    race_speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
+    path = cage.polynomial
+    travel = PPoly(sign * path.c, path.x, extrapolate=True)
+    # The race's own turning is taken off piece by piece: t = (t − x) + x inside the piece that starts at x.
+    travel.c[-2] -= sign * race_speed
+    travel.c[-1] -= sign * race_speed * path.x[:-1]
+    speed = sign * (cage.mean_speed - race_speed)
+    offset = sign * (spall.angle - (spall.row - 1) * bearing.stagger) + arc
+    reached = [_extended(travel, speed, scene.duration, t) for t in (start, stop)]
+    first = math.ceil((reached[0] - offset) / bearing.spacing)
+    last = math.floor((reached[1] - offset) / bearing.spacing)
+    turns = np.arange(first, last + 1)
+    time = crossing_times(travel, speed, scene.duration, offset + turns * bearing.spacing)
+    return Passages(time, (-sign * turns).astype(np.int64) % bearing.balls + 1)
+
+
+def _extended(travel: PPoly, speed: float, duration: float, time: float) -> float:
+    inside = min(max(time, 0.0), duration)
+    return float(travel(inside)) + speed * (time - inside)

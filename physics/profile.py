@@ -1,0 +1,275 @@
+"""The path of the ball's centre over a spall, as cubic pieces between the spall's edges."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PchipInterpolator
+
+from physics._jit import njit
+from physics.bearing import Bearing
+from physics.rolling import deep_gap_drop, rolled_path
+from physics.scene import Scene
+from physics.spall import Spall
+
+Array = NDArray[np.float64]
+Curve = Callable[[Array], Array]
+
+CELLS_PER_TAPER = 48
+CELLS_PER_ROUGHNESS_STEP = 4
+ROLLED_STEP = 5e-6
+
+
+@dataclass(frozen=True)
+class DepthPath:
+    """Radial drop of the ball's centre against u, the arc from the spall's centre in the direction of travel (rad).
+
+    Between neighbouring `breaks` (P + 1,) the path is smooth: `cells` (P,) equal cells, each a cubic in the position
+    within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
+    """
+
+    breaks: Array
+    cells: NDArray[np.int64]
+    cubics: Array
+    deepest: float
+    largest_depth: float
+    bridged: bool
+
+    @property
+    def kinks(self) -> Array:
+        """Arcs at which the path is not smooth, rad."""
+        return self.breaks
+
+    def depth(self, arc: Array) -> Array:
+        """Drop (N,) at the arcs (N,), m."""
+        return sample_path(self.breaks, self.cells, self.cubics, np.asarray(arc, dtype=np.float64))[0]
+
+    def slope(self, arc: Array) -> Array:
+        """Derivative (N,) of the drop at the arcs (N,), m/rad."""
+        return sample_path(self.breaks, self.cells, self.cubics, np.asarray(arc, dtype=np.float64))[1]
+
+
+@njit
+def path_at(
+    breaks: Array,
+    cells: NDArray[np.int64],
+    cubics: Array,
+    first_break: int,
+    first_piece: int,
+    pieces: int,
+    first_cubic: int,
+    arc: float,
+) -> tuple[float, float]:
+    """Drop (m) and slope (m/rad) at `arc` of one path among several stored end to end."""
+    cubic, piece = first_cubic, 0
+    while piece < pieces - 1 and arc > breaks[first_break + piece + 1]:
+        cubic += cells[first_piece + piece]
+        piece += 1
+    count = cells[first_piece + piece]
+    left = breaks[first_break + piece]
+    width = (breaks[first_break + piece + 1] - left) / count
+    position = (arc - left) / width
+    inside = min(max(int(position), 0), count - 1)
+    x = position - inside
+    cubic += inside
+    c3, c2, c1 = cubics[cubic, 0], cubics[cubic, 1], cubics[cubic, 2]
+    return ((c3 * x + c2) * x + c1) * x + cubics[cubic, 3], ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width
+
+
+@njit
+def sample_path(breaks: Array, cells: NDArray[np.int64], cubics: Array, arcs: Array) -> tuple[Array, Array]:
+    """Drop and slope, (N,) each, at the arcs (N,); zero outside the path's breaks."""
+    depth = np.zeros(arcs.size)
+    slope = np.zeros(arcs.size)
+    for k in range(arcs.size):
+        if breaks[0] <= arcs[k] <= breaks[-1]:
+            depth[k], slope[k] = path_at(breaks, cells, cubics, 0, 0, cells.size, 0, arcs[k])
+    return depth, slope
+
+
+def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
+    """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface."""
+    if spall.profile == "tukey":
+        return _tukey_path(spall)
+    smooth_gap = spall.entry_taper == 0.0 and spall.exit_taper == 0.0 and not spall.roughness_values
+    if spall.profile == "ball_path" and smooth_gap:
+        return _gap_path(spall, bearing)
+    return _rolled_path(spall, bearing)
+
+
+def race_depth(scene: Scene, row: int, angle: Array) -> Array:
+    """Path of the ball's centre on the defective race (N,), m, at angles (N,) fixed to the race and equal to φ at t = 0.
+
+    Spalls and the waviness of that race, on `row` (1 or 2).
+    """
+    total = np.zeros(np.shape(angle))
+    for spall in scene.spalls:
+        if spall.row == row:
+            arc = spall.travel_sign * wrap(np.asarray(angle) - spall.angle)
+            total += build_path(spall, scene.rig.bearing).depth(arc)
+    for wave in scene.imperfections.waviness:
+        if wave.race == scene.defective_race:
+            total += wave.amplitude * np.cos(wave.order * np.asarray(angle) + wave.phase)
+    return total
+
+
+def wrap(angle: Array) -> Array:
+    """Angles brought into [−π, π), rad."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def window(spall: Spall, arc: Array) -> Array:
+    """Tukey window (N,) of unit height with the spall's tapers at the arcs (N,) [P14 Eq. 17, first part]."""
+    half = spall.extent / 2.0
+    rise = _ramp(arc + half, spall.entry_taper)
+    fall = _ramp(half - arc, spall.exit_taper)
+    return np.minimum(rise, fall) * (np.abs(arc) <= half * (1.0 + 1e-12))
+
+
+def _ramp(distance: Array, taper: float) -> Array:
+    if taper == 0.0:
+        return np.ones_like(distance)
+    return 0.5 - 0.5 * np.cos(np.pi * np.clip(distance / taper, 0.0, 1.0))
+
+
+def _window_slope(spall: Spall, arc: Array) -> Array:
+    half = spall.extent / 2.0
+    return _ramp_slope(arc + half, spall.entry_taper) - _ramp_slope(half - arc, spall.exit_taper)
+
+
+def _ramp_slope(distance: Array, taper: float) -> Array:
+    if taper == 0.0:
+        return np.zeros_like(distance)
+    inside = (distance >= 0.0) & (distance <= taper)
+    return np.where(inside, 0.5 * np.pi / taper * np.sin(np.pi * np.clip(distance / taper, 0.0, 1.0)), 0.0)
+
+
+def roughness_curve(spall: Spall) -> CubicSpline | None:
+    """Natural cubic spline through the spall's roughness values (m) over the arc (rad), or None if it is smooth."""
+    if not spall.roughness_values:
+        return None
+    half = spall.extent / 2.0
+    arcs = np.linspace(-half, half, len(spall.roughness_values))
+    return CubicSpline(arcs, np.array(spall.roughness_values), bc_type="natural")
+
+
+def _tukey_path(spall: Spall) -> DepthPath:
+    half = spall.extent / 2.0
+    rough = roughness_curve(spall)
+    edges = _distinct([-half, -half + spall.entry_taper, half - spall.exit_taper, half])
+    cell = math.inf if rough is None else spall.extent / (len(spall.roughness_values) - 1) / CELLS_PER_ROUGHNESS_STEP
+    cells = []
+    for left, right in zip(edges[:-1], edges[1:], strict=True):
+        flat = left >= -half + spall.entry_taper and right <= half - spall.exit_taper
+        cells.append(max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
+
+    def depth(arc: Array) -> Array:
+        return spall.depth * window(spall, arc) + (0.0 if rough is None else rough(arc))
+
+    def slope(arc: Array) -> Array:
+        return spall.depth * _window_slope(spall, arc) + (0.0 if rough is None else rough(arc, 1))
+
+    return _hermite_pieces(np.array(edges), cells, depth, slope, bridged=False)
+
+
+def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
+    """A gap with sharp edges in closed form: the ball hangs on the nearer edge until it reaches the floor."""
+    half = spall.extent / 2.0
+    race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
+    drop, drop_slope = deep_gap_drop(spall.race, race_radius, ball_radius)
+    bridged = bool(race_radius * math.sin(min(half, math.pi / 2)) < ball_radius and drop(np.array(half)) < spall.depth)
+    reach = half if bridged else _reach(drop, spall.depth, min(half, math.asin(min(1.0, ball_radius / race_radius))))
+    edges = [-half, 0.0, half] if bridged else [-half, -half + reach, half - reach, half]
+    cells = [CELLS_PER_TAPER] * 2 if bridged else [CELLS_PER_TAPER, 1, CELLS_PER_TAPER]
+
+    def nearer_edge(arc: Array) -> Array:
+        return np.clip(half - np.abs(arc), 0.0, reach)
+
+    def depth(arc: Array) -> Array:
+        return drop(nearer_edge(arc))
+
+    def slope(arc: Array) -> Array:
+        hanging = half - np.abs(arc) < reach * (1.0 + 1e-12)
+        return np.where(hanging, -np.sign(arc) * drop_slope(nearer_edge(arc)), 0.0)
+
+    return _hermite_pieces(np.array(edges), cells, depth, slope, bridged=bridged)
+
+
+def _reach(drop: Curve, depth: float, largest: float) -> float:
+    low, high = 0.0, largest
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if drop(np.array(middle)) < depth else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
+    rough = roughness_curve(spall)
+    if spall.profile == "table":
+        angles = spall.travel_sign * np.array(spall.table_angle)
+        order = np.argsort(angles)
+        table = np.array(spall.table_depth)[order]
+
+        def surface(arc: Array) -> Array:
+            return np.interp(arc, angles[order], table, left=0.0, right=0.0)
+    else:
+
+        def surface(arc: Array) -> Array:
+            inside = np.abs(arc) <= spall.extent / 2.0
+            bumps = 0.0 if rough is None else np.where(inside, rough(arc), 0.0)
+            return spall.depth * window(spall, arc) + bumps
+
+    race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
+    arcs, drop, floor_gap = rolled_path(
+        surface, spall.extent / 2.0, spall.race, race_radius, ball_radius, ROLLED_STEP / race_radius
+    )
+    slopes = PchipInterpolator(arcs, drop).derivative()
+    touches = bool(np.any(floor_gap[np.abs(arcs) < 0.5 * spall.extent] <= 0.02 * max(spall.depth, 1e-12)))
+    return _hermite_pieces(
+        arcs[[0, -1]], [arcs.size - 1], lambda arc: np.interp(arc, arcs, drop), slopes, bridged=not touches
+    )
+
+
+def hermite_cubics(value: Array, rate: Array) -> Array:
+    """Cubics (N, 4), from the cube down, over N cells with these values and slopes per cell at their nodes (N + 1,)."""
+    rise = np.diff(value)
+    return np.column_stack(
+        [rate[:-1] + rate[1:] - 2.0 * rise, 3.0 * rise - 2.0 * rate[:-1] - rate[1:], rate[:-1], value[:-1]]
+    )
+
+
+def _distinct(edges: list[float]) -> list[float]:
+    smallest = 1e-9 * (edges[-1] - edges[0])
+    kept = [edges[0]]
+    kept += [edge for edge in edges[1:-1] if edge - kept[-1] > smallest and edges[-1] - edge > smallest]
+    return [*kept, edges[-1]]
+
+
+def _hermite_pieces(edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool) -> DepthPath:
+    """Cubic Hermite cells with the curve's values and one-sided slopes at the nodes."""
+    cubics = []
+    nodes_depth, nodes_arc = [], []
+    for left, right, count in zip(edges[:-1], edges[1:], cells, strict=True):
+        nodes = np.linspace(left, right, count + 1)
+        width = (right - left) / count
+        # Slopes are read just inside the piece so that at a kink each side gets its own.
+        inner = np.clip(nodes, left + 1e-9 * width, right - 1e-9 * width)
+        value, rate = depth(inner), slope(inner) * width
+        cubics.append(hermite_cubics(value, rate))
+        nodes_depth.append(value)
+        nodes_arc.append(nodes)
+    values, arcs = np.concatenate(nodes_depth), np.concatenate(nodes_arc)
+    largest = float(values.max())
+    floor = arcs[values >= largest - 1e-9 * max(largest, 1e-12)]
+    return DepthPath(
+        breaks=np.asarray(edges, dtype=np.float64),
+        cells=np.array(cells, dtype=np.int64),
+        cubics=np.ascontiguousarray(np.concatenate(cubics)),
+        deepest=float(0.5 * (floor[0] + floor[-1])),
+        largest_depth=largest,
+        bridged=bridged,
+    )

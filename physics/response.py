@@ -1,0 +1,129 @@
+"""One march of a scene, from its starting state to a Trace."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.assembly import assemble
+from physics.contact import ContactModel
+from physics.integrators.exponential_rk4 import march_exponential_rk4
+from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, UNLOCATED, Grid, Output
+from physics.integrators.propagator import power_series
+from physics.kinks import known_kinks
+from physics.motion import motion_model, resonator_acceleration
+from physics.outcome import Outcome, SimulationFailed
+from physics.scene import Scene
+from physics.trace import ContactChanges, Trace
+
+Array = NDArray[np.float64]
+
+MODEL = "nonlinear 6-DOF"
+MARCHES: Mapping[str, Callable[..., int]] = {"exponential_rk4": march_exponential_rk4}
+FIRST_CHANGE_LOG = 4096
+LARGEST_CHANGE_LOG = 2_097_152
+
+
+def respond(
+    scene: Scene, start: Array, grid: Grid, method: str, *, keep_state: bool = False, keep_force: bool = False
+) -> Trace:
+    """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, without an error estimate.
+
+    Raises SimulationFailed if the response stops being finite or contact changes more often than can be logged.
+    """
+    contact, motion = assemble(scene), motion_model(scene)
+    series, stops = power_series(motion, grid.step), known_kinks(scene, contact)
+    capacity = FIRST_CHANGE_LOG
+    status = LOG_FULL
+    while status == LOG_FULL:
+        if capacity > LARGEST_CHANGE_LOG:
+            raise SimulationFailed(
+                Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
+            )
+        output = _empty_output(contact, grid.samples, capacity, keep_state, keep_force)
+        status = MARCHES[method](
+            contact.balls, contact.frames, contact.law, contact.track, motion, series, grid, stops, start, output
+        )
+        capacity *= 8
+    if status == NOT_FINITE:
+        raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps of {grid.step:.3g} s")
+    return _trace(scene, contact, grid, output, method)
+
+
+def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:
+    """Trace of `scene` by the slow reference method, at the instants k / rate, from the state `start` (12,)."""
+    from physics.integrators.reference import integrate_reference
+
+    motion = motion_model(scene)
+    time = np.arange(samples) / rate
+    solution = integrate_reference(scene, start, time)
+    acceleration = np.array([[resonator_acceleration(motion, row, axis) for axis in (0, 1)] for row in solution.state])
+    changes = solution.changes
+    return Trace(
+        rate=rate,
+        time=time,
+        acceleration=acceleration,
+        changes=ContactChanges(
+            time=np.array([change[0] for change in changes], dtype=np.float64),
+            row=np.array([change[1] for change in changes], dtype=np.int16),
+            ball=np.array([change[2] for change in changes], dtype=np.int16),
+            made=np.array([change[3] for change in changes], dtype=np.bool_),
+            initial=np.asarray(solution.initial, dtype=np.bool_),
+        ),
+        model=MODEL,
+        method="reference",
+        step=0.0,
+        error_estimate=math.nan,
+        tension_share=math.nan,
+        state=solution.state if keep_state else None,
+    )
+
+
+def _empty_output(contact: ContactModel, samples: int, capacity: int, keep_state: bool, keep_force: bool) -> Output:
+    balls = contact.ball.size
+    return Output(
+        acceleration=np.zeros((samples, 2)),
+        state=np.zeros((samples if keep_state else 0, 12)),
+        force=np.zeros((samples if keep_force else 0, balls)),
+        change_time=np.zeros(capacity),
+        change_ball=np.zeros(capacity, dtype=np.int64),
+        change_made=np.zeros(capacity, dtype=np.bool_),
+        initial=np.zeros(balls),
+        tally=np.zeros(4, dtype=np.int64),
+    )
+
+
+def _trace(scene: Scene, contact: ContactModel, grid: Grid, output: Output, method: str) -> Trace:
+    bearing = scene.rig.bearing
+    real = contact.ball >= 0
+    changes = slice(0, int(output.tally[LOGGED]))
+    ball = output.change_ball[changes]
+    force = None
+    if output.force.shape[0]:
+        normal = output.force[:, real] / math.cos(bearing.contact_angle)
+        force = normal.reshape(-1, bearing.rows, bearing.balls)
+    held = int(output.tally[HELD])
+    rate = 1.0 / (grid.substeps * grid.step)
+    return Trace(
+        rate=rate,
+        time=np.arange(grid.samples) / rate,
+        acceleration=output.acceleration,
+        changes=ContactChanges(
+            time=output.change_time[changes].copy(),
+            row=(contact.row[ball] + 1).astype(np.int16),
+            ball=(contact.ball[ball] + 1).astype(np.int16),
+            made=output.change_made[changes].copy(),
+            initial=output.initial[real].reshape(bearing.rows, bearing.balls) > 0.5,
+        ),
+        model=MODEL,
+        method=method,
+        step=grid.step,
+        error_estimate=math.nan,
+        tension_share=int(output.tally[PULLED]) / held if held else 0.0,
+        unlocated_changes=int(output.tally[UNLOCATED]),
+        state=output.state if output.state.shape[0] else None,
+        contact_force=force,
+    )

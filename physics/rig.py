@@ -1,0 +1,68 @@
+"""Test rigs: a bearing with the masses, supports and resonator around it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.bearing import Bearing
+from physics.checks import require_not_negative, require_positive
+
+
+@dataclass(frozen=True)
+class Rig:
+    """The lumped machine of [P14 Fig. 1] in SI units: inner ring + shaft, outer ring + support, resonator.
+
+    `film_damping` is c_d, the viscous damping of one loaded contact (N s/m) [P14 Eq. 9].
+    `rated_speed` (rad/s) and `rated_load` (N) are the operating point of the source, used as defaults.
+    """
+
+    name: str
+    bearing: Bearing
+    inner_mass: float
+    outer_mass: float
+    support_stiffness_x: float
+    support_stiffness_y: float
+    support_damping_x: float
+    support_damping_y: float
+    resonator_mass: float
+    resonator_stiffness: float
+    resonator_damping: float
+    film_damping: float
+    rated_speed: float
+    rated_load: float
+
+    def __post_init__(self) -> None:
+        for field in ("inner_mass", "outer_mass", "resonator_mass"):
+            require_positive(field, getattr(self, field), "kg")
+        for field in ("support_stiffness_x", "support_stiffness_y", "resonator_stiffness"):
+            require_positive(field, getattr(self, field), "N/m")
+        for field in ("support_damping_x", "support_damping_y", "resonator_damping", "film_damping"):
+            require_not_negative(field, getattr(self, field), "N s/m")
+        require_positive("rated_speed", self.rated_speed, "rad/s")
+        require_positive("rated_load", self.rated_load, "N")
+
+    def mass_matrix(self) -> NDArray[np.float64]:
+        """M of (xi, yi, xo, yo, xr, yr), shape (6, 6), kg [P14 Eq. 13, 14]."""
+        return np.diag(np.repeat([self.inner_mass, self.outer_mass, self.resonator_mass], 2))
+
+    def stiffness_matrix(self) -> NDArray[np.float64]:
+        """K without the bearing, shape (6, 6), N/m [P14 Eq. 13, 15]."""
+        support = np.diag([self.support_stiffness_x, self.support_stiffness_y])
+        return _chain(support, self.resonator_stiffness * np.eye(2))
+
+    def damping_matrix(self) -> NDArray[np.float64]:
+        """C without the bearing, shape (6, 6), N s/m [P14 Eq. 13, 15]."""
+        support = np.diag([self.support_damping_x, self.support_damping_y])
+        return _chain(support, self.resonator_damping * np.eye(2))
+
+
+def _chain(support: NDArray[np.float64], resonator: NDArray[np.float64]) -> NDArray[np.float64]:
+    matrix = np.zeros((6, 6))
+    matrix[2:4, 2:4] = support + resonator
+    matrix[2:4, 4:6] = -resonator
+    matrix[4:6, 2:4] = -resonator
+    matrix[4:6, 4:6] = resonator
+    return matrix

@@ -1,0 +1,90 @@
+"""Everything the physics needs to know of one recording, every number fixed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from physics.cage import CagePath
+from physics.checks import InvalidParameter, require
+from physics.imperfections import Imperfections
+from physics.operation import Operation
+from physics.rig import Rig
+from physics.spall import Spall
+
+CONTACT_LAWS = ("paper", "no_tension")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One machine in one state of health, run in one way for `duration` seconds from its quasi-static position.
+
+    `contact_law` is "paper" (F = K δⁿ + c_d δ̇ while δ > 0, may pull) or "no_tension" (the same, never below zero).
+    `second_cage` is the path of row 2 if the rows have separate cages; None means one staggered cage.
+    All spalls lie on one race.
+    """
+
+    rig: Rig
+    operation: Operation
+    cage: CagePath
+    spalls: tuple[Spall, ...] = ()
+    imperfections: Imperfections = field(default_factory=Imperfections)
+    contact_law: str = "paper"
+    second_cage: CagePath | None = None
+
+    def __post_init__(self) -> None:
+        bearing = self.rig.bearing
+        require(
+            self.contact_law in CONTACT_LAWS,
+            f'contact_law = "{self.contact_law}"; allowed: {", ".join(CONTACT_LAWS)}',
+            "contact_law",
+        )
+        if len({spall.race for spall in self.spalls}) > 1:
+            raise InvalidParameter("spalls on both races; all spalls of a scene must be on one race", "race")
+        for spall in self.spalls:
+            require(
+                spall.row <= bearing.rows,
+                f"spall on row {spall.row}, but bearing {bearing.name} has {bearing.rows} row(s)",
+                "row",
+            )
+        self._check_overlap()
+        self._check_second_cage()
+        deviation = self.imperfections.ball_deviation
+        require(
+            not deviation or [len(row) for row in deviation] == [bearing.balls] * bearing.rows,
+            f"ball_deviation must hold {bearing.rows} row(s) of {bearing.balls} values",
+            "ball_deviation",
+        )
+
+    def _check_overlap(self) -> None:
+        for first, second in combinations(self.spalls, 2):
+            apart = abs(math.remainder(first.angle - second.angle, 2.0 * math.pi))
+            least = (first.extent + second.extent) / 2.0
+            require(
+                first.row != second.row or apart >= least * (1.0 - 1e-12),
+                f"two spalls on row {first.row} overlap: their centres are {apart:.6g} rad apart, "
+                f"their extents need {least:.6g} rad",
+                "angle",
+            )
+
+    def _check_second_cage(self) -> None:
+        if self.second_cage is None:
+            return
+        bearing = self.rig.bearing
+        require(bearing.rows == 2, f"a second cage needs 2 rows; bearing {bearing.name} has 1", "second_cage")
+        require(
+            self.second_cage.duration == self.cage.duration,
+            f"the cages last {self.cage.duration:g} s and {self.second_cage.duration:g} s; they must last equally long",
+            "second_cage",
+        )
+
+    @property
+    def duration(self) -> float:
+        """Simulated time, s."""
+        return self.cage.duration
+
+    @property
+    def defective_race(self) -> str:
+        """The race that holds the spalls: "none", "outer" or "inner"."""
+        return self.spalls[0].race if self.spalls else "none"

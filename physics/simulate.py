@@ -1,0 +1,144 @@
+"""The front door: a scene in, its response out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import discard_cache
+from physics.cage import CagePath
+from physics.catalog import rig
+from physics.integrators.march import Grid
+from physics.integrators.propagator import LONGEST_REACH, reach
+from physics.motion import motion_model, starting_state
+from physics.operation import Operation
+from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.resampling import decimate
+from physics.response import MARCHES, respond, respond_by_reference
+from physics.scene import Scene
+from physics.spall import Spall
+from physics.statics import equilibrium
+from physics.trace import Trace
+
+Array = NDArray[np.float64]
+
+REFERENCE = "reference"
+METHODS = (*MARCHES, REFERENCE)
+STEPS_PER_FAST_PERIOD = 6.2
+SAMPLES_PER_FAST_PERIOD = 4.0
+PILOT_PASSES = 3.0
+SHORTEST_PILOT = 2048
+# On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
+PILOT_ORDER = 2.0
+
+
+def simulate(
+    scene: Scene,
+    rate: float,
+    *,
+    method: str = "exponential_rk4",
+    substeps: int | None = None,
+    keep_state: bool = False,
+    keep_force: bool = False,
+    estimate_error: bool = True,
+) -> Trace:
+    """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
+
+    `substeps` is the number of steps a sample; None takes the fewest that resolve the fastest mode. A rate too low to
+    hold the resonator is simulated at a multiple of it and decimated without aliasing (states and forces stay samples).
+    The error estimate compares a pilot of a few ball passes with one at half the step; the reference method has none.
+    Raises SimulationFailed with a typed outcome.
+    """
+    _check_request(scene, rate, method, substeps, keep_force)
+    start = _starting_state(scene)
+    samples = round(scene.duration * rate)
+    if method == REFERENCE:
+        return respond_by_reference(scene, start, rate, samples, keep_state=keep_state)
+    factor = oversampling(scene, rate)
+    steps = substeps or default_substeps(scene, rate * factor)
+    grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
+    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force)
+    error = _pilot_error(scene, start, grid, trace) if estimate_error else math.nan
+    return replace(_lowered(trace, rate, factor), error_estimate=error)
+
+
+def default_substeps(scene: Scene, rate: float) -> int:
+    """Fewest steps a sample that give the fastest linear mode about six steps a period."""
+    per_step = reach(motion_model(scene), 1.0 / rate)
+    return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
+
+
+def oversampling(scene: Scene, rate: float) -> int:
+    """How many times `rate` (Hz) is needed to hold the fastest linear mode with room for the filter."""
+    per_sample = reach(motion_model(scene), 1.0 / rate)
+    return max(1, math.ceil(per_sample * SAMPLES_PER_FAST_PERIOD / (2.0 * math.pi)))
+
+
+def warm_up() -> None:
+    """Compile every kernel, or load it from the cache; a cache damaged by a crash is discarded and made again."""
+    machine = rig("gearbox")
+    cage = CagePath(machine.bearing.cage_speed(machine.rated_speed), duration=0.002)
+    spall = Spall("outer", 1, math.radians(270.0), 0.02, 1e-5)
+    scene = Scene(machine, Operation(machine.rated_speed, machine.rated_load), cage, (spall,))
+    try:
+        simulate(scene, 65536.0)
+    except Exception:
+        discard_cache()
+        simulate(scene, 65536.0)
+
+
+def _check_request(scene: Scene, rate: float, method: str, substeps: int | None, keep_force: bool) -> None:
+    problem = ""
+    if method not in METHODS:
+        problem = f'method = "{method}"; allowed: {", ".join(METHODS)}'
+    elif not (math.isfinite(rate) and rate > 0.0):
+        problem = f"rate = {rate!r} Hz; it must be above 0"
+    elif round(scene.duration * rate) < 1:
+        problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
+    elif substeps is not None and substeps < 1:
+        problem = f"substeps = {substeps!r}; it must be 1 or more"
+    elif method == REFERENCE and keep_force:
+        problem = "keep_force = True; the reference method keeps no forces"
+    if problem:
+        raise SimulationFailed(Outcome.BAD_REQUEST, problem)
+    if substeps is not None and method != REFERENCE:
+        turned = reach(motion_model(scene), 1.0 / (rate * oversampling(scene, rate) * substeps))
+        if turned > LONGEST_REACH:
+            raise SimulationFailed(
+                Outcome.STEP_TOO_LONG,
+                f"the fastest linear mode turns {turned:.3g} rad in one step; the limit is {LONGEST_REACH:g}",
+            )
+
+
+def _starting_state(scene: Scene) -> Array:
+    rest = equilibrium(scene, np.zeros(1))
+    if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
+        raise SimulationFailed(Outcome.NO_START, f"at t = 0 {rest.outcome(0).value} of {scene.operation.load:g} N")
+    return starting_state(motion_model(scene), rest.displacement[0])
+
+
+def _pilot_error(scene: Scene, start: Array, grid: Grid, trace: Trace) -> float:
+    """Estimated RMS error of `trace` relative to its RMS, from its first passes marched again at half the step."""
+    passes = PILOT_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
+    samples = min(grid.samples, max(SHORTEST_PILOT, math.ceil(passes * trace.rate)))
+    finer = respond(scene, start, Grid(samples, 2 * grid.substeps, grid.step / 2.0), trace.method)
+    difference = np.sqrt(np.mean((trace.acceleration[:samples] - finer.acceleration) ** 2))
+    size = np.sqrt(np.mean(finer.acceleration**2))
+    return float(difference / size / (1.0 - 2.0**-PILOT_ORDER)) if size > 0.0 else 0.0
+
+
+def _lowered(trace: Trace, rate: float, factor: int) -> Trace:
+    """The trace at `rate`, a `factor` below the one it was marched at."""
+    if factor == 1:
+        return replace(trace, rate=rate, time=np.arange(trace.time.size) / rate)
+    return replace(
+        trace,
+        rate=rate,
+        time=np.arange(trace.time.size // factor) / rate,
+        acceleration=decimate(trace.acceleration, factor),
+        state=None if trace.state is None else trace.state[::factor],
+        contact_force=None if trace.contact_force is None else trace.contact_force[::factor],
+    )

@@ -1,0 +1,111 @@
+"""Raceway spalls: where they are, how long, how deep and how their edges look."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+from physics.bearing import Bearing
+from physics.checks import require, require_between, require_finite, require_not_negative, require_positive
+
+PROFILES = ("tukey", "ball_path", "table")
+
+
+@dataclass(frozen=True)
+class Spall:
+    """One spall on one row of one race (SI units).
+
+    `angle` φf is the centre at t = 0 (an inner spall turns with the shaft), `extent` Δφ the arc it covers.
+    `entry_taper` is the arc of the taper a ball meets first, `exit_taper` of the one it meets last (rad).
+    `profile` says how the path of the ball's centre follows from these [P14 Eq. 17]:
+      tukey      the path itself is a tapered window of height `depth`, plus low-passed roughness;
+      ball_path  `depth`, tapers and roughness describe the surface, over which the ball is rolled;
+      table      `table_angle` (rad, rising, relative to the centre, in the direction of increasing φ) and `table_depth`
+                 (m) are a measured surface, over which the ball is rolled.
+    `roughness` is the standard deviation (m) of the surface inside the spall, `roughness_values` its samples at equal
+    steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth).
+    """
+
+    race: str
+    row: int
+    angle: float
+    extent: float
+    depth: float
+    entry_taper: float = 0.0
+    exit_taper: float = 0.0
+    profile: str = "tukey"
+    roughness: float = 0.0
+    roughness_values: tuple[float, ...] = ()
+    table_angle: tuple[float, ...] = ()
+    table_depth: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        require(self.race in ("outer", "inner"), f'race = "{self.race}"; allowed: outer, inner', "race")
+        require(self.row in (1, 2), f"row = {self.row!r}; allowed: 1, 2", "row")
+        require(self.profile in PROFILES, f'profile = "{self.profile}"; allowed: {", ".join(PROFILES)}', "profile")
+        require_finite("angle", self.angle, "rad")
+        require_positive("extent", self.extent, "rad")
+        require_between("extent", self.extent, 0.0, math.pi, "rad")
+        require_between("depth", self.depth, 0.0, 1e-2, "m")
+        require_not_negative("roughness", self.roughness, "m")
+        for field in ("entry_taper", "exit_taper"):
+            require_between(field, getattr(self, field), 0.0, self.extent, "rad")
+        require(
+            self.entry_taper + self.exit_taper <= self.extent * (1.0 + 1e-12),
+            f"entry_taper + exit_taper = {self.entry_taper + self.exit_taper:.6g} rad is longer than the spall "
+            f"(extent = {self.extent:.6g} rad)",
+            "entry_taper",
+        )
+        self._check_roughness()
+        self._check_table()
+
+    def _check_roughness(self) -> None:
+        values = self.roughness_values
+        if not values:
+            return
+        require(
+            len(values) >= 4 and all(math.isfinite(value) for value in values),
+            f"roughness_values must be at least 4 finite numbers (m); there are {len(values)}",
+            "roughness_values",
+        )
+        require(
+            values[0] == 0.0 and values[-1] == 0.0,
+            f"roughness_values begin with {values[0]!r} and end with {values[-1]!r} m; they must begin and end with 0",
+            "roughness_values",
+        )
+
+    def _check_table(self) -> None:
+        angle, depth = self.table_angle, self.table_depth
+        require(
+            len(angle) == len(depth),
+            f"table_angle has {len(angle)} values and table_depth {len(depth)}; they must match",
+            "table_depth",
+        )
+        if self.profile == "table":
+            require(
+                len(angle) >= 2,
+                f'profile = "table" needs at least 2 table points; there are {len(angle)}',
+                "table_angle",
+            )
+        require(
+            all(math.isfinite(value) for value in angle) and all(a < b for a, b in pairwise(angle)),
+            "table_angle must be finite and rise from one value to the next",
+            "table_angle",
+        )
+        for value in depth:
+            require_between("table_depth", value, -1e-2, 1e-2, "m")
+
+    @property
+    def travel_sign(self) -> int:
+        """+1 if balls cross the spall towards larger φ − φf (outer race), −1 if towards smaller (inner race)."""
+        return 1 if self.race == "outer" else -1
+
+    def length(self, bearing: Bearing) -> float:
+        """Length along the raceway, m: L = Δφ · raceway radius."""
+        return self.extent * bearing.raceway_radius(self.race)
+
+
+def is_extended(extent: float, bearing: Bearing) -> bool:
+    """True if the arc `extent` (rad) always holds at least one ball of its row: Δφ ≥ 2π/Nb."""
+    return extent >= bearing.spacing * (1.0 - 1e-12)

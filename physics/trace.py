@@ -1,0 +1,51 @@
+"""What a simulation gives back: the response, what touched when, and how it was made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ContactChanges:
+    """Every located change of the contact set, in time order, shapes (E,).
+
+    `time` s; `row` and `ball` count from 1; `made` is True where contact begins and False where it is lost.
+    `initial` (rows, balls) says which balls touch at t = 0.
+    """
+
+    time: Array
+    row: NDArray[np.int16]
+    ball: NDArray[np.int16]
+    made: NDArray[np.bool_]
+    initial: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The response of a Scene sampled at `rate` (Hz).
+
+    `time` (T,) s from 0; `acceleration` (T, 2) of the resonator's mass along x and y, m/s²;
+    `state` (T, 12): displacements (xi, yi, xo, yo, xr, yr) in m, then velocities in m/s, or None if not asked for;
+    `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for.
+    `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
+    `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
+    `unlocated_changes` counts changes of contact that were taken at a step's end because one step held too many.
+    """
+
+    rate: float
+    time: Array
+    acceleration: Array
+    changes: ContactChanges
+    model: str
+    method: str
+    step: float
+    error_estimate: float
+    tension_share: float
+    unlocated_changes: int = 0
+    state: Array | None = None
+    contact_force: Array | None = None

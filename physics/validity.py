@@ -1,0 +1,124 @@
+"""Whether a scene lies where the model holds: what it neglects, set beside what it computes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from physics.bearing import Bearing
+from physics.hertz import is_roller, roller_length
+from physics.profile import build_path
+from physics.scene import Scene
+from physics.spall import Spall
+
+STEEL_DENSITY = 7850.0  # kg/m³, assumed for every rolling element
+NEGLIGIBLE_SHARE = 0.2  # the paper's own fan rig reaches 0.19 over the sharp exit that its response needs
+LIMITING_SPEED_FACTOR = 5e5  # rpm · mm, shaft speed times pitch diameter: usual limit of greased bearings
+PATH_SAMPLES = 4001
+
+
+def assess(scene: Scene) -> tuple[str, ...]:
+    """Sentences with numbers on where `scene` leaves the range of the model; empty where it holds."""
+    notes = (_centrifugal(scene), _ball_inertia(scene), _speed(scene), _load(scene), _contact_angle(scene))
+    return tuple(note for note in notes if note)
+
+
+def element_mass(bearing: Bearing) -> float:
+    """Mass of a steel ball, or of a steel roller of the length that K stands for, kg."""
+    radius = bearing.ball_radius
+    if is_roller(bearing):
+        return STEEL_DENSITY * math.pi * radius**2 * roller_length(bearing.load_deflection)
+    return STEEL_DENSITY * 4.0 / 3.0 * math.pi * radius**3
+
+
+def centrifugal_force(scene: Scene) -> float:
+    """Centrifugal force of one ball on its circle at the nominal cage speed, N."""
+    bearing = scene.rig.bearing
+    cage = bearing.cage_speed(scene.operation.shaft_speed)
+    return element_mass(bearing) * bearing.pitch_diameter / 2.0 * cage**2
+
+
+def inertia_force(scene: Scene, spall: Spall) -> float:
+    """Force (N) that takes a ball down, or up, its path over `spall` in the time the path gives it.
+
+    m · 2h/t² for the drop h over the shorter of the times t from entry edge to floor and from floor to exit edge.
+    """
+    bearing = scene.rig.bearing
+    drop, arc = _steepest_drop(spall, bearing)
+    cage = bearing.cage_speed(scene.operation.shaft_speed)
+    relative = cage if spall.race == "outer" else scene.operation.shaft_speed - cage
+    return element_mass(bearing) * 2.0 * drop * (relative / arc) ** 2
+
+
+def _steepest_drop(spall: Spall, bearing: Bearing) -> tuple[float, float]:
+    """Depth of the floor (m) and the shorter arc (rad) between it and an edge."""
+    half = spall.extent / 2.0
+    resolution = spall.extent / (PATH_SAMPLES - 1)
+    if spall.profile == "tukey":
+        return spall.depth, max(min(spall.entry_taper, spall.exit_taper), resolution)
+    arc = np.linspace(-half, half, PATH_SAMPLES)
+    depth = build_path(spall, bearing).depth(arc)
+    largest = float(depth.max())
+    floor = arc[depth >= 0.999 * largest]
+    return largest, max(min(float(floor[0]) + half, half - float(floor[-1])), resolution)
+
+
+def _peak_load(scene: Scene) -> float:
+    return abs(scene.rig.bearing.stribeck_peak_load(scene.operation.load))
+
+
+def _centrifugal(scene: Scene) -> str:
+    force, peak = centrifugal_force(scene), _peak_load(scene)
+    if force <= NEGLIGIBLE_SHARE * peak:
+        return ""
+    return (
+        f"The centrifugal force of a ball ({force:.3g} N) is left out but is {_share(force, peak)} "
+        f"the peak ball load ({peak:.3g} N)."
+    )
+
+
+def _ball_inertia(scene: Scene) -> str:
+    if not scene.spalls:
+        return ""
+    force, peak = max(inertia_force(scene, spall) for spall in scene.spalls), _peak_load(scene)
+    if force <= NEGLIGIBLE_SHARE * peak:
+        return ""
+    return (
+        f"The inertia of a ball on its way over the spall ({force:.3g} N) is left out but is {_share(force, peak)} "
+        f"the peak ball load ({peak:.3g} N)."
+    )
+
+
+def _speed(scene: Scene) -> str:
+    rpm = scene.operation.shaft_speed * 60.0 / (2.0 * math.pi)
+    factor = rpm * scene.rig.bearing.pitch_diameter * 1e3
+    if factor <= LIMITING_SPEED_FACTOR:
+        return ""
+    return (
+        f"Shaft speed times pitch diameter is {factor:.3g} rpm mm, above the {LIMITING_SPEED_FACTOR:.3g} rpm mm usual "
+        f"for greased bearings ({rpm:.4g} rpm)."
+    )
+
+
+def _load(scene: Scene) -> str:
+    load = scene.operation.load
+    if load == 0.0:
+        return "There is no static load (0 N): balls touch only by chance and no quasi-static position is defined."
+    if load < 0.0:
+        return f"The static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270."
+    return ""
+
+
+def _contact_angle(scene: Scene) -> str:
+    angle = math.degrees(scene.rig.bearing.contact_angle)
+    if angle == 0.0:
+        return ""
+    return (
+        f"The contact angle of {angle:.4g} degrees enters only as a factor {math.cos(math.radians(angle)):.4g} on "
+        "deflection and force: axial motion and its change under load are left out."
+    )
+
+
+def _share(force: float, peak: float) -> str:
+    return f"{force / peak:.2g} times" if peak > 0.0 else "not small beside"

@@ -1,0 +1,79 @@
+import dataclasses
+import math
+
+import pytest
+
+from physics.cage import CagePath
+from physics.checks import InvalidParameter
+from physics.imperfections import Imperfections
+from physics.operation import Operation
+from physics.scene import Scene
+from physics.spall import Spall
+
+SPALL = Spall("outer", 1, math.radians(270), 0.1, 12e-6)
+
+
+@pytest.fixture
+def healthy(gearbox):
+    cage = CagePath(nominal_speed=gearbox.bearing.cage_speed(gearbox.rated_speed), duration=0.5)
+    return Scene(rig=gearbox, operation=Operation(shaft_speed=gearbox.rated_speed, load=346.0), cage=cage)
+
+
+@pytest.fixture
+def single_row(gearbox):
+    return dataclasses.replace(gearbox, bearing=dataclasses.replace(gearbox.bearing, name="single", rows=1))
+
+
+def test_a_scene_lasts_as_long_as_its_cage_path_and_names_its_defective_race(healthy):
+    assert healthy.duration == 0.5
+    assert healthy.defective_race == "none"
+    assert dataclasses.replace(healthy, spalls=(SPALL,)).defective_race == "outer"
+    inner = dataclasses.replace(SPALL, race="inner")
+    assert dataclasses.replace(healthy, spalls=(inner,)).defective_race == "inner"
+
+
+def test_spalls_on_both_races_are_refused(healthy):
+    with pytest.raises(InvalidParameter, match="spalls on both races"):
+        dataclasses.replace(healthy, spalls=(SPALL, dataclasses.replace(SPALL, race="inner", row=2)))
+
+
+def test_a_spall_on_a_row_that_the_bearing_lacks_is_refused(healthy, single_row):
+    second = dataclasses.replace(SPALL, row=2)
+    with pytest.raises(InvalidParameter, match="spall on row 2, but bearing single has 1 row"):
+        dataclasses.replace(healthy, rig=single_row, spalls=(second,))
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.09, -0.09, 2 * math.pi - 0.09])
+def test_overlapping_spalls_of_one_row_are_refused(healthy, apart):
+    other = dataclasses.replace(SPALL, angle=SPALL.angle + apart)
+    with pytest.raises(InvalidParameter, match="two spalls on row 1 overlap"):
+        dataclasses.replace(healthy, spalls=(SPALL, other))
+
+
+def test_spalls_may_touch_or_lie_side_by_side_on_two_rows(healthy):
+    beside = dataclasses.replace(SPALL, row=2)
+    after = dataclasses.replace(SPALL, angle=SPALL.angle + 0.1)
+    assert len(dataclasses.replace(healthy, spalls=(SPALL, beside, after)).spalls) == 3
+
+
+def test_an_unknown_contact_law_is_refused(healthy):
+    with pytest.raises(InvalidParameter, match='contact_law = "glue"; allowed: paper, no_tension'):
+        dataclasses.replace(healthy, contact_law="glue")
+
+
+@pytest.mark.parametrize("rows", [((0.0,) * 12,), ((0.0,) * 12, (0.0,) * 11)])
+def test_ball_deviations_must_name_every_ball(healthy, rows):
+    with pytest.raises(InvalidParameter, match="ball_deviation must hold 2 row"):
+        dataclasses.replace(healthy, imperfections=Imperfections(ball_deviation=rows))
+
+
+def test_a_second_cage_needs_a_second_row(healthy, single_row):
+    with pytest.raises(InvalidParameter, match="a second cage needs 2 rows; bearing single has 1"):
+        dataclasses.replace(healthy, rig=single_row, second_cage=healthy.cage)
+
+
+def test_both_cages_last_equally_long(healthy):
+    short = dataclasses.replace(healthy.cage, duration=0.4)
+    with pytest.raises(InvalidParameter, match=r"0\.5 s and 0\.4 s; they must last equally long"):
+        dataclasses.replace(healthy, second_cage=short)
+    assert dataclasses.replace(healthy, second_cage=healthy.cage).second_cage is healthy.cage

@@ -1,0 +1,88 @@
+import dataclasses
+import math
+
+import pytest
+
+from physics.checks import InvalidParameter
+from physics.spall import Spall, is_extended
+
+SPALL = Spall("outer", 1, math.radians(270), 0.1, 12e-6, 0.02, 0.01)
+TABLE = dataclasses.replace(
+    SPALL,
+    profile="table",
+    table_angle=(-0.05, 0.0, 0.05),
+    table_depth=(0.0, 1e-5, 0.0),
+    entry_taper=0.0,
+    exit_taper=0.0,
+)
+
+
+def test_balls_cross_an_outer_spall_forwards_and_an_inner_one_backwards():
+    assert SPALL.travel_sign == 1
+    assert dataclasses.replace(SPALL, race="inner").travel_sign == -1
+
+
+def test_1_2_mm_on_the_fan_rig_s_outer_race_is_2_6_degrees(authority, fan):
+    check = authority("petersen_2014")["printed"]["fan_spall_deg"]
+    extent = 1.2e-3 / fan.bearing.raceway_radius("outer")
+    assert math.degrees(extent) == pytest.approx(check["value"], abs=check["tolerance"])  # digits printed
+    assert dataclasses.replace(SPALL, extent=extent).length(fan.bearing) == pytest.approx(1.2e-3, rel=1e-14)
+
+
+def test_the_same_arc_is_shorter_on_the_inner_race(fan):
+    inner = dataclasses.replace(SPALL, race="inner")
+    ratio = inner.length(fan.bearing) / SPALL.length(fan.bearing)
+    assert ratio == pytest.approx((45.0 - 8.0) / (45.0 + 8.0), rel=1e-14)
+
+
+def test_a_spall_is_extended_from_one_ball_spacing_on(gearbox):
+    spacing = gearbox.bearing.spacing
+    assert is_extended(spacing, gearbox.bearing)
+    assert is_extended(math.radians(40), gearbox.bearing)
+    assert not is_extended(0.999 * spacing, gearbox.bearing)
+
+
+@pytest.mark.parametrize(
+    ("change", "field", "message"),
+    [
+        ({"race": "cage"}, "race", 'race = "cage"; allowed: outer, inner'),
+        ({"row": 3}, "row", "row = 3; allowed: 1, 2"),
+        ({"profile": "box"}, "profile", 'profile = "box"; allowed: tukey, ball_path, table'),
+        ({"angle": math.nan}, "angle", "angle = nan rad; it must be finite"),
+        ({"extent": 0.0}, "extent", "extent = 0.0 rad; it must be above 0"),
+        ({"extent": 4.0}, "extent", "extent = 4.0 rad; allowed: 0 to 3.14159 rad"),
+        ({"depth": -1e-6}, "depth", "depth = -1e-06 m; allowed: 0 to 0.01 m"),
+        ({"depth": math.inf}, "depth", "depth = inf m; allowed"),
+        ({"roughness": -1e-6}, "roughness", "roughness = -1e-06 m; it must not be below 0"),
+        ({"entry_taper": 0.2}, "entry_taper", "entry_taper = 0.2 rad; allowed: 0 to 0.1 rad"),
+        ({"exit_taper": -0.01}, "exit_taper", "exit_taper = -0.01 rad; allowed: 0 to 0.1 rad"),
+        ({"exit_taper": 0.09}, "entry_taper", "entry_taper \\+ exit_taper = 0.11 rad is longer than the spall"),
+        ({"roughness_values": (0.0, 1e-6, 0.0)}, "roughness_values", "at least 4 finite numbers \\(m\\); there are 3"),
+        ({"roughness_values": (0.0, 1e-6, math.nan, 0.0)}, "roughness_values", "at least 4 finite numbers"),
+        ({"roughness_values": (0.0, 1e-6, 0.0, 1e-6)}, "roughness_values", "must begin and end with 0"),
+        ({"table_angle": (0.0, 0.1)}, "table_depth", "table_angle has 2 values and table_depth 0"),
+        ({"profile": "table"}, "table_angle", 'profile = "table" needs at least 2 table points; there are 0'),
+    ],
+)
+def test_an_impossible_spall_is_refused_by_field_and_value(change, field, message):
+    with pytest.raises(InvalidParameter, match=message) as caught:
+        dataclasses.replace(SPALL, **change)
+    assert caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"table_angle": (-0.05, 0.05, 0.0)}, "table_angle must be finite and rise"),
+        ({"table_angle": (-0.05, 0.0, math.inf)}, "table_angle must be finite and rise"),
+        ({"table_depth": (0.0, 0.02, 0.0)}, "table_depth = 0.02 m; allowed: -0.01 to 0.01 m"),
+    ],
+)
+def test_a_measured_profile_must_be_a_rising_table_of_sane_depths(change, message):
+    with pytest.raises(InvalidParameter, match=message):
+        dataclasses.replace(TABLE, **change)
+
+
+def test_tapers_may_fill_the_spall_exactly():
+    full = dataclasses.replace(SPALL, entry_taper=0.09, exit_taper=0.01)
+    assert full.entry_taper + full.exit_taper == pytest.approx(full.extent)

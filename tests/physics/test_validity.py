@@ -1,0 +1,129 @@
+import dataclasses
+import math
+
+import pytest
+
+from physics.cage import CagePath
+from physics.catalog import rig
+from physics.operation import Operation
+from physics.scene import Scene
+from physics.spall import Spall
+from physics.validity import assess, centrifugal_force, element_mass, inertia_force
+
+DOWN = math.radians(270)
+RPM = 2 * math.pi / 60
+
+
+def scene_of(machine, spalls=(), speed=None, load=None):
+    speed = machine.rated_speed if speed is None else speed
+    load = machine.rated_load if load is None else load
+    cage = CagePath(nominal_speed=machine.bearing.cage_speed(speed), duration=0.5)
+    return Scene(rig=machine, operation=Operation(shaft_speed=speed, load=load), cage=cage, spalls=spalls)
+
+
+def line(extent_deg, entry=0.3, exit=0.3, **other):
+    extent = math.radians(extent_deg)
+    return Spall("outer", 1, DOWN, extent, 12e-6, math.radians(entry), math.radians(exit), **other)
+
+
+def test_a_steel_ball_of_7_12_mm_weighs_1_48_grams(gearbox):
+    by_hand = 7850 * math.pi / 6 * 0.00712**3
+    assert element_mass(gearbox.bearing) == pytest.approx(by_hand, rel=1e-12)
+    assert by_hand == pytest.approx(1.48e-3, rel=5e-3)  # three digits
+
+
+def test_a_roller_weighs_as_much_as_the_cylinder_that_its_factor_stands_for():
+    roller = rig("ims").bearing
+    by_hand = 7850 * math.pi / 4 * 8.407e-3**2 * 11e-3
+    assert element_mass(roller) == pytest.approx(by_hand, rel=1e-9)  # rounding of powers
+
+
+def test_the_centrifugal_force_of_a_gearbox_ball_is_9_millinewton(gearbox):
+    # m = 1.4836 g, radius 19.375 mm, cage 0.5 · 2π7 · (1 − 7.12/38.75) = 17.951 rad/s
+    assert centrifugal_force(scene_of(gearbox)) == pytest.approx(1.4836e-3 * 19.375e-3 * 17.951**2, rel=2e-4)  # digits
+
+
+def test_the_inertia_over_a_taper_is_twice_mass_times_drop_over_time_squared(fan):
+    spall = line(2.6)
+    # 0.3° at the cage speed of 34.44 rad/s takes 0.1520 ms; 12 µm in that time is 1038 m/s²; the ball weighs 2.104 g.
+    force = inertia_force(scene_of(fan, (spall,)), spall)
+    assert force == pytest.approx(2.1044e-3 * 2 * 12e-6 / (math.radians(0.3) / 34.441) ** 2, rel=2e-4)  # digits
+
+
+def test_the_sharper_edge_counts(fan):
+    both, exit_only = line(2.6), line(2.6, entry=2.0)
+    assert inertia_force(scene_of(fan, (both,)), both) == pytest.approx(
+        inertia_force(scene_of(fan, (exit_only,)), exit_only), rel=1e-12
+    )
+
+
+def test_an_inner_race_passes_faster_below_a_ball_than_the_outer_one(fan):
+    outer, inner = line(2.6), dataclasses.replace(line(2.6), race="inner")
+    ratio = inertia_force(scene_of(fan, (inner,)), inner) / inertia_force(scene_of(fan, (outer,)), outer)
+    ftf = fan.bearing.ftf
+    assert ratio == pytest.approx(((1 - ftf) / ftf) ** 2, rel=1e-12)
+
+
+def test_a_ball_hanging_on_the_edges_of_a_deep_gap_falls_over_half_of_it(authority, gearbox):
+    gap = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-4, profile="ball_path")
+    scene = scene_of(gearbox, (gap,))
+    fall = math.radians(1.0) / scene.cage.nominal_speed
+    drop = authority("independent_model")["ball_path"]["gearbox_outer_2_deg_um"]["value"] * 1e-6
+    by_hand = element_mass(gearbox.bearing) * 2 * drop / fall**2
+    assert inertia_force(scene, gap) == pytest.approx(by_hand, rel=0.01)  # the drop is given to three digits
+
+
+@pytest.mark.parametrize("name", ["gearbox", "fan"])
+def test_the_paper_s_rigs_at_their_own_operating_points_are_in_range(request, name):
+    machine = request.getfixturevalue(name)
+    extent = {"gearbox": 2.0, "fan": 2.6}[name]
+    gradual = line(extent, entry=0.9 * extent, exit=0.1 * extent)
+    deep = dataclasses.replace(line(extent, 0.0, 0.0), depth=3e-4, profile="ball_path")
+    wide = dataclasses.replace(line(40.0, 1.0, 1.0), depth=4e-6)
+    for spalls in ((), (line(extent),), (gradual,), (deep,), (wide,)):
+        assert assess(scene_of(machine, spalls)) == ()
+
+
+def test_fast_running_brings_ball_inertia_and_centrifugal_force_into_the_note(fan):
+    notes = assess(scene_of(fan, (line(2.6),), speed=8000 * RPM))
+    assert notes[0] == (
+        "The centrifugal force of a ball (5.62 N) is left out but is 0.36 times the peak ball load (15.6 N)."
+    )
+    assert notes[1].startswith("The inertia of a ball on its way over the spall (219 N) is left out but is 14 times")
+    assert len(notes) == 2
+
+
+def test_the_note_appears_where_the_force_passes_a_fifth_of_the_peak_load(fan):
+    spall = line(2.6)
+    rated = inertia_force(scene_of(fan, (spall,)), spall)
+    limit = math.sqrt(0.2 * fan.bearing.stribeck_peak_load(100.0) / rated) * fan.rated_speed
+    assert assess(scene_of(fan, (spall,), speed=0.999 * limit)) == ()
+    assert len(assess(scene_of(fan, (spall,), speed=1.001 * limit))) == 1
+
+
+def test_the_worst_of_several_spalls_is_named(fan):
+    mild = dataclasses.replace(line(2.6), depth=1e-6)
+    harsh = dataclasses.replace(line(2.6, exit=0.1), angle=math.radians(90))
+    assert assess(scene_of(fan, (mild, harsh))) == assess(scene_of(fan, (harsh, mild))) != ()
+
+
+def test_an_edge_without_taper_is_out_of_range(gearbox):
+    (note,) = assess(scene_of(gearbox, (line(2.0, 0.0, 0.0),)))
+    assert "inertia of a ball" in note
+
+
+def test_a_bearing_turned_faster_than_grease_allows_is_noted(gearbox):
+    (note,) = [n for n in assess(scene_of(gearbox, speed=20000 * RPM)) if "pitch diameter" in n]
+    assert note.startswith("Shaft speed times pitch diameter is 7.75e+05 rpm mm, above the 5e+05 rpm mm usual")
+
+
+def test_no_load_and_reversed_load_are_noted_with_their_numbers(gearbox):
+    none = assess(scene_of(gearbox, load=0.0))
+    assert any(note.startswith("There is no static load (0 N)") for note in none)
+    (reversed_load,) = assess(scene_of(gearbox, load=-346.0))
+    assert reversed_load.startswith("The static load is reversed (-346 N): the load zone is centred at 90 degrees")
+
+
+def test_a_contact_angle_is_noted_with_its_cosine():
+    (note,) = assess(scene_of(rig("ims")))
+    assert note.startswith("The contact angle of 15.17 degrees enters only as a factor 0.9652 on deflection and force")

@@ -6,7 +6,7 @@ import math
 from numbers import Integral
 
 
-class InvalidParameter(ValueError):  # noqa: N818
+class InvalidParameter(ValueError):
     """A physical parameter outside its allowed range; `field` names it."""
 
     def __init__(self, message: str, field: str = "") -> None:

@@ -24,7 +24,7 @@ class Passages:
 
 
 def passages(scene: Scene, spall_index: int, arc: float, start: float, stop: float) -> Passages:
-    """Every crossing, from `start` to `stop` (s), of the point at `arc` (rad from the spall's centre, along the travel).
+    """Every crossing, from `start` to `stop` (s), of the point at `arc` (rad from the spall's centre, along travel).
 
     Outside [0, duration] the cage goes on at its mean speed.
     """

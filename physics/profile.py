@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -102,7 +103,7 @@ def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
 
 
 def race_depth(scene: Scene, row: int, angle: Array) -> Array:
-    """Path of the ball's centre on the defective race (N,), m, at angles (N,) fixed to the race and equal to φ at t = 0.
+    """Path of the ball's centre on the defective race (N,), m, at angles (N,) fixed to it and equal to φ at t = 0.
 
     Spalls and the waviness of that race, on `row` (1 or 2).
     """
@@ -163,7 +164,7 @@ def _tukey_path(spall: Spall) -> DepthPath:
     edges = _distinct([-half, -half + spall.entry_taper, half - spall.exit_taper, half])
     cell = math.inf if rough is None else spall.extent / (len(spall.roughness_values) - 1) / CELLS_PER_ROUGHNESS_STEP
     cells = []
-    for left, right in zip(edges[:-1], edges[1:], strict=True):
+    for left, right in itertools.pairwise(edges):
         flat = left >= -half + spall.entry_taper and right <= half - spall.exit_taper
         cells.append(max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
 

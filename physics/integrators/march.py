@@ -23,7 +23,11 @@ Array = NDArray[np.float64]
 
 DONE, NOT_FINITE, LOG_FULL = 0, 1, 2
 SMALLEST_STEP_SHARE = 1e-7
+# A step ends this much before a kink and the next one starts as much after it, so that each reads its own side.
+KINK_NUDGE_SHARE = 1e-8
 MOST_CHANGES_PER_STEP = 100
+# Contact starts and ends like |t − t0|^n: steps shrink to this share of the full one next to it.
+SHORTEST_GRADED_SHARE = 1.0 / 16.0
 LARGEST_ACCELERATION = 1e12
 
 # Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension.
@@ -167,17 +171,23 @@ def _cross(
     now: Array,
     force: tuple[float, float],
     then: Array,
+    pace: Array,
     output: Output,
 ) -> tuple[float, float]:
-    """Advance `now` from `start` to `finish` in as many parts as kinks and contact changes ask for."""
+    """Advance `now` from `start` to `finish` in as many parts as kinks and contact changes ask for.
+
+    `pace` (1,) is the longest step allowed (s): short after contact was made, then doubling with every step.
+    """
     weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
     time, tried = start, 0
-    smallest = SMALLEST_STEP_SHARE * full_step
+    smallest, nudge = SMALLEST_STEP_SHARE * full_step, KINK_NUDGE_SHARE * full_step
     while finish - time > smallest:
         place = next_kink(balls, stops, place, time + smallest, finish - smallest)
-        target = finish
+        target, beyond = finish, finish
         if place < stops.time.size and stops.time[place] < finish - smallest:
-            target = stops.time[place]
+            target, beyond = stops.time[place] - nudge, stops.time[place] + nudge
+        if target - time > pace[0] + smallest:
+            target = beyond = time + pace[0]
         step = target - time
         set_step(series, weights, step / full_step)
         contradicted = step_called(balls, frames, law, track, motion, weights, time, step, now, force, then, stage)
@@ -189,14 +199,20 @@ def _cross(
                 balls, frames, law, track, motion, time, step, now, force, then, after, contradicted > 0
             )
             if ball >= 0:
-                length = share * step
-                if length > smallest:
+                losing = of_ball(balls, ACTIVE, ball) > 0.5
+                left = share * step
+                while left > smallest:
+                    length = 0.5 * left if losing and left > SHORTEST_GRADED_SHARE * full_step else left
                     set_step(series, weights, length / full_step)
                     step_called(balls, frames, law, track, motion, weights, time, length, now, force, then, stage)
+                    force = press_state(balls, frames, law, then)
                     now[:] = then
                     time += length
+                    left -= length
                 set_time(balls, frames, track, time)
                 toggle(balls, ball, time, output)
+                if not losing:
+                    pace[0] = SHORTEST_GRADED_SHARE * full_step
                 force = press_state(balls, frames, law, now)
                 continue
             set_time(balls, frames, track, target)
@@ -207,7 +223,11 @@ def _cross(
             after = press_state(balls, frames, law, then)
         now[:] = then
         force = after
-        time = target
+        time = beyond
+        if beyond > target:
+            set_time(balls, frames, track, time)
+            force = press_state(balls, frames, law, now)
+        pace[0] = min(2.0 * pace[0], full_step)
     return force
 
 
@@ -234,6 +254,7 @@ def _march(
         output.initial[ball] = of_ball(balls, ACTIVE, ball)
     force = press_state(balls, frames, law, now)
     place = 0
+    pace = np.full(1, grid.step)
     for sample in range(grid.samples):
         if not record(balls, motion, now, sample, output):
             return NOT_FINITE
@@ -243,7 +264,7 @@ def _march(
             start = (sample * grid.substeps + substep) * grid.step
             finish = (sample * grid.substeps + substep + 1) * grid.step
             place = next_kink(balls, stops, place, start, finish)
-            if place == stops.time.size or stops.time[place] >= finish:
+            if pace[0] >= grid.step and (place == stops.time.size or stops.time[place] >= finish):
                 contradicted = step_pasted(
                     balls, frames, law, track, motion, weights, start, grid.step, now, force, then, stage
                 )
@@ -254,7 +275,7 @@ def _march(
                     continue
             force = cross(
                 balls, frames, law, track, motion, series, grid.step, stops, place,
-                start, finish, now, force, then, output,
+                start, finish, now, force, then, pace, output,
             )  # fmt: skip
             if output.tally[LOGGED] >= output.change_time.size:
                 return LOG_FULL

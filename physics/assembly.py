@@ -106,7 +106,7 @@ def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], 
         here = slice(place * bearing.balls, (place + 1) * bearing.balls)
         angle = bearing.stagger * r + bearing.spacing * np.arange(bearing.balls)
         balls[cage, COSINE, here], balls[cage, SINE, here] = np.cos(angle), np.sin(angle)
-        balls[cage, GAP, here] = bearing.clearance - deviation[r]
+        balls[cage, GAP, here] = bearing.clearance - deviation[r] / math.cos(bearing.contact_angle)
         row[cage, here], ball[cage, here] = r, np.arange(bearing.balls)
     return balls, row.ravel().astype(np.int64), ball.ravel().astype(np.int64)
 
@@ -117,7 +117,12 @@ def _cage_arrays(cages: list[CagePath]) -> tuple[Array, Array]:
     clock = np.zeros((len(cages), 2))
     for g, cage in enumerate(cages):
         coefficients = cage.polynomial.c
-        quartics[g, : coefficients.shape[1], 5 - coefficients.shape[0] :] = coefficients.T
+        pieces = coefficients.shape[1]
+        quartics[g, :pieces, 5 - coefficients.shape[0] :] = coefficients.T
+        # A cage with fewer pieces than the other goes on along its last one, as its polynomial does.
+        late = cage.polynomial.x[0] + cage.knot_step * np.arange(pieces, intervals)
+        for power in range(5):
+            quartics[g, pieces:, 4 - power] = cage.polynomial(late, nu=power) / math.factorial(power)
         clock[g] = cage.polynomial.x[0], 1.0 / cage.knot_step if cage.knot_values else 0.0
     return quartics, clock
 

@@ -30,8 +30,8 @@ class Waviness:
 class Imperfections:
     """Departures from a perfect healthy bearing; all absent by default.
 
-    `ball_deviation[r][j]` is the diameter of ball j + 1 on row r + 1 minus the nominal one (m); empty means equal
-    balls.
+    `ball_deviation[r][j]` is the diameter of ball j + 1 on row r + 1 minus the nominal one (m), which adds to
+    the compression along the contact normal; empty means equal balls.
     """
 
     waviness: tuple[Waviness, ...] = ()

@@ -30,6 +30,11 @@ class SimulationFailed(RuntimeError):
     def __init__(self, outcome: Outcome, message: str) -> None:
         super().__init__(f"{message}; {outcome.value}")
         self.outcome = outcome
+        self._message = message
+
+    def __reduce__(self) -> tuple[type[SimulationFailed], tuple[Outcome, str]]:
+        """What a worker process sends back: an exception is otherwise remade from its text alone."""
+        return type(self), (self.outcome, self._message)
 
     @property
     def remedy(self) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from physics._jit import njit
 from physics.bearing import Bearing
-from physics.rolling import deep_gap_drop, rolled_path
+from physics.rolling import deep_gap_drop, hanging_reach, rolled_path
 from physics.scene import Scene
 from physics.spall import Spall
 
@@ -23,6 +23,7 @@ Curve = Callable[[Array], Array]
 CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4
 ROLLED_STEP = 5e-6
+TOUCHING_SHARE = 0.02
 
 
 @dataclass(frozen=True)
@@ -164,7 +165,7 @@ def _tukey_path(spall: Spall) -> DepthPath:
     edges = _distinct([-half, -half + spall.entry_taper, half - spall.exit_taper, half])
     cell = math.inf if rough is None else spall.extent / (len(spall.roughness_values) - 1) / CELLS_PER_ROUGHNESS_STEP
     cells = []
-    for left, right in itertools.pairwise(edges):
+    for left, right in pairwise(edges):
         flat = left >= -half + spall.entry_taper and right <= half - spall.exit_taper
         cells.append(max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
 
@@ -182,10 +183,11 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
     half = spall.extent / 2.0
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
     drop, drop_slope = deep_gap_drop(spall.race, race_radius, ball_radius)
-    bridged = bool(race_radius * math.sin(min(half, math.pi / 2)) < ball_radius and drop(np.array(half)) < spall.depth)
-    reach = half if bridged else _reach(drop, spall.depth, min(half, math.asin(min(1.0, ball_radius / race_radius))))
-    edges = [-half, 0.0, half] if bridged else [-half, -half + reach, half - reach, half]
-    cells = [CELLS_PER_TAPER] * 2 if bridged else [CELLS_PER_TAPER, 1, CELLS_PER_TAPER]
+    bridged = bool(half < math.asin(min(1.0, ball_radius / race_radius)) and drop(np.array(half)) < spall.depth)
+    reach = half if bridged else min(half, hanging_reach(spall.race, race_radius, ball_radius, spall.depth))
+    edges = np.array(_distinct([-half, -half + reach, half - reach, half]))
+    on_floor = np.abs(edges[1:] + edges[:-1]) / 2.0 < half - reach
+    cells = [1 if flat else CELLS_PER_TAPER for flat in on_floor]
 
     def nearer_edge(arc: Array) -> Array:
         return np.clip(half - np.abs(arc), 0.0, reach)
@@ -197,42 +199,52 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
         hanging = half - np.abs(arc) < reach * (1.0 + 1e-12)
         return np.where(hanging, -np.sign(arc) * drop_slope(nearer_edge(arc)), 0.0)
 
-    return _hermite_pieces(np.array(edges), cells, depth, slope, bridged=bridged)
-
-
-def _reach(drop: Curve, depth: float, largest: float) -> float:
-    low, high = 0.0, largest
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if drop(np.array(middle)) < depth else (low, middle)
-    return 0.5 * (low + high)
+    return _hermite_pieces(edges, cells, depth, slope, bridged=bridged)
 
 
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
-    rough = roughness_curve(spall)
-    if spall.profile == "table":
-        angles = spall.travel_sign * np.array(spall.table_angle)
-        order = np.argsort(angles)
-        table = np.array(spall.table_depth)[order]
-
-        def surface(arc: Array) -> Array:
-            return np.interp(arc, angles[order], table, left=0.0, right=0.0)
-    else:
-
-        def surface(arc: Array) -> Array:
-            inside = np.abs(arc) <= spall.extent / 2.0
-            bumps = 0.0 if rough is None else np.where(inside, rough(arc), 0.0)
-            return spall.depth * window(spall, arc) + bumps
-
+    surface = _table_surface(spall) if spall.profile == "table" else _gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    arcs, drop, floor_gap = rolled_path(
+    arcs, drop = rolled_path(
         surface, spall.extent / 2.0, spall.race, race_radius, ball_radius, ROLLED_STEP / race_radius
     )
     slopes = PchipInterpolator(arcs, drop).derivative()
-    touches = bool(np.any(floor_gap[np.abs(arcs) < 0.5 * spall.extent] <= 0.02 * max(spall.depth, 1e-12)))
     return _hermite_pieces(
-        arcs[[0, -1]], [arcs.size - 1], lambda arc: np.interp(arc, arcs, drop), slopes, bridged=not touches
+        arcs[[0, -1]],
+        [arcs.size - 1],
+        lambda arc: np.interp(arc, arcs, drop),
+        slopes,
+        bridged=not _reaches_floor(spall, arcs, surface(arcs) - drop),
     )
+
+
+def _gap_surface(spall: Spall) -> Curve:
+    rough = roughness_curve(spall)
+
+    def surface(arc: Array) -> Array:
+        inside = np.abs(arc) <= spall.extent / 2.0
+        bumps = 0.0 if rough is None else np.where(inside, rough(arc), 0.0)
+        return spall.depth * window(spall, arc) + bumps
+
+    return surface
+
+
+def _table_surface(spall: Spall) -> Curve:
+    rising = slice(None, None, spall.travel_sign)
+    angle = spall.travel_sign * np.array(spall.table_angle)[rising]
+    depth = np.array(spall.table_depth)[rising]
+    return lambda arc: np.interp(arc, angle, depth, left=0.0, right=0.0)
+
+
+def _reaches_floor(spall: Spall, arcs: Array, gap: Array) -> bool:
+    """Whether the `gap` (N,), m, below the ball closes on the floor: between the tapers, or deep in a table."""
+    if spall.profile == "table":
+        depth = max(spall.table_depth)
+        floor = _table_surface(spall)(arcs) >= 0.5 * depth
+    else:
+        depth = spall.depth
+        floor = window(spall, arcs) >= 1.0 - TOUCHING_SHARE
+    return bool(np.any(gap[floor] <= TOUCHING_SHARE * max(depth, 1e-12)))
 
 
 def hermite_cubics(value: Array, rate: Array) -> Array:
@@ -246,7 +258,9 @@ def hermite_cubics(value: Array, rate: Array) -> Array:
 def _distinct(edges: list[float]) -> list[float]:
     smallest = 1e-9 * (edges[-1] - edges[0])
     kept = [edges[0]]
-    kept += [edge for edge in edges[1:-1] if edge - kept[-1] > smallest and edges[-1] - edge > smallest]
+    for edge in edges[1:-1]:
+        if edge - kept[-1] > smallest and edges[-1] - edge > smallest:
+            kept.append(edge)
     return [*kept, edges[-1]]
 
 

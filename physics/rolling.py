@@ -13,6 +13,7 @@ from physics._jit import njit
 Array = NDArray[np.float64]
 Curve = Callable[[Array], Array]
 
+FEWEST_STEPS = 512
 SURFACE_STEPS_PER_PATH_STEP = 4
 
 
@@ -36,47 +37,58 @@ def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Cu
     return drop, slope
 
 
+def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float) -> float:
+    """Arc (rad) from a sharp edge at which a ball hanging on it has dropped by `drop` (m), the inverse of the above.
+
+    No more than the arc at which the ball slips past the edge.
+    """
+    turn = -1.0 if race == "outer" else 1.0
+    furthest = math.asin(min(1.0, ball_radius / race_radius))
+    drop = min(drop, ball_radius + turn * race_radius * (1.0 - math.cos(furthest)))
+    centre_radius = race_radius + turn * (ball_radius - drop)
+    half_sine = math.sqrt(drop * (2.0 * ball_radius - drop) / (4.0 * race_radius * centre_radius))
+    return min(furthest, 2.0 * math.asin(half_sine))
+
+
 def rolled_path(
     surface: Curve, half: float, race: str, race_radius: float, ball_radius: float, step: float
-) -> tuple[Array, Array, Array]:
-    """Arcs (N,), drop of the ball's centre (N,) in m and gap (N,) in m between the ball and the surface below it.
+) -> tuple[Array, Array]:
+    """Arcs (N,), rad, and drop of the ball's centre (N,) there, m.
 
     `surface(arc)` is the depth of the surface (m, positive where material is missing) against the arc (rad) from the
-    spall's centre, of half width `half`; `step` is the wanted distance between the returned arcs (rad).
+    spall's centre, of half width `half`; `step` is the wanted distance between the returned arcs (rad). The arcs go
+    beyond the spall if a bump that stands proud of the race lifts the ball there.
     """
-    count = max(512, math.ceil(2.0 * half / step))
-    probe = surface(np.linspace(-half, half, 4 * count + 1))
-    # A bump that stands proud of the race lifts the ball before it reaches the spall.
-    proud = max(0.0, -float(probe.min()))
-    margin = math.sqrt(2.0 * ball_radius * proud) / race_radius
-    # The ball hangs on points of the race no further away than this lever.
-    deepest = max(float(probe.max()) + proud, 1e-9)
-    lever = math.sqrt(max(2.0 * ball_radius * deepest - deepest**2, 0.0)) if deepest < ball_radius else ball_radius
-    reach = min(1.2 * lever, ball_radius) / race_radius + 2.0 * step
-    arcs = np.linspace(-half - margin, half + margin, count + 1)
-    fine = (arcs[1] - arcs[0]) / SURFACE_STEPS_PER_PATH_STEP
-    steps_out = math.ceil(reach / fine)
-    points = arcs[0] + fine * np.arange(-steps_out, SURFACE_STEPS_PER_PATH_STEP * count + steps_out + 1)
+    count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
+    fine = 2.0 * half / (count * SURFACE_STEPS_PER_PATH_STEP)
+    probe = surface(np.linspace(-half, half, count * SURFACE_STEPS_PER_PATH_STEP + 1))
+    outer, proud = race == "outer", max(0.0, -float(probe.min()))
+    bump_radius = race_radius - proud if outer else race_radius + proud
+    lifted = hanging_reach(race, bump_radius, ball_radius, proud)
+    # Whole steps beyond the edges, so that both edges stay on a point of the grid.
+    beyond = math.ceil(lifted / (fine * SURFACE_STEPS_PER_PATH_STEP))
+    hung = hanging_reach(race, bump_radius, ball_radius, max(float(probe.max()) + proud, 1e-9))
+    reach = math.ceil(1.05 * hung / fine) + 2
+    first, last = -beyond * SURFACE_STEPS_PER_PATH_STEP, (count + beyond) * SURFACE_STEPS_PER_PATH_STEP
+    points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
     # The corner itself belongs to the good race: a ball can hang on it.
     depth = np.where(np.abs(points) < half * (1.0 - 1e-12), surface(points), 0.0)
-    outer = race == "outer"
-    drop = _roll(depth, steps_out, fine, race_radius, ball_radius, outer)[::SURFACE_STEPS_PER_PATH_STEP]
-    below = depth[steps_out : steps_out + SURFACE_STEPS_PER_PATH_STEP * count + 1 : SURFACE_STEPS_PER_PATH_STEP]
-    return arcs, drop, below - drop
+    drop = _roll(depth, reach, fine, race_radius, ball_radius, outer)
+    return points[reach : points.size - reach : SURFACE_STEPS_PER_PATH_STEP], drop
 
 
 @njit
 def _roll(depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool) -> Array:
-    """Drop at every surface point that has `reach` neighbours on both sides, by trying each of them as the contact."""
-    count = depth.size - 2 * reach
+    """Drop at the surface points of the path, by trying each of the `reach` neighbours on both sides as the contact."""
+    count = (depth.size - 2 * reach - 1) // SURFACE_STEPS_PER_PATH_STEP + 1
     cosine = np.cos(step * np.arange(reach + 1))
     sine = np.sin(step * np.arange(reach + 1))
     drop = np.empty(count)
     for k in range(count):
-        least = 1e9
+        least = math.inf
         for offset in range(-reach, reach + 1):
             away = abs(offset)
-            s = depth[k + reach + offset]
+            s = depth[k * SURFACE_STEPS_PER_PATH_STEP + reach + offset]
             radius = race_radius + s if outer else race_radius - s
             lever = radius * sine[away]
             if lever >= ball_radius:

@@ -16,6 +16,8 @@ STEPS_PER_WIDTH = 8
 FEWEST_STEPS = 16
 SMALLEST_RESOLVED_STEP = 1e-5
 PADDING_WIDTHS = 4
+# A patch of width w that averages what is under it halves waves of 1.66 w: sin(π w/λ) / (π w/λ) = 1/2.
+HALVED_WAVE_WIDTHS = 1.66
 
 
 def draw_roughness(
@@ -28,9 +30,10 @@ def draw_roughness(
 ) -> tuple[float, ...]:
     """Heights (m) at equal steps along a spall of arc `extent` (rad), from entry edge to exit edge [P14 Eq. 17].
 
-    White noise, low-passed with zero phase at the wave number 1/`contact_width` (1/m) by a Gaussian filter that passes
-    half the amplitude there, tapered to exactly 0 over one contact width at each edge, and brought to zero mean and
-    the standard deviation `deviation` (m) over the spall; rounded to 1e-12 m, so that its decimal text is exact.
+    White noise, low-passed with zero phase as a contact of that width averages what is under it, by a Gaussian filter
+    that passes half the amplitude at a wavelength of 1.66 `contact_width` (m), tapered to exactly 0 over one contact
+    width at each edge, and brought to zero mean and the standard deviation `deviation` (m) over the spall; rounded to
+    1e-12 m, so that its decimal text is exact.
     Steps are an eighth of the contact width or shorter. Without a contact width the noise is not filtered, for a ball
     that is rolled over it: the step is an eighth of the gap that a ball bridges when it sags by `deviation` into it,
     √(8 Rb `deviation`), but at least 10 µm. No deviation: no values.
@@ -63,11 +66,11 @@ def resolved_width(bearing: Bearing, deviation: float) -> float:
 def low_passed(values: Array, step: float, width: float) -> Array:
     """`values` (N,) at equal `step` (m) without what is much shorter than `width` (m), with zero phase, shape (N,).
 
-    The gain is 2^−(k width)² at the wave number k (1/m): the Gaussian profile filter of surface metrology. The ends
-    wrap around; leave a few widths to cut off.
+    The gain is 2^−(1.66 k width)² at the wave number k (1/m): the Gaussian profile filter of surface metrology, with
+    the half-amplitude wavelength of a moving average over `width`. The ends wrap around; leave a few widths to cut off.
     """
     wave_number = np.fft.rfftfreq(values.size, step)
-    gain = np.exp2(-((wave_number * width) ** 2))
+    gain = np.exp2(-((HALVED_WAVE_WIDTHS * wave_number * width) ** 2))
     return np.fft.irfft(np.fft.rfft(values) * gain, values.size)
 
 

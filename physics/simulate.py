@@ -30,7 +30,10 @@ METHODS = (*MARCHES, REFERENCE)
 STEPS_PER_FAST_PERIOD = 6.2
 SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0
+# An inner spall has to come round through the load zone once.
+PILOT_TURNS = 1.1
 SHORTEST_PILOT = 2048
+MOST_SUBSTEPS = 32
 # On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
 PILOT_ORDER = 2.0
 
@@ -41,16 +44,18 @@ def simulate(
     *,
     method: str = "exponential_rk4",
     substeps: int | None = None,
+    accuracy: float = 1e-3,
     keep_state: bool = False,
     keep_force: bool = False,
     estimate_error: bool = True,
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
 
-    `substeps` is the number of steps a sample; None takes the fewest that resolve the fastest mode. A rate too low to
-    hold the resonator is simulated at a multiple of it and decimated without aliasing (states and forces stay samples).
-    The error estimate compares a pilot of a few ball passes with one at half the step; the reference method has none.
-    Raises SimulationFailed with a typed outcome.
+    `substeps` is the number of steps a sample. None starts from the fewest that resolve the fastest mode and doubles
+    them until a pilot of a few ball passes differs from one at half the step by no more than the relative RMS
+    `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate too low to hold
+    the resonator is simulated at a multiple of it and decimated without aliasing (states and forces stay samples). The
+    reference method has no estimate. Raises SimulationFailed with a typed outcome.
     """
     _check_request(scene, rate, method, substeps, keep_force)
     start = _starting_state(scene)
@@ -58,10 +63,12 @@ def simulate(
     if method == REFERENCE:
         return respond_by_reference(scene, start, rate, samples, keep_state=keep_state)
     factor = oversampling(scene, rate)
-    steps = substeps or default_substeps(scene, rate * factor)
+    steps, error = substeps or default_substeps(scene, rate * factor), math.nan
+    if estimate_error:
+        most = steps if substeps else max(MOST_SUBSTEPS, steps)
+        steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
     grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
     trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force)
-    error = _pilot_error(scene, start, grid, trace) if estimate_error else math.nan
     return replace(_lowered(trace, rate, factor), error_estimate=error)
 
 
@@ -120,14 +127,36 @@ def _starting_state(scene: Scene) -> Array:
     return starting_state(motion_model(scene), rest.displacement[0])
 
 
-def _pilot_error(scene: Scene, start: Array, grid: Grid, trace: Trace) -> float:
-    """Estimated RMS error of `trace` relative to its RMS, from its first passes marched again at half the step."""
+def _pilot(
+    scene: Scene, start: Array, rate: float, method: str, steps: int, most: int, accuracy: float
+) -> tuple[int, float]:
+    """Steps a sample (up to `most`) that meet `accuracy` over the scene's first passes, and their estimated error."""
+    samples = min(round(scene.duration * rate), max(SHORTEST_PILOT, math.ceil(_pilot_duration(scene) * rate)))
+
+    def response(steps: int) -> Array:
+        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method).acceleration
+
+    coarse, fine = response(steps), response(2 * steps)
+    error = _relative_error(coarse, fine)
+    while error > accuracy and 2 * steps <= most:
+        steps *= 2
+        coarse, fine = fine, response(2 * steps)
+        error = _relative_error(coarse, fine)
+    return steps, error
+
+
+def _pilot_duration(scene: Scene) -> float:
     passes = PILOT_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
-    samples = min(grid.samples, max(SHORTEST_PILOT, math.ceil(passes * trace.rate)))
-    finer = respond(scene, start, Grid(samples, 2 * grid.substeps, grid.step / 2.0), trace.method)
-    difference = np.sqrt(np.mean((trace.acceleration[:samples] - finer.acceleration) ** 2))
-    size = np.sqrt(np.mean(finer.acceleration**2))
-    return float(difference / size / (1.0 - 2.0**-PILOT_ORDER)) if size > 0.0 else 0.0
+    turns = PILOT_TURNS * 2.0 * math.pi / scene.operation.shaft_speed
+    return max(passes, turns) if scene.defective_race == "inner" else passes
+
+
+def _relative_error(coarse: Array, fine: Array) -> float:
+    """Estimated RMS error of `coarse`, relative to its RMS, from a response at half the step."""
+    size = np.sqrt(np.mean(fine**2))
+    if size == 0.0:
+        return 0.0
+    return float(np.sqrt(np.mean((coarse - fine) ** 2)) / size / (1.0 - 2.0**-PILOT_ORDER))
 
 
 def _lowered(trace: Trace, rate: float, factor: int) -> Trace:

@@ -22,11 +22,15 @@ SERIES_TOLERANCE = 1e-18
 
 
 class PowerSeries(NamedTuple):
-    """`power` (2, J, 4, 4): (h0 L)^j and `kick` (2, J, 4): (h0 L)^j b h0, per axis; `step` is h0 in s."""
+    """`power` (2, J, 4, 4): (h0 L)^j and `kick` (2, J, 4): (h0 L)^j b h0, per axis; `step` is h0 in s.
+
+    `reach` is the largest |eigenvalue| of h0 L, which says how many terms a shorter step needs.
+    """
 
     power: Array
     kick: Array
     step: float
+    reach: float
 
 
 # Rows of the weights of one step, (2, 12, 4), first index the axis: exp(hL) in the order (xo, vo, xr, vr); the rows
@@ -71,7 +75,7 @@ def power_series(motion: MotionModel, step: float) -> PowerSeries:
         for j in range(1, terms + 1):
             power[axis, j] = scaled @ power[axis, j - 1]
         kick[axis] = power[axis] @ np.array([0.0, step / motion.outer_mass, 0.0, 0.0])
-    return PowerSeries(power, kick, step)
+    return PowerSeries(power, kick, step, size)
 
 
 @njit
@@ -79,15 +83,15 @@ def set_step(series: PowerSeries, weights: Array, share: float) -> None:
     """Fill `weights` (2, 12, 4) for a step of `share` (0 to 1) times the step of the series."""
     phi = np.zeros((4, 4))
     for axis in range(2):
-        _sum_matrix(series.power[axis], share, weights[axis, WHOLE : WHOLE + 4])
-        _sum_matrix(series.power[axis, :, :2], 0.5 * share, weights[axis, HALF : HALF + 2])
-        _sum_phi(series.kick[axis], 0.5 * share, phi)
+        _sum_matrix(series.power[axis], share, series.reach, weights[axis, WHOLE : WHOLE + 4])
+        _sum_matrix(series.power[axis, :, :2], 0.5 * share, series.reach, weights[axis, HALF : HALF + 2])
+        _sum_phi(series.kick[axis], 0.5 * share, series.reach, phi)
         for row in range(2):
             # These φ are of half the step and carry the factor h/2.
             weights[axis, TO_2_3, row] = phi[1, row]
             weights[axis, TO_2_3, 2 + row] = phi[1, row] - 2.0 * phi[2, row]
             weights[axis, TO_3_4, row] = 2.0 * phi[2, row]
-        _sum_phi(series.kick[axis], share, phi)
+        _sum_phi(series.kick[axis], share, series.reach, phi)
         for row in range(4):
             weights[axis, FIRST, row] = phi[1, row] - 3.0 * phi[2, row] + 4.0 * phi[3, row]
             weights[axis, MIDDLE, row] = 2.0 * phi[2, row] - 4.0 * phi[3, row]
@@ -98,34 +102,33 @@ def set_step(series: PowerSeries, weights: Array, share: float) -> None:
 
 
 @njit
-def _sum_matrix(power: Array, share: float, total: Array) -> None:
+def _sum_matrix(power: Array, share: float, reach: float, total: Array) -> None:
     total[:] = 0.0
-    weight = 1.0
+    weight, size = 1.0, 1.0
     for j in range(power.shape[0]):
         for row in range(total.shape[0]):
             for column in range(4):
                 total[row, column] += weight * power[j, row, column]
         weight *= share / (j + 1.0)
-        if abs(weight) < 1e-40:
+        size *= share * reach / (j + 1.0)
+        if size < SERIES_TOLERANCE:
             break
 
 
 @njit
-def _sum_phi(kick: Array, share: float, phi: Array) -> None:
+def _sum_phi(kick: Array, share: float, reach: float, phi: Array) -> None:
     """Rows m = 1, 2, 3 of `phi`: φm(share h0 L) b share h0 = Σ_j share^(j + 1) (h0 L)^j b h0 / (j + m)!"""
     phi[:] = 0.0
-    weight = share
-    factorial = 1.0
+    weight, size = share, 1.0
     for j in range(kick.shape[0]):
-        if j > 0:
-            factorial *= j
-        one = weight / (factorial * (j + 1.0))
+        one = weight / (j + 1.0)
         two = one / (j + 2.0)
         three = two / (j + 3.0)
         for row in range(4):
             phi[1, row] += one * kick[j, row]
             phi[2, row] += two * kick[j, row]
             phi[3, row] += three * kick[j, row]
-        weight *= share
-        if one < 1e-40:
+        weight *= share / (j + 1.0)
+        size *= share * reach / (j + 1.0)
+        if size < SERIES_TOLERANCE:
             break

@@ -45,10 +45,10 @@ def test_steps_are_an_eighth_of_the_contact_width_or_shorter(gearbox, extent, wi
     assert step <= width / 8 * (1 + 1e-12)
 
 
-def test_the_filter_has_no_phase_and_passes_half_the_amplitude_at_the_contact_width():
-    count, step = 4096, WIDTH / 8
+def test_the_filter_has_no_phase_and_halves_waves_of_1_66_contact_widths_as_a_moving_average_does():
+    count, step = 8300, WIDTH / 8  # 625 waves in 8300 steps of an eighth of the width: 1.66 widths each
     position = step * np.arange(count)
-    for cycles, gain in ((count // 8, 0.5), (count // 16, 2**-0.25), (count // 4, 2**-4.0)):
+    for cycles, gain in ((625, 0.5), (1250, 2**-4.0), (1875, 2**-9.0)):
         wave = np.cos(2 * np.pi * cycles / (count * step) * position + 0.7)
         assert np.allclose(low_passed(wave, step, WIDTH), gain * wave, atol=1e-12)  # rounding of the transform
 

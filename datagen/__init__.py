@@ -1,0 +1,1 @@
+"""From a recipe to labelled files: drawing, workers, shards, corpora and the command line."""

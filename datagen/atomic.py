@@ -1,0 +1,65 @@
+"""Files that are either absent or whole, whatever is killed in between, and a folder used by one run at a time."""
+
+from __future__ import annotations
+
+import errno
+import os
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from datagen.errors import BadInput
+
+TEMPORARY_SUFFIX = ".part"
+NO_SPACE = (errno.ENOSPC, errno.EDQUOT)
+
+
+def write_atomically(path: Path, data: bytes | memoryview) -> None:
+    """Put `data` at `path`, on the disk: a crash leaves the old file or the whole new one; OSError if it cannot be."""
+    temporary = path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}{TEMPORARY_SUFFIX}")
+    try:
+        with temporary.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+    _sync_folder(path.parent)
+
+
+def _sync_folder(folder: Path) -> None:
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def sweep_temporaries(folder: Path) -> int:
+    """Delete what killed writers left in `folder`; returns how many files. Call it with the folder locked."""
+    leftovers = [path for path in folder.glob(".*") if path.name.endswith(TEMPORARY_SUFFIX)]
+    for path in leftovers:
+        path.unlink(missing_ok=True)
+    return len(leftovers)
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold `folder` for this process alone; BadInput if another run holds it. The lock dies with its process."""
+    import fcntl
+
+    descriptor = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as problem:
+        os.close(descriptor)
+        raise BadInput("another run is writing into this folder", file=str(folder)) from problem
+    except OSError:
+        pass  # a file system without locks (some network ones): go on unprotected
+    try:
+        yield
+    finally:
+        os.close(descriptor)

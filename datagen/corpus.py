@@ -1,0 +1,185 @@
+"""Reading a corpus: labels without opening a shard, any record in milliseconds, batches, and splits without leakage.
+
+corpus = Corpus("out/quickstart")
+x = corpus.to_numpy("acceleration", corpus.labels.query("rig == 'gearbox'").record)
+train, test = next(corpus.folds(5))
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import weakref
+from collections import OrderedDict
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.index import read_index
+from datagen.manifest import Manifest, read_manifest
+
+if TYPE_CHECKING:
+    import netCDF4
+    import pandas
+    import xarray
+
+OPEN_FILES = 32
+
+
+class _OpenShards:
+    """The shard files read last, kept open. Each process opens its own, also after a fork or a pickle.
+
+    netCDF4 crashes when an open file is left to the garbage collector, so they are closed by hand before that.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._start()
+
+    def _start(self) -> None:
+        self.files: OrderedDict[str, netCDF4.Dataset] = OrderedDict()
+        self.owner = os.getpid()
+        self.closer = weakref.finalize(self, _close_all, self.files, self.owner)
+
+    def file(self, shard: str) -> netCDF4.Dataset:
+        """The open file of a shard (its name relative to the folder)."""
+        import netCDF4
+
+        if self.owner != os.getpid():
+            self._start()
+        if shard not in self.files:
+            file = netCDF4.Dataset(self.folder / shard)
+            file.set_auto_mask(False)
+            self.files[shard] = file
+            if len(self.files) > OPEN_FILES:
+                self.files.popitem(last=False)[1].close()
+        self.files.move_to_end(shard)
+        return self.files[shard]
+
+    def close(self) -> None:
+        """Close all."""
+        _close_all(self.files, self.owner)
+
+    def __reduce__(self) -> tuple[type[_OpenShards], tuple[Path]]:
+        return _OpenShards, (self.folder,)
+
+
+def _close_all(files: OrderedDict[str, netCDF4.Dataset], owner: int) -> None:
+    while files and os.getpid() == owner:
+        files.popitem()[1].close()
+
+
+class Corpus:
+    """A corpus in a folder: a sequence of (acceleration (T, 2) in m/s², labels), in the order of the record indices.
+
+    Fit for `torch.utils.data.DataLoader` as it is. Raises BadInput if the folder holds no corpus.
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        self.manifest: Manifest = read_manifest(self.folder)
+        self._shards = _OpenShards(self.folder)
+
+    @cached_property
+    def labels(self) -> pandas.DataFrame:
+        """All labels, one row a record, columns as in labels.schema, plus the record's `shard` and `position` in it."""
+        return read_index(self.folder)
+
+    @cached_property
+    def _places(self) -> dict[int, tuple[str, int]]:
+        table = self.labels
+        places = zip(table["shard"], table["position"].tolist(), strict=True)
+        return dict(zip(table["record"].tolist(), places, strict=True))
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    def __getitem__(self, place: int) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        row = self.labels.iloc[place].to_dict()
+        return self.waveform(row["record"]), row
+
+    def waveform(self, record: int, variable: str = "acceleration") -> NDArray[Any]:
+        """One signal of the record with the global index `record`, shape and unit as in labels.variables, without the
+        record dimension; BadInput if the record or the signal is not in the corpus."""
+        shard, position = self._place(record)
+        file = self._shards.file(shard)
+        if variable not in file.variables:
+            known = ", ".join(name for name, found in file.variables.items() if found.dimensions[:1] == ("record",))
+            raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
+        found: NDArray[Any] = file.variables[variable][position]
+        return found
+
+    def _place(self, record: int) -> tuple[str, int]:
+        try:
+            return self._places[int(record)]
+        except KeyError:
+            raise BadInput("not in this corpus", str(self.folder), "record", int(record)) from None
+
+    def close(self) -> None:
+        """Close the files kept open for speed; they open again when needed."""
+        self._shards.close()
+
+    def dataset(self, record: int) -> xarray.Dataset:
+        """Everything stored of one record: signals, labels, scenario, its ball passes and its defects."""
+        import xarray
+
+        shard, position = self._place(record)
+        with xarray.open_dataset(self.folder / shard, engine="netcdf4") as opened:
+            own = {
+                "record": position,
+                "ball_pass": np.flatnonzero(opened["pass_record"].values == record),
+                "defect": np.flatnonzero(opened["defect_record"].values == record),
+            }
+            return opened.isel(own).load()
+
+    def scenario(self, record: int) -> dict[str, Any]:
+        """The scenario of one record: every number that is needed to simulate it again."""
+        found: dict[str, Any] = json.loads(str(self.waveform(record, "scenario")))
+        return found
+
+    def batches(
+        self, size: int, variable: str = "acceleration", records: Iterable[int] | None = None
+    ) -> Iterator[tuple[NDArray[np.int64], NDArray[Any]]]:
+        """Batches of (records (B,), signals (B, …)), B ≤ `size`, over `records` (all, in order, if not given).
+
+        Only one batch is in memory; BadInput if its records differ in shape.
+        """
+        chosen = np.asarray(list(self.labels["record"] if records is None else records), dtype=np.int64)
+        for start in range(0, chosen.size, size):
+            batch = chosen[start : start + size]
+            yield batch, self._stack([self.waveform(record, variable) for record in batch], variable)
+
+    def to_numpy(self, variable: str = "acceleration", records: Iterable[int] | None = None) -> NDArray[Any]:
+        """One signal of `records` (all, in order, if not given) stacked (N, …); BadInput if they differ in shape."""
+        chosen = list(self.labels["record"] if records is None else records)
+        return self._stack([self.waveform(record, variable) for record in chosen], variable)
+
+    def _stack(self, signals: list[NDArray[Any]], variable: str) -> NDArray[Any]:
+        shapes = sorted({np.shape(signal) for signal in signals})
+        if len(shapes) > 1:
+            raise BadInput(
+                f"the chosen records differ in shape ({', '.join(map(str, shapes))}); choose records of one sampling "
+                "rate, duration and bearing size",
+                str(self.folder), "variable", variable,
+            )  # fmt: skip
+        return np.stack(signals)
+
+    def folds(
+        self, count: int = 5, stratify: str = "condition", seed: int = 0
+    ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+        """`count` pairs (training records, test records) with about equal shares of each value of the label `stratify`.
+
+        All records of a virtual bearing (`bearing_id`) are on the same side.
+        """
+        from sklearn.model_selection import StratifiedGroupKFold
+
+        table = self.labels
+        record = table["record"].to_numpy()
+        folds = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
+        for train, test in folds.split(record, table[stratify], groups=table["bearing_id"]):
+            yield record[train], record[test]

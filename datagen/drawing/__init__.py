@@ -1,0 +1,1 @@
+"""Panels of the preview and of the pictures in the documentation."""

@@ -1,0 +1,108 @@
+"""Panels against frequency: the acceleration spectrum with its band, the squared envelope spectrum with its cursors."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from datagen.drawing.portrait import Portrait
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, outside_legend
+from labels.envelope import squared_envelope_spectrum
+from labels.spectrum import amplitude_spectrum
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+HARMONICS = 6
+CURSOR_TOLERANCE = 0.012
+RESOLVED_BINS = 2.5
+DECADES = 4.5
+
+
+def draw_spectrum(axes: Axes, portrait: Portrait) -> None:
+    """Amplitude spectrum of the acceleration along y, m/s² against kHz, with the band of the envelope."""
+    frequency, amplitude = amplitude_spectrum(portrait.acceleration[:, 1], portrait.rate)
+    axes.semilogy(frequency[1:] * 1e-3, amplitude[1:], color=BLUE, linewidth=0.5)
+    low, high = envelope_band(portrait)
+    axes.axvspan(low * 1e-3, high * 1e-3, color=ORANGE, alpha=0.3, linewidth=0, zorder=0)
+    axes.annotate(
+        f"envelope band\n{low * 1e-3:.2f} to {high * 1e-3:.2f} kHz", (high * 1e-3, 1.0), (3, -2),
+        xycoords=("data", "axes fraction"), textcoords="offset points", va="top", fontsize=7.5, color=INK,
+    )  # fmt: skip
+    axes.set(xlim=(0.0, portrait.rate / 2e3), ylim=_decades(amplitude[1:]), xlabel="frequency (kHz)", ylabel="m/s²")
+    axes.set_title("Amplitude spectrum, y axis")
+    faint_grid(axes)
+
+
+def envelope_band(portrait: Portrait) -> tuple[float, float]:
+    """Lower and upper edge of the record's envelope band, Hz."""
+    low, high = portrait.labels["envelope_band"]
+    return float(low), float(high)
+
+
+def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
+    """Squared envelope spectrum, (m/s²)² against Hz and orders of the shaft, with cursors of the record's own kind."""
+    frequency, amplitude = squared_envelope_spectrum(portrait.envelope, portrait.rate)
+    known = portrait.frequencies
+    main = known[portrait.defect_frequency]
+    top = (HARMONICS + 0.6) * main
+    shown = (frequency > 0.0) & (frequency <= top)
+    limits = _decades(amplitude[shown])
+    axes.semilogy(frequency[shown], amplitude[shown], color=BLUE, linewidth=0.8)
+    for name, marker, colour, targets in cursors(portrait):
+        lines = [_height(frequency, amplitude, target, known["FTF"]) for target in targets if 0.0 < target < top]
+        heights = [line for line in lines if line[1] > limits[0]]
+        axes.plot(
+            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour, label=name,
+            linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3, clip_on=False,
+        )  # fmt: skip
+    axes.set(
+        xlim=(0.0, top),
+        ylim=limits,
+        xlabel="frequency (Hz; on top: orders of the shaft)",
+        ylabel="(m/s²)²",
+    )
+    axes.set_title("Squared envelope spectrum", pad=18)
+    faint_grid(axes)
+    outside_legend(axes, lift=0.12)
+    shaft = known["shaft"]
+
+    def to_orders(hertz: Any) -> Any:
+        return hertz / shaft
+
+    def to_hertz(order: Any) -> Any:
+        return order * shaft
+
+    orders = axes.secondary_xaxis("top", functions=(to_orders, to_hertz))
+    orders.tick_params(labelsize=7, colors=GREY, length=2, pad=1)
+
+
+def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
+    """Name, marker, colour and frequencies (Hz) of each family of lines worth looking for in this record.
+
+    Sidebands that a record of its length cannot tell from the line between them are left out.
+    """
+    known, main = portrait.frequencies, portrait.defect_frequency
+    harmonics = [k * known[main] for k in range(1, HARMONICS + 1)]
+    by = "shaft" if main == "BPFI" else "FTF"
+    sidebands = [f + s * known[by] for f in harmonics[:3] for s in (-1.0, 1.0)]
+    families = [(f"{main} {known[main]:.4g} Hz", "o", VERMILLION, harmonics)]
+    if known[by] * portrait.duration > RESOLVED_BINS:
+        families.append((f"± {by} {known[by]:.3g} Hz", "D", GREEN, sidebands))
+    if by != "shaft":
+        families.append((f"shaft {known['shaft']:.3g} Hz", "s", PURPLE, [k * known["shaft"] for k in range(1, 4)]))
+    return families
+
+
+def _height(frequency: np.ndarray, amplitude: np.ndarray, target: float, spacing: float) -> tuple[float, float]:
+    reach = max(min(CURSOR_TOLERANCE * target, spacing / 3.0), frequency[1])
+    near = np.flatnonzero(np.abs(frequency - target) <= reach)
+    best = near[int(np.argmax(amplitude[near]))]
+    return float(frequency[best]), float(amplitude[best])
+
+
+def _decades(amplitude: np.ndarray) -> tuple[float, float]:
+    top = float(amplitude.max()) if amplitude.size and amplitude.max() > 0.0 else 1.0
+    bottom = max(float(np.quantile(amplitude, 0.02)) / 2.0, top * 10.0**-DECADES) if amplitude.size else 1e-3 * top
+    return bottom, 2.0 * top

@@ -1,0 +1,93 @@
+"""Everything a preview shows of one record, wherever it came from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.truth import PassTable
+from physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+PASSES_SHOWN = 3.0
+
+
+@dataclass(frozen=True)
+class Portrait:
+    """One record: `acceleration` (T, 2) with background and, where known, `clean` (T, 2), m/s²; `envelope` (T,), m/s².
+
+    `stiffness` (3, S): kxx, kyy, kxy in N/m at `stiffness_time` (S,), s. `labels` are keyed as in labels.schema.
+    """
+
+    corpus: str
+    scene: Scene
+    labels: Mapping[str, Any]
+    rate: float
+    acceleration: Array
+    clean: Array | None
+    envelope: Array
+    stiffness_time: Array
+    stiffness: Array
+    passes: PassTable
+
+    @cached_property
+    def time(self) -> Array:
+        """Instants of the samples (T,), s."""
+        return np.arange(self.acceleration.shape[0]) / self.rate
+
+    @property
+    def duration(self) -> float:
+        """Length of the record, s."""
+        return float(self.acceleration.shape[0] / self.rate)
+
+    @cached_property
+    def frequencies(self) -> dict[str, float]:
+        """BPFO, BPFI, FTF and shaft frequency (Hz) at the cage's mean speed in this record."""
+        cage, shaft = self.scene.cage.mean_speed, self.scene.operation.shaft_speed
+        balls = self.scene.rig.bearing.balls
+        angular = {"BPFO": balls * cage, "BPFI": balls * (shaft - cage), "FTF": cage, "shaft": shaft}
+        return {name: value / (2.0 * math.pi) for name, value in angular.items()}
+
+    @property
+    def defect_frequency(self) -> str:
+        """Name of the frequency at which the record's defect shows; BPFO if it is healthy."""
+        return "BPFI" if self.scene.defective_race == "inner" else "BPFO"
+
+    @cached_property
+    def shown_pass(self) -> int | None:
+        """The pass in the middle of the close-up: the complete, loaded one with the strongest signal, or None."""
+        signal = np.abs((self.acceleration if self.clean is None else self.clean)[:, 1])
+        table = self.passes
+        settled = table.complete & (table.entry_time > 0.15 * self.duration)
+        fit = np.flatnonzero(settled & table.loaded) if np.any(settled & table.loaded) else np.flatnonzero(settled)
+        if fit.size == 0:
+            return None
+        peaks = [_peak(signal, self.rate, table.entry_time[k], table.exit_time[k]) for k in fit]
+        return int(fit[int(np.argmax(peaks))])
+
+    @cached_property
+    def window(self) -> tuple[float, float]:
+        """Start and end (s) of the close-up: a few ball passes."""
+        width = PASSES_SHOWN / self.frequencies[self.defect_frequency]
+        centre = self.duration / 2.0
+        if self.shown_pass is not None:
+            centre = (self.passes.entry_time[self.shown_pass] + self.passes.exit_time[self.shown_pass]) / 2.0
+        start = min(max(centre - width / 2.0, 0.0), max(self.duration - width, 0.0))
+        return start, min(start + width, self.duration)
+
+    def within(self, times: Array) -> slice:
+        """The part of rising `times` that lies in the close-up."""
+        first, last = np.searchsorted(times, self.window)
+        return slice(int(first), int(last))
+
+
+def _peak(signal: Array, rate: float, start: float, stop: float) -> float:
+    part = signal[int(start * rate) : int(stop * rate) + 2]
+    return float(part.max()) if part.size else 0.0

@@ -1,0 +1,85 @@
+"""The sheet of a preview: the whole record on top, time on the left, place and frequency on the right."""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import TYPE_CHECKING
+
+from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum
+from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
+from datagen.drawing.portrait import Portrait
+from datagen.drawing.style import GREY, INK, house_style, plt
+from datagen.drawing.time_panels import draw_close_up, draw_passes, draw_spectrogram, draw_stiffness, draw_trace
+from labels.description import largest_spall
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+WIDTH, HEIGHT, DPI = 13.0, 11.0, 120
+
+
+def sheet_png(portrait: Portrait) -> bytes:
+    """The sheet of one record as the bytes of a PNG file."""
+    picture = io.BytesIO()
+    with house_style():
+        figure = draw_sheet(portrait)
+        figure.savefig(picture, dpi=DPI, format="png")
+        plt.close(figure)
+    return picture.getvalue()
+
+
+def draw_sheet(portrait: Portrait) -> Figure:
+    """The figure of one record, all panels with units."""
+    figure = plt.figure(figsize=(WIDTH, HEIGHT))
+    outer = figure.add_gridspec(
+        2, 1, height_ratios=(0.85, 5.0), left=0.06, right=0.975, top=0.905, bottom=0.05, hspace=0.2
+    )
+    draw_trace(figure.add_subplot(outer[0]), portrait)
+    columns = outer[1].subgridspec(1, 2, width_ratios=(1.0, 1.0), wspace=0.2)
+    left = columns[0].subgridspec(3, 1, height_ratios=(1.55, 1.0, 1.35), hspace=0.22)
+    closest = left[0].subgridspec(2, 1, height_ratios=(1.0, 0.17), hspace=0.03)
+    close_up = figure.add_subplot(closest[0])
+    draw_close_up(close_up, portrait)
+    for place, draw in ((closest[1], draw_passes), (left[1], draw_stiffness), (left[2], draw_spectrogram)):
+        draw(figure.add_subplot(place, sharex=close_up), portrait)
+    close_up.set_xlim(portrait.window[0] * 1e3, portrait.window[1] * 1e3)
+    right = columns[1].subgridspec(2, 1, height_ratios=(1.05, 1.3), hspace=0.22)
+    place_rows = right[0].subgridspec(2, 1, hspace=0.26)
+    path = figure.add_subplot(place_rows[0])
+    draw_path(path, portrait)
+    draw_ball_load(figure.add_subplot(place_rows[1], sharex=path), portrait)
+    path.set_xlim(*_ends(portrait))
+    frequency_rows = right[1].subgridspec(2, 1, hspace=0.62)
+    draw_spectrum(figure.add_subplot(frequency_rows[0]), portrait)
+    draw_envelope_spectrum(figure.add_subplot(frequency_rows[1]), portrait)
+    figure.text(0.06, 0.972, heading(portrait), fontsize=13, fontweight="bold", color=INK)
+    figure.text(0.06, 0.948, summary(portrait), fontsize=9, color=GREY)
+    return figure
+
+
+def _ends(portrait: Portrait) -> tuple[float, float]:
+    arcs = shown_arcs(largest_spall(portrait.scene))
+    return math.degrees(arcs[0]), math.degrees(arcs[-1])
+
+
+def heading(portrait: Portrait) -> str:
+    """One line: which record, its condition and where."""
+    labels = portrait.labels
+    state = "healthy" if labels["condition"] == "healthy" else f"{labels['condition']} spall, {labels['location']} race"
+    return f"{portrait.corpus}, record {labels['record']}: {state}"
+
+
+def summary(portrait: Portrait) -> str:
+    """One line: machine, speed, load, noise and how exactly it was simulated."""
+    labels = portrait.labels
+    parts = [
+        f"{labels['rig']} rig, bearing {labels['bearing']}",
+        f"{labels['speed_rpm']:.4g} rpm",
+        f"{labels['load_n']:.4g} N",
+        f"SNR {labels['snr_db']:.1f} dB" if math.isfinite(labels["snr_db"]) else "no background",
+        f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
+    ]
+    if math.isfinite(labels["error_estimate"]):
+        parts.append(f"estimated error {labels['error_estimate'] * 100.0:.2g} %")
+    return "  ·  ".join(parts)

@@ -1,0 +1,145 @@
+"""Panels against time: the whole record, the close-up with its ball passes, the stiffness and the spectrogram."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.drawing.portrait import Portrait
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, MAP, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
+from labels.spectrogram import spectrogram
+from physics.modes import modes
+from physics.outcome import StaticOutcome
+from physics.statics import equilibrium
+from physics.stiffness import matrix
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+DYNAMIC_RANGE_DB = 70.0
+MOST_NAMED_PASSES = 8
+
+
+def draw_trace(axes: Axes, portrait: Portrait) -> None:
+    """The whole record, y axis, and where the close-up lies."""
+    _draw_signal(axes, portrait, slice(None), 1.0)
+    axes.axvspan(*portrait.window, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
+    axes.set(xlim=(0.0, portrait.duration), xlabel="time (s)", ylabel="m/s²")
+    axes.set_title("Acceleration, y axis, whole record (close-up marked)")
+    faint_grid(axes)
+    outside_legend(axes)
+
+
+def draw_close_up(axes: Axes, portrait: Portrait) -> None:
+    """A few ball passes of the trace in ms, with the release and regain of each ball."""
+    _draw_signal(axes, portrait, portrait.within(portrait.time), 1e3)
+    table = portrait.passes
+    for times, colour, name in (
+        (table.release_time, VERMILLION, "release of a ball"),
+        (table.regain_time, GREEN, "regain of contact"),
+    ):
+        inside = times[(times >= portrait.window[0]) & (times <= portrait.window[1])]
+        for k, instant in enumerate(inside):
+            axes.axvline(instant * 1e3, color=colour, linewidth=0.9, zorder=1, label=name if k == 0 else None)
+    axes.set(ylabel="m/s²")
+    axes.set_title("Close-up")
+    axes.tick_params(labelbottom=False, bottom=False)
+    axes.spines["bottom"].set_visible(False)
+    faint_grid(axes)
+    outside_legend(axes)
+
+
+def _draw_signal(axes: Axes, portrait: Portrait, part: slice, scale: float) -> None:
+    time = portrait.time[part] * scale
+    noisy = portrait.clean is not None and not np.array_equal(portrait.clean, portrait.acceleration)
+    if noisy or portrait.clean is None:
+        axes.plot(
+            time, portrait.acceleration[part, 1], color=GREY if noisy else BLUE, linewidth=0.7, label="with background"
+        )
+    if portrait.clean is not None:
+        axes.plot(time, portrait.clean[part, 1], color=BLUE, linewidth=0.8, label="clean")
+
+
+def draw_passes(axes: Axes, portrait: Portrait) -> None:
+    """A bar from entry to exit for each ball pass in the close-up, its deepest point marked, against time in ms."""
+    table, (start, stop) = portrait.passes, portrait.window
+    shown = np.flatnonzero((table.exit_time > start) & (table.entry_time < stop))
+    lanes = _lanes(table.entry_time[shown], table.exit_time[shown])
+    for k, lane in zip(shown, lanes, strict=True):
+        entry, leave = table.entry_time[k] * 1e3, table.exit_time[k] * 1e3
+        axes.barh(lane, leave - entry, left=entry, height=0.6, color=ORANGE if table.loaded[k] else PALE, linewidth=0)
+        axes.plot(table.deepest_time[k] * 1e3, lane, marker="|", color=INK, markersize=5)
+        if shown.size <= MOST_NAMED_PASSES and leave < stop * 1e3 - 0.07 * (stop - start) * 1e3:
+            axes.text(leave, lane, f"  ball {table.ball[k]}", va="center", ha="left", fontsize=7, color=INK)
+    deepest_lane = max(lanes, default=0)
+    axes.set(ylim=(deepest_lane + 0.6, -0.6), yticks=[])
+    axes.set_ylabel("entry\nto exit", rotation=0, ha="right", va="center", fontsize=7.5)
+    axes.tick_params(labelbottom=False)
+    axes.spines["left"].set_visible(False)
+    if shown.size == 0:
+        axes.text(0.5, 0.5, "no defect to pass", transform=axes.transAxes, ha="center", va="center", color=GREY)
+
+
+def _lanes(entry: NDArray[np.float64], leave: NDArray[np.float64]) -> list[int]:
+    """The first free lane for each bar, so that overlapping passes lie one below the other."""
+    free_from: list[float] = []
+    lanes = []
+    for start, stop in zip(entry, leave, strict=True):
+        lane = next((k for k, free in enumerate(free_from) if free <= start), len(free_from))
+        free_from[lane : lane + 1] = [stop]
+        lanes.append(lane)
+    return lanes
+
+
+def draw_stiffness(axes: Axes, portrait: Portrait) -> None:
+    """Quasi-static stiffness in the close-up, MN/m against ms: kyy along the load (left), kxx across it (right)."""
+    fine = np.linspace(*portrait.window, 1201)
+    across = axes.twinx()
+    for panel, row, colour, name in ((axes, 1, BLUE, "kyy"), (across, 0, VERMILLION, "kxx")):
+        values = np.interp(fine, portrait.stiffness_time, portrait.stiffness[row]) * 1e-6
+        panel.plot(fine * 1e3, values, color=colour, linewidth=1.3)
+        panel.set_ylabel(f"{name} (MN/m)", color=colour)
+        panel.tick_params(axis="y", colors=colour)
+        panel.margins(y=0.12)
+    across.spines["right"].set_visible(True)
+    axes.set_title("Quasi-static stiffness: kyy along the load, kxx across it")
+    axes.tick_params(labelbottom=False)
+    faint_grid(axes)
+
+
+def draw_spectrogram(axes: Axes, portrait: Portrait) -> None:
+    """Spectrogram of the close-up in dB below its maximum, kHz against ms, with the modes that move along y."""
+    start, stop = portrait.window
+    signal = (portrait.acceleration if portrait.clean is None else portrait.clean)[:, 1]
+    time, frequency, power = spectrogram(signal, portrait.rate, start, stop)
+    level = 10.0 * np.log10(np.maximum(power, 1e-300) / max(power.max(), 1e-300))
+    lines = vertical_modes(portrait)
+    top = min(portrait.rate / 2.0, 1.3 * max(lines, default=portrait.rate / 2.0))
+    keep = frequency <= top
+    axes.pcolormesh(
+        time * 1e3, frequency[keep] * 1e-3, level[keep], vmin=-DYNAMIC_RANGE_DB, vmax=0.0, cmap=MAP, shading="nearest",
+        rasterized=True,
+    )  # fmt: skip
+    for line in lines:
+        if line <= top:
+            axes.axhline(line * 1e-3, color="white", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.85)
+            axes.annotate(
+                f"{line * 1e-3:.2f}", (1.0, line * 1e-3), xycoords=("axes fraction", "data"), xytext=(3, 0),
+                textcoords="offset points", va="center", fontsize=7, color=INK,
+            )  # fmt: skip
+    axes.set(ylim=(0.0, top * 1e-3), ylabel="kHz", xlabel="time (ms)")
+    whose = "with background" if portrait.clean is None else "clean"
+    axes.set_title(f"Spectrogram, {whose}, {DYNAMIC_RANGE_DB:.0f} dB; dashed: modes along y")
+
+
+def vertical_modes(portrait: Portrait) -> list[float]:
+    """Natural frequencies (Hz) of the modes along y at the middle of the close-up; empty where no load is carried."""
+    rest = equilibrium(portrait.scene, np.array([sum(portrait.window) / 2.0]))
+    if rest.outcome(0) is not StaticOutcome.LOADED:
+        return []
+    found = modes(portrait.scene.rig, matrix(rest.stiffness[0]), matrix(rest.damping[0]))
+    moves = np.abs(found.shape) ** 2
+    along_y = moves[1::2].sum(axis=0) > moves[0::2].sum(axis=0)
+    return [float(frequency) for frequency in found.frequency_hz[along_y]]

@@ -1,0 +1,42 @@
+"""One way to refuse what a person wrote: a message that names the file, the field, the value and what is allowed."""
+
+from __future__ import annotations
+
+
+class BadInput(Exception):
+    """Input that cannot be used; `str` is one clear line and the command line turns it into exit code 2.
+
+    `file` is what was read (with its line where known), `field` the dotted name of the setting, `value` what was found
+    (None: nothing to show), `allowed` what would have been accepted, `problem` a sentence where that is not enough.
+    """
+
+    def __init__(
+        self, problem: str = "", file: str = "", field: str = "", value: object = None, allowed: str = ""
+    ) -> None:
+        super().__init__(problem, file, field, value, allowed)
+        self.problem = problem
+        self.file = file
+        self.field = field
+        self.value = value
+        self.allowed = allowed
+
+    def __str__(self) -> str:
+        setting = self.field if self.value is None else f"{self.field} = {_shown(self.value)}"
+        line = ": ".join(part for part in (self.file, setting, self.problem) if part)
+        line += f"; allowed: {self.allowed}" if self.allowed else ""
+        return " ".join(line.split())
+
+
+def _shown(value: object) -> str:
+    text = _as_toml(value)
+    return text if len(text) <= 120 else f"{text[:117]}..."
+
+
+def _as_toml(value: object) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {_as_toml(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_as_toml(inner) for inner in value) + "]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f'"{value}"' if isinstance(value, str) else repr(value)

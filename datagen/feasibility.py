@@ -1,0 +1,45 @@
+"""Whether the shaft of a drawn scene can rest anywhere under its load."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from physics.checks import require
+from physics.outcome import StaticOutcome
+from physics.scene import Scene
+from physics.statics import equilibrium
+
+CERTAIN_REACH = 5e-3
+
+
+def require_equilibrium(scene: Scene) -> None:
+    """Raise InvalidParameter if no position of the shaft carries the load at t = 0 (solved only if in doubt)."""
+    if farthest_rest(scene) < CERTAIN_REACH:
+        return
+    outcome = equilibrium(scene, np.zeros(1)).outcome(0)
+    require(outcome is not StaticOutcome.NO_EQUILIBRIUM, f"{outcome.value} of {scene.operation.load:g} N", "load")
+
+
+def farthest_rest(scene: Scene) -> float:
+    """A distance (m) within which the shaft surely comes to rest.
+
+    In whatever direction the shaft moves, a ball lies within half a spacing of it; once that ball alone carries more
+    than the whole load, over the deepest floor there is, moving on costs more energy than the load gives.
+    """
+    bearing, run = scene.rig.bearing, scene.operation
+    load = abs(run.load) * (1.0 + run.load_fluctuation) + run.unbalance_force
+    side = math.cos(bearing.spacing / 2.0)
+    stiffness = bearing.load_deflection * math.cos(bearing.contact_angle) ** (bearing.exponent + 1.0)
+    compression = (load / (stiffness * side)) ** (1.0 / bearing.exponent)
+    return (compression + _deepest_floor(scene)) / side
+
+
+def _deepest_floor(scene: Scene) -> float:
+    spalls = max(
+        (max((spall.depth, *spall.table_depth)) + 6.0 * spall.roughness for spall in scene.spalls), default=0.0
+    )
+    waviness = sum(wave.amplitude for wave in scene.imperfections.waviness)
+    deviation = max((abs(value) for row in scene.imperfections.ball_deviation for value in row), default=0.0)
+    return spalls + waviness + deviation + max(scene.rig.bearing.clearance, 0.0)

@@ -1,0 +1,96 @@
+"""What a corpus holds and what it cost, from its manifest and index alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from datagen.corpus import Corpus
+from labels.schema import LABELS
+
+if TYPE_CHECKING:
+    import pandas
+
+COUNTED = ("condition", "location", "rig", "bearing", "profile", "contact_law", "split", "part")
+
+
+@dataclass(frozen=True)
+class Range:
+    """Smallest, middle and largest value of a label, in `unit`; `missing` counts the records it does not apply to."""
+
+    unit: str
+    smallest: float
+    median: float
+    largest: float
+    missing: int
+
+
+@dataclass(frozen=True)
+class Info:
+    """Facts of a corpus: records by value of each worded label, ranges of each numeric one, size and cost.
+
+    `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
+    a second.
+    """
+
+    name: str
+    title: str
+    records: int
+    asked: int
+    recipe_records: int
+    failed: int
+    shards: int
+    bytes: int
+    signal_seconds: float
+    worker_seconds: float
+    made_per_second: float
+    bearings: int
+    outside_validity: int
+    counts: dict[str, dict[str, int]]
+    ranges: dict[str, Range]
+    identity: dict[str, str]
+    made_with: dict[str, str]
+
+
+def corpus_info(folder: Path) -> Info:
+    """The facts of the corpus in `folder`; raises BadInput if there is none."""
+    corpus = Corpus(folder)
+    manifest, table = corpus.manifest, corpus.labels
+    signal_seconds = float(table["duration_s"].sum())
+    return Info(
+        name=manifest.name,
+        title=str(manifest.recipe.get("title") or ""),
+        records=len(table),
+        asked=manifest.asked_records,
+        recipe_records=manifest.recipe_records,
+        failed=len(manifest.failed),
+        shards=len(manifest.shards),
+        bytes=manifest.bytes,
+        signal_seconds=signal_seconds,
+        worker_seconds=manifest.seconds,
+        made_per_second=signal_seconds / manifest.seconds if manifest.seconds else 0.0,
+        bearings=int(table["bearing_id"].nunique()),
+        outside_validity=int((table["validity"] != "").sum()),
+        counts={name: _counts(table[name]) for name in COUNTED},
+        ranges=_ranges(table),
+        identity=manifest.identity.to_dict(),
+        made_with=manifest.made_with,
+    )
+
+
+def _counts(column: pandas.Series) -> dict[str, int]:
+    return {str(value): int(count) for value, count in column.value_counts().items()}
+
+
+def _ranges(table: pandas.DataFrame) -> dict[str, Range]:
+    ranges = {}
+    for label in LABELS:
+        for name in label.columns:
+            known = table[name].dropna()
+            if label.dtype not in ("float64", "int64") or known.empty:
+                continue
+            ranges[name] = Range(
+                label.unit, float(known.min()), float(known.median()), float(known.max()), len(table) - len(known)
+            )
+    return ranges

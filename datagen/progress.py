@@ -1,0 +1,106 @@
+"""Telling a person how far a run has got: a bar on a terminal, plain lines with rate and remaining time when piped."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
+SECONDS_BETWEEN_LINES = 2.0
+
+
+class Reporter(Protocol):
+    """Who hears of a run: sentences, and the number of records done out of a total."""
+
+    def say(self, sentence: str) -> None:
+        """Tell one sentence."""
+
+    def advance(self, done: int, total: int) -> None:
+        """Tell that `done` of `total` records are finished."""
+
+
+class Silence:
+    """A reporter that tells nothing."""
+
+    def say(self, sentence: str) -> None:
+        """Tell nothing."""
+
+    def advance(self, done: int, total: int) -> None:
+        """Tell nothing."""
+
+
+class Lines:
+    """A reporter for pipes and logs: one plain line every few seconds, on standard error."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._began: float | None = None
+        self._first = 0
+        self._last_line = -SECONDS_BETWEEN_LINES
+
+    def say(self, sentence: str) -> None:
+        """Print the sentence."""
+        print(sentence, file=sys.stderr, flush=True)
+
+    def advance(self, done: int, total: int) -> None:
+        """Print the state with rate and remaining time, unless a line was printed a moment ago."""
+        now = self._clock()
+        if self._began is None:
+            self._began, self._first = now, done
+        if done < total and now - self._last_line < SECONDS_BETWEEN_LINES:
+            return
+        self._last_line = now
+        rate = (done - self._first) / (now - self._began) if now > self._began else 0.0
+        pace = f", {rate:.2f} records/s, {(total - done) / rate:.0f} s left" if rate > 0.0 else ""
+        self.say(f"{done} of {total} records{pace}")
+
+
+class Bar:
+    """A reporter for a terminal: a bar with rate and remaining time."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._task: TaskID | None = None
+
+    def say(self, sentence: str) -> None:
+        """Print the sentence above the bar."""
+        self._progress.console.print(sentence, highlight=False, markup=False)
+
+    def advance(self, done: int, total: int) -> None:
+        """Move the bar."""
+        if self._task is None:
+            self._task = self._progress.add_task("records", total=total, rate="")
+            self._progress.advance(self._task, done)
+            self._progress.reset(self._task, completed=done)
+        speed = self._progress.tasks[0].speed
+        self._progress.update(self._task, completed=done, rate=f"{speed:.2f} records/s" if speed else "")
+
+
+@contextmanager
+def reporter() -> Iterator[Reporter]:
+    """The reporter that suits standard error: a bar on a terminal, plain lines elsewhere."""
+    if not sys.stderr.isatty():
+        yield Lines()
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[rate]}"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True)) as progress:
+        yield Bar(progress)
+
+
+def for_people(count: float) -> str:
+    """A number of bytes in MB or GB."""
+    return f"{count / 1e9:.1f} GB" if count >= 1e9 else f"{count / 1e6:.1f} MB"

@@ -1,0 +1,41 @@
+"""Random streams: every random number follows from (seed, scope, index, purpose) alone, on any worker, in any order.
+
+A stream is `numpy.random.default_rng(SeedSequence(seed, spawn_key=(scope, index, purpose, attempt, item)))`. The lists
+below are append-only: their order is part of every corpus ever made. `attempt` counts redraws of impossible draws from
+0; `item` tells apart several things of one kind (the spalls of a race, the cages of a bearing).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+SCOPES = ("record", "machine")
+PURPOSES = (
+    "machine",
+    "signal",
+    "imperfections",
+    "background",
+    "split",
+    "operation",
+    "defect",
+    "spall",
+    "slip",
+    "roughness",
+    "white_noise",
+)
+RULE = "numpy.random.default_rng(SeedSequence(seed, spawn_key=(scope, index, purpose, attempt, item)))"
+LARGEST_INDEX = 2**32 - 1
+
+
+def spawn_key(scope: str, index: int, purpose: str, attempt: int = 0, item: int = 0) -> tuple[int, ...]:
+    """The five numbers that set one stream of a recipe apart from all its others; ValueError if one is unknown."""
+    for name, number in (("index", index), ("attempt", attempt), ("item", item)):
+        if not 0 <= number <= LARGEST_INDEX:
+            raise ValueError(f"{name} = {number}; allowed: 0 to {LARGEST_INDEX}")
+    return (SCOPES.index(scope), index, PURPOSES.index(purpose), attempt, item)
+
+
+def stream(seed: int, scope: str, index: int, purpose: str, attempt: int = 0, item: int = 0) -> np.random.Generator:
+    """A fresh generator at the start of the stream of one purpose of one record or one machine (virtual bearing)."""
+    key = spawn_key(scope, index, purpose, attempt, item)
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))

@@ -1,0 +1,74 @@
+"""Results as tables for a terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rich.table import Table
+
+from datagen.progress import for_people
+
+if TYPE_CHECKING:
+    from datagen.info import Info
+
+
+def info_tables(info: Info) -> list[Table]:
+    """The facts of a corpus, as `spallgen info` shows them."""
+    return [_summary(info), _counts(info), _ranges(info)]
+
+
+def _summary(info: Info) -> Table:
+    table = Table(title=f"{info.name}: {info.title}" if info.title else info.name, show_header=False)
+    size = info.bytes / max(info.records, 1)
+    rows = {
+        "records": f"{info.records} of {info.asked} asked for; the recipe has {info.recipe_records}",
+        "could not be made": str(info.failed),
+        "virtual bearings": str(info.bearings),
+        "outside the model's range": f"{info.outside_validity} records",
+        "shards": f"{info.shards}, together {for_people(info.bytes)}, {size / 1e6:.2f} MB a record",
+        "length": f"{info.signal_seconds:.1f} s of signal",
+        "cost": f"{info.worker_seconds:.1f} s of one worker, {info.made_per_second:.1f} times real time",
+        "recipe, model, format, program": ", ".join(info.identity.values()),
+        "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),
+    }
+    for name, text in rows.items():
+        table.add_row(name, text)
+    return table
+
+
+def _counts(info: Info) -> Table:
+    table = Table("label", "records by value", title="balance")
+    for name, counts in info.counts.items():
+        table.add_row(name, ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items()))
+    return table
+
+
+def _ranges(info: Info) -> Table:
+    table = Table("label", "unit", title="ranges")
+    for heading in ("smallest", "median", "largest", "not applicable"):
+        table.add_column(heading, justify="right")
+    for name, found in info.ranges.items():
+        numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
+        table.add_row(name, found.unit, *numbers, str(found.missing or ""))
+    return table
+
+
+def catalog_tables() -> list[Table]:
+    """Every number of the catalogue with its source, a table for each bearing and rig."""
+    from physics.catalog import catalog_rows
+
+    tables: dict[tuple[str, str], Table] = {}
+    for row in catalog_rows():
+        if (row.kind, row.name) not in tables:
+            titles = ("quantity", "value", "unit", "source", "note")
+            tables[row.kind, row.name] = Table(*titles, title=f"{row.kind} {row.name}")
+        source = f"{row.source} (assumed)" if row.assumed and row.source != "assumed" else row.source
+        tables[row.kind, row.name].add_row(row.quantity, f"{row.value:.6g}", row.unit, source, row.note)
+    return list(tables.values())
+
+
+def catalog_data() -> list[dict[str, Any]]:
+    """Every number of the catalogue with its source, for other programs."""
+    from physics.catalog import catalog_rows
+
+    return [row._asdict() for row in catalog_rows()]

@@ -1,0 +1,89 @@
+"""The physical labels of a scene: what is broken, how far, and how the machine is run."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from physics.profile import build_path
+from physics.scene import Scene
+from physics.spall import Spall, is_extended
+from physics.validity import assess
+
+SAMPLES_PER_KNOT = 8
+SIZES = ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness")
+
+
+def label_values(scene: Scene) -> dict[str, object]:
+    """Values of every label whose source is "scene", keyed by its name, in the unit of the schema."""
+    bearing, run = scene.rig.bearing, scene.operation
+    return {
+        "rig": scene.rig.name,
+        "bearing": bearing.name,
+        **defect_values(scene),
+        "speed_rpm": run.shaft_speed * 30.0 / math.pi,
+        "load_n": run.load,
+        "mean_slip": scene.cage.mean_slip,
+        "slip_deviation": slip_deviation(scene),
+        "contact_law": scene.contact_law,
+        "balls": bearing.balls,
+        "rows": bearing.rows,
+        "pitch_diameter": bearing.pitch_diameter,
+        "ball_diameter": bearing.ball_diameter,
+        "contact_angle": bearing.contact_angle,
+        "bpfo": bearing.bpfo,
+        "bpfi": bearing.bpfi,
+        "bsf": bearing.bsf,
+        "ftf": bearing.ftf,
+        "validity": "; ".join(assess(scene)),
+    }
+
+
+def largest_spall(scene: Scene) -> Spall | None:
+    """The spall of the largest extent, the first of equals; None if there is none."""
+    return max(scene.spalls, key=lambda spall: spall.extent, default=None)
+
+
+def condition(scene: Scene) -> str:
+    """ "healthy", "line" or "extended": the last if the largest spall always holds at least one ball."""
+    spall = largest_spall(scene)
+    if spall is None:
+        return "healthy"
+    return "extended" if is_extended(spall.extent, scene.rig.bearing) else "line"
+
+
+def defect_values(scene: Scene) -> dict[str, object]:
+    """The labels that describe the largest spall; zeros, False and "none" when there is none."""
+    spall, bearing = largest_spall(scene), scene.rig.bearing
+    common = {"condition": condition(scene), "location": scene.defective_race, "spalls": len(scene.spalls)}
+    if spall is None:
+        return common | dict.fromkeys(SIZES, 0.0) | {"bridged": False, "profile": "none"}
+    path = build_path(spall, bearing)
+    return common | {
+        "extent": spall.extent,
+        "extent_mm": spall.length(bearing) * 1e3,
+        "extent_spacing": spall.extent / bearing.spacing,
+        "depth": floor_depth(spall),
+        "path_depth": path.largest_depth,
+        "bridged": path.bridged,
+        "entry_taper": spall.entry_taper,
+        "exit_taper": spall.exit_taper,
+        "roughness": spall.roughness,
+        "profile": spall.profile,
+    }
+
+
+def floor_depth(spall: Spall) -> float:
+    """Depth of the spall's floor below the raceway, m: the largest value of a measured table, else its `depth`."""
+    return max(spall.table_depth) if spall.profile == "table" else spall.depth
+
+
+def slip_deviation(scene: Scene) -> float:
+    """Standard deviation of the cage's slip about its mean slip over the record, as a share of the nominal speed."""
+    cage = scene.cage
+    if not cage.knot_values:
+        return 0.0
+    count = SAMPLES_PER_KNOT * math.ceil(cage.duration / cage.knot_step) + 1
+    speed = cage.speed(np.linspace(0.0, cage.duration, count))
+    return float(np.sqrt(np.mean(((speed - cage.mean_speed) / cage.nominal_speed) ** 2)))

@@ -1,0 +1,65 @@
+"""Envelope analysis: the demodulation band, the envelope of the band-passed signal and its squared spectrum."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from labels.spectrum import amplitude_spectrum
+from physics.modes import coupled_resonator_frequency, rated_matrices
+from physics.rig import Rig
+
+Array = NDArray[np.float64]
+Band = tuple[float, float]
+
+BAND_SHARE = 0.05
+FALLBACK_SHARES = (0.3, 0.45)
+
+
+def default_band(rig: Rig, rate: float) -> Band:
+    """Lower and upper edge (Hz) of the band around the rig's coupled resonator mode in the y direction, ± 5 %.
+
+    The mode is that of the healthy bearing at the rig's rated load.
+    If that band does not lie below half the sampling `rate` (Hz), the mode is not in the record and the band is
+    0.3 to 0.45 of the rate: the upper part of what was recorded, clear of the roll-off before half the rate.
+    """
+    stiffness, _ = rated_matrices(rig)
+    centre = coupled_resonator_frequency(rig, stiffness)
+    low, high = centre * (1.0 - BAND_SHARE), centre * (1.0 + BAND_SHARE)
+    if high < rate / 2.0:
+        return low, high
+    return FALLBACK_SHARES[0] * rate, FALLBACK_SHARES[1] * rate
+
+
+def band_envelope(signal: Array, rate: float, band: Band) -> Array:
+    """Envelope (T,), in the unit of the `signal` (T,): magnitude of its analytic signal in `band` (Hz, edges included).
+
+    The filter keeps the Fourier components of the whole record that lie in the band and drops the others, so it has no
+    phase and no delay; the record counts as periodic, which touches the first and last 1/(width of the band) seconds.
+    ValueError unless 0 ≤ low < high ≤ rate / 2 and the band holds at least one component.
+    """
+    signal = np.asarray(signal, dtype=np.float64)
+    low, high = band
+    if not 0.0 <= low < high <= rate / 2.0:
+        raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
+    frequency = np.fft.rfftfreq(signal.size, 1.0 / rate)
+    inside = (frequency >= low) & (frequency <= high)
+    if not inside.any():
+        raise ValueError(
+            f"band {low:g} to {high:g} Hz holds no component of {signal.size} samples at {rate:g} Hz, "
+            f"which lie {rate / signal.size:g} Hz apart"
+        )
+    both_signs = (frequency > 0.0) & (frequency < rate / 2.0)
+    analytic = np.zeros(signal.size, dtype=np.complex128)
+    analytic[: frequency.size] = fft.rfft(signal) * np.where(inside, np.where(both_signs, 2.0, 1.0), 0.0)
+    return np.abs(fft.ifft(analytic))
+
+
+def squared_envelope_spectrum(envelope: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:
+    """Frequencies (F,) in Hz and one-sided amplitudes (F,) of the squared `envelope` (T,) without its mean.
+
+    The unit is the square of the envelope's. A squared envelope m + a cos(2π f t) has a line of height a at f, with
+    `window` "hann" (divided by its mean) as without ("none").
+    """
+    return amplitude_spectrum(np.asarray(envelope, dtype=np.float64) ** 2, rate, window)

@@ -1,0 +1,80 @@
+"""Amplitude spectra of acceleration and velocity, their order axis and the height of a line."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from physics.bearing import Bearing
+
+Array = NDArray[np.float64]
+
+WINDOWS = ("hann", "none")
+
+
+def amplitude_spectrum(signal: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:
+    """Frequencies (F,) in Hz and one-sided amplitudes (F,), in the unit of the `signal` (T,), without its mean.
+
+    The periodic Hann window is divided by its mean, so a line a cos(2π f t) on a bin has height a with either window.
+    ValueError for an unknown window or fewer than two samples.
+    """
+    frequency, coefficients = _windowed_fourier(signal, rate, window)
+    return frequency, np.abs(coefficients)
+
+
+def velocity_spectrum(acceleration: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:
+    """Frequencies (F,) in Hz and one-sided velocity amplitudes (F,) of an `acceleration` (T,), each over 2π f.
+
+    m/s for m/s²; the component at 0 Hz, which has no velocity, is 0.
+    """
+    frequency, coefficients = _windowed_fourier(acceleration, rate, window)
+    amplitude = np.zeros(frequency.size)
+    amplitude[1:] = np.abs(coefficients[1:]) / (2.0 * np.pi * frequency[1:])
+    return frequency, amplitude
+
+
+def _windowed_fourier(signal: Array, rate: float, window: str) -> tuple[Array, NDArray[np.complex128]]:
+    signal = np.asarray(signal, dtype=np.float64)
+    if window not in WINDOWS:
+        raise ValueError(f'window = "{window}"; allowed: {", ".join(WINDOWS)}')
+    if signal.size < 2 or rate <= 0.0:
+        raise ValueError(
+            f"{signal.size} samples at {rate:g} Hz; a spectrum needs at least 2 samples and a rate above 0"
+        )
+    centred = signal - signal.mean()
+    if window == "hann":
+        centred = centred * (1.0 - np.cos(2.0 * np.pi * np.arange(signal.size) / signal.size))
+    coefficients = fft.rfft(centred) * (2.0 / signal.size)
+    # A component without a mirror image is not halved between two of them.
+    coefficients[0] /= 2.0
+    if signal.size % 2 == 0:
+        coefficients[-1] /= 2.0
+    frequency = np.arange(coefficients.size) * (rate / signal.size)
+    return frequency, np.asarray(coefficients)
+
+
+def orders(frequency: Array, shaft_speed: float) -> Array:
+    """Frequencies (F,) in Hz as orders of the shaft, whose speed is in rad/s."""
+    return np.asarray(frequency) * (2.0 * np.pi / shaft_speed)
+
+
+def defect_orders(bearing: Bearing, location: str) -> dict[str, float]:
+    """Orders of the shaft at which a defect on `location` ("none", "outer" or "inner") shows and is modulated.
+
+    Keys are BPFO, BPFI, FTF and shaft; the defect's own comes first.
+    """
+    outer, inner = {"BPFO": bearing.bpfo}, {"BPFI": bearing.bpfi}
+    own = {"none": {**outer, **inner}, "outer": outer, "inner": inner}[location]
+    return {**own, "FTF": bearing.ftf, "shaft": 1.0}
+
+
+def line_amplitude(frequency: Array, amplitude: Array, target: float, tolerance: float) -> float:
+    """Largest amplitude within `target` ± `tolerance` (Hz) of a spectrum (F,); ValueError if no bin lies there."""
+    slack = 1e-9 * max(abs(target), 1.0)
+    near = np.abs(np.asarray(frequency) - target) <= tolerance + slack
+    if not near.any():
+        raise ValueError(
+            f"no component within {target:g} ± {tolerance:g} Hz; they lie {frequency[1] - frequency[0]:g} Hz apart"
+        )
+    return float(np.asarray(amplitude)[near].max())

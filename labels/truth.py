@@ -1,0 +1,132 @@
+"""Exact truth of every ball pass: edges and deepest point from the cage's path, release and regain from contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.passages import Passages, passages
+from physics.profile import build_path
+from physics.scene import Scene
+from physics.trace import ContactChanges
+
+Array = NDArray[np.float64]
+Truth = NDArray[np.bool_]
+Index = NDArray[np.int16]
+
+
+@dataclass(frozen=True)
+class PassTable:
+    """Every passage of a ball over a spall that overlaps the record, by time of entry; all shapes (N,).
+
+    `row` and `ball` count from 1, `defect` counts the scene's spalls from 0. Times are in s; those of entry, deepest
+    point and exit may lie outside the record. `release_time` is the first loss of contact from entry to exit and
+    `regain_time` the beginning of contact that ends the last loss begun there; both are NaN if the ball kept contact
+    or did not touch at entry, and `regain_time` alone if contact does not begin again within the record.
+    `loaded`: the ball touches both races at some moment of the pass; `complete`: all its times lie inside the record.
+    """
+
+    row: Index
+    ball: Index
+    defect: Index
+    entry_time: Array
+    deepest_time: Array
+    exit_time: Array
+    release_time: Array
+    regain_time: Array
+    loaded: Truth
+    complete: Truth
+
+    def __len__(self) -> int:
+        return int(self.entry_time.size)
+
+
+def ball_passes(scene: Scene, changes: ContactChanges | None, duration: float) -> PassTable:
+    """All ball passes of `scene` that overlap the record from 0 to `duration` (s).
+
+    A pass cut by an end of the record is kept with `complete` False; its release is the first one seen. Without
+    `changes` nothing is known of contact: no release, no regain, `loaded` False.
+    """
+    tables = [_passes_over(scene, changes, duration, defect) for defect in range(len(scene.spalls))]
+    joined = {
+        field.name: np.concatenate([getattr(table, field.name) for table in (_no_passes(), *tables)])
+        for field in fields(PassTable)
+    }
+    order = np.lexsort((joined["ball"], joined["row"], joined["entry_time"]))
+    return PassTable(**{name: column[order] for name, column in joined.items()})
+
+
+def _no_passes() -> PassTable:
+    index, time, truth = np.zeros(0, np.int16), np.zeros(0), np.zeros(0, np.bool_)
+    return PassTable(index, index, index, time, time, time, time, time, truth, truth)
+
+
+def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, defect: int) -> PassTable:
+    row = scene.spalls[defect].row
+    ball, entry, deepest, leave = _crossings(scene, defect, duration)
+    release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
+    loaded = np.zeros(ball.size, np.bool_)
+    if changes is not None:
+        for number in np.unique(ball):
+            own = ball == number
+            release[own], regain[own], loaded[own] = _contact_events(changes, row, number, entry[own], leave[own])
+    ended = np.isnan(release) | np.isfinite(regain)
+    return PassTable(
+        row=np.full(ball.size, row, np.int16),
+        ball=ball,
+        defect=np.full(ball.size, defect, np.int16),
+        entry_time=entry,
+        deepest_time=deepest,
+        exit_time=leave,
+        release_time=release,
+        regain_time=regain,
+        loaded=loaded,
+        complete=(entry >= 0.0) & (leave <= duration) & ended,
+    )
+
+
+def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Index, Array, Array, Array]:
+    """Ball (N,) from 1 and times (N,) at which it enters, is deepest in and leaves a spall, each pass of a record."""
+    spall = scene.spalls[defect]
+    half = spall.extent / 2.0
+    slowest = 0.5 * scene.rig.bearing.cage_speed(scene.operation.shaft_speed)
+    margin = spall.extent / slowest
+    entries = passages(scene, defect, -half, -margin, duration)
+    if entries.time.size == 0:
+        return entries.ball.astype(np.int16), entries.time, entries.time, entries.time
+    # A little early, so that a deepest point on the entry edge itself is not lost to rounding.
+    later = (entries.time[0] - 1e-6 * margin, duration + 2.0 * margin)
+    deepest = passages(scene, defect, build_path(spall, scene.rig.bearing).deepest, *later)
+    exits = passages(scene, defect, half, *later)
+    lowest, leave = _following(entries, deepest), _following(entries, exits)
+    overlapping = leave >= 0.0
+    ball = entries.ball.astype(np.int16)
+    return ball[overlapping], entries.time[overlapping], lowest[overlapping], leave[overlapping]
+
+
+def _following(entries: Passages, later: Passages) -> Array:
+    """Times (N,) at which the ball of each entry crosses a later point: both lists hold consecutive balls."""
+    first = int(np.argmax(later.ball == entries.ball[0]))
+    return later.time[first : first + entries.time.size]
+
+
+def _contact_events(
+    changes: ContactChanges, row: int, ball: int, entry: Array, leave: Array
+) -> tuple[Array, Array, Truth]:
+    """Release (N,) and regain (N,) in s and `loaded` (N,) of one ball (from 1) in its passes `entry` to `leave`."""
+    own = (changes.row == row) & (changes.ball == ball)
+    time, made = changes.time[own], changes.made[own]
+    losses, makings = time[~made], time[made]
+    states = np.append(changes.initial[row - 1, ball - 1], made)
+    touched = states[np.searchsorted(time, np.maximum(entry, 0.0), side="left")]
+    first_loss = np.searchsorted(losses, entry, side="left")
+    last_loss = np.searchsorted(losses, leave, side="right") - 1
+    made_within = np.searchsorted(makings, leave, side="right") > np.searchsorted(makings, entry, side="left")
+    released = touched & (last_loss >= first_loss)
+    release, regain = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
+    release[released] = losses[first_loss[released]]
+    ended_by = np.searchsorted(makings, losses[last_loss[released]], side="right")
+    regain[released] = np.append(makings, np.nan)[ended_by]
+    return release, regain, touched | made_within

@@ -1,0 +1,214 @@
+"""The tables of a corpus's arrays (coordinates, signals, ball passes, defects), over which formats and checks loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from labels.schema import BAND_EDGES, LOCATIONS
+
+AXES = ("x", "y")
+COMPONENTS = ("xx", "yy", "xy")
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One array of a corpus.
+
+    `dims` and UDUNITS `unit`; `stored` is "always" or the key of the recipe's table `store` that asks for it;
+    `missing` as for labels.
+    """
+
+    name: str
+    dims: tuple[str, ...]
+    dtype: str
+    unit: str
+    long_name: str
+    sentence: str
+    stored: str = "always"
+    values: tuple[str, ...] | None = None
+    missing: str = ""
+
+
+COORDINATES: tuple[Variable, ...] = (
+    Variable("record", ("record",), "int64", "1", "record", "Index of the record in the whole corpus, from 0."),
+    Variable("time", ("time",), "float64", "s", "time", "Time from the start of the record."),
+    Variable("axis", ("axis",), "str", "", "axis", "Direction: y is up, against the static load.", values=AXES),
+    Variable(
+        "stiffness_time", ("stiffness_time",), "float64", "s", "time of the stiffness", "Time of the stored stiffness."
+    ),
+    Variable(
+        "component", ("component",), "str", "", "component", "Element of the symmetric matrix.", values=COMPONENTS
+    ),
+    Variable("row", ("row",), "int64", "1", "row", "Row of balls, from 1."),
+    Variable("ball", ("ball",), "int64", "1", "ball", "Ball of a row, from 1, in the direction of rotation."),
+    Variable(
+        "profile_angle",
+        ("profile_angle",),
+        "float64",
+        "rad",
+        "angle on the race",
+        "Angle fixed to the defective race and equal to the angle in space at t = 0; from -pi to pi, end excluded.",
+    ),
+    Variable("band_edge", ("band_edge",), "str", "", "band edge", "Edge of a frequency band.", values=BAND_EDGES),
+)
+
+SIGNALS: tuple[Variable, ...] = (
+    Variable(
+        "acceleration",
+        ("record", "time", "axis"),
+        "float32",
+        "m s-2",
+        "acceleration",
+        "Acceleration as the sensor gives it, with the background.",
+    ),
+    Variable(
+        "envelope",
+        ("record", "time"),
+        "float32",
+        "m s-2",
+        "envelope of the acceleration",
+        "Magnitude of the analytic signal of the y axis in the record's envelope_band.",
+    ),
+    Variable(
+        "stiffness",
+        ("record", "component", "stiffness_time"),
+        "float32",
+        "N m-1",
+        "stiffness of the bearing",
+        "Quasi-static stiffness at each instant's load, cage angle and spall position; read by linear interpolation.",
+    ),
+    Variable(
+        "acceleration_clean",
+        ("record", "time", "axis"),
+        "float32",
+        "m s-2",
+        "clean acceleration",
+        "Acceleration of the resonator's mass before any sensor path, filter or background.",
+        stored="clean",
+    ),
+    Variable(
+        "cage_angle",
+        ("record", "time"),
+        "float64",
+        "rad",
+        "angle of the cage",
+        "Unwrapped angle of ball 1 of row 1, counter-clockwise from +x.",
+        stored="cage_angle",
+    ),
+    Variable(
+        "profile_depth",
+        ("record", "row", "profile_angle"),
+        "float32",
+        "m",
+        "depth of the ball's path",
+        "Drop of the ball's centre below its path on the undamaged race; read by periodic linear interpolation.",
+        stored="profile",
+    ),
+    Variable(
+        "contact_force",
+        ("record", "time", "row", "ball"),
+        "float32",
+        "N",
+        "contact force",
+        "Normal force of each ball, positive when it pushes.",
+        stored="contact_force",
+        missing="the record's forces were not asked for",
+    ),
+)
+
+SCENARIO = Variable(
+    "scenario", ("record",), "str", "", "scenario", "JSON text with every number that is needed to simulate the record."
+)
+
+PASSES: tuple[Variable, ...] = (
+    Variable("pass_record", ("ball_pass",), "int64", "1", "record of the pass", "Record in which the ball passes."),
+    Variable("pass_row", ("ball_pass",), "int16", "1", "row of the pass", "Row of the ball, from 1."),
+    Variable("pass_ball", ("ball_pass",), "int16", "1", "ball of the pass", "Ball of its row, from 1."),
+    Variable(
+        "pass_defect",
+        ("ball_pass",),
+        "int16",
+        "1",
+        "defect of the pass",
+        "Which spall of the record is passed: place among the record's rows of the defect table, from 0.",
+    ),
+    Variable(
+        "entry_time",
+        ("ball_pass",),
+        "float64",
+        "s",
+        "time of entry",
+        "The ball's centre reaches the edge met first; below 0 if the pass began before the record.",
+    ),
+    Variable(
+        "deepest_time",
+        ("ball_pass",),
+        "float64",
+        "s",
+        "time at the deepest point",
+        "The ball's centre is at the deepest point of its path, or at the middle of a flat floor.",
+    ),
+    Variable(
+        "exit_time", ("ball_pass",), "float64", "s", "time of exit", "The ball's centre reaches the edge met last."
+    ),
+    Variable(
+        "release_time",
+        ("ball_pass",),
+        "float64",
+        "s",
+        "time of release",
+        "First loss of contact between entry and exit.",
+        missing="the ball never lost contact during the pass, or did not touch at entry",
+    ),
+    Variable(
+        "regain_time",
+        ("ball_pass",),
+        "float64",
+        "s",
+        "time of regained contact",
+        "Contact begins again after the last loss between entry and exit; may lie after exit.",
+        missing="the ball was not released, or takes no load again within the record",
+    ),
+    Variable(
+        "loaded",
+        ("ball_pass",),
+        "bool",
+        "",
+        "loaded",
+        "True if the ball touches both races at some moment of the pass.",
+    ),
+    Variable(
+        "complete",
+        ("ball_pass",),
+        "bool",
+        "",
+        "complete",
+        "True if entry, exit and, where they exist, release and regain lie inside the record.",
+    ),
+)
+
+DEFECTS: tuple[Variable, ...] = (
+    Variable("defect_record", ("defect",), "int64", "1", "record of the defect", "Record to which the spall belongs."),
+    Variable(
+        "defect_race",
+        ("defect",),
+        "str",
+        "",
+        "race of the defect",
+        "Race that carries the spall.",
+        values=LOCATIONS[1:],
+    ),
+    Variable("defect_row", ("defect",), "int16", "1", "row of the defect", "Row of balls that meets it, from 1."),
+    Variable(
+        "defect_angle",
+        ("defect",),
+        "float64",
+        "rad",
+        "angle of the defect",
+        "Centre of the spall at t = 0, counter-clockwise from +x; an inner one turns with the shaft.",
+    ),
+    Variable("defect_extent", ("defect",), "float64", "rad", "extent of the defect", "Arc covered by the spall."),
+    Variable("defect_depth", ("defect",), "float64", "m", "depth of the defect", "Depth of the floor of the spall."),
+)
+
+VARIABLES: tuple[Variable, ...] = (*COORDINATES, *SIGNALS, SCENARIO, *PASSES, *DEFECTS)

@@ -1,0 +1,207 @@
+"""The equations of motion as the reference method reads them: ball by ball, no fast kernel [P14 Eq. 4-16]."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.cage import CagePath
+from physics.profile import DepthPath, build_path
+from physics.scene import Scene
+
+Array = NDArray[np.float64]
+Cubics = tuple[Array, Array]
+
+
+class Equations(NamedTuple):
+    """A scene as numbers and arrays.
+
+    `axes` (7, 2): columns x and y of inner, outer and resonator mass, support stiffness and damping, resonator
+    stiffness and damping; `law` (7,): K, n, c_d, cos α, clearance, 1 for the no-tension law, shaft speed; `loads` (5,):
+    static load, unbalance force and phase, fluctuation and phase; `balls` (B, 3): row from 0, angle ahead of the cage,
+    diameter deviation; `cages`: edges and polynomials of both rows' cage angles; `spalls` (S, 6): row from 0, angle,
+    travel sign, race speed, first and last entry in `path`; `path`: edges and polynomials of all drops; `waves` (W, 4).
+    """
+
+    axes: Array
+    law: Array
+    loads: Array
+    balls: Array
+    cages: tuple[Cubics, Cubics]
+    spalls: Array
+    path: Cubics
+    waves: Array
+
+
+def write_equations(scene: Scene) -> Equations:
+    """The equations of motion of `scene`."""
+    rig, bearing, run = scene.rig, scene.rig.bearing, scene.operation
+    deviation = np.array(scene.imperfections.ball_deviation or np.zeros((bearing.rows, bearing.balls)))
+    radial_deviation = deviation / math.cos(bearing.contact_angle)
+    row, ball = np.divmod(np.arange(bearing.rows * bearing.balls), bearing.balls)
+    spalls, path = _spall_tables(scene)
+    return Equations(
+        axes=np.array(
+            [
+                [rig.inner_mass] * 2,
+                [rig.outer_mass] * 2,
+                [rig.resonator_mass] * 2,
+                [rig.support_stiffness_x, rig.support_stiffness_y],
+                [rig.support_damping_x, rig.support_damping_y],
+                [rig.resonator_stiffness] * 2,
+                [rig.resonator_damping] * 2,
+            ]
+        ),
+        law=np.array(
+            [
+                bearing.load_deflection,
+                bearing.exponent,
+                rig.film_damping,
+                math.cos(bearing.contact_angle),
+                bearing.clearance,
+                float(scene.contact_law == "no_tension"),
+                run.shaft_speed,
+            ]
+        ),
+        loads=np.array(
+            [run.load, run.unbalance_force, run.unbalance_phase, run.load_fluctuation, run.fluctuation_phase]
+        ),
+        balls=np.column_stack([row, bearing.spacing * ball + bearing.stagger * row, radial_deviation.ravel()]),
+        cages=(_cage_pieces(scene.cage), _cage_pieces(scene.second_cage or scene.cage)),
+        spalls=spalls,
+        path=path,
+        waves=np.array(
+            [
+                [w.order, w.amplitude, w.phase, run.shaft_speed if w.race == "inner" else 0.0]
+                for w in scene.imperfections.waviness
+            ]
+        ).reshape(-1, 4),
+    )
+
+
+def _cage_pieces(cage: CagePath) -> Cubics:
+    return np.ascontiguousarray(cage.polynomial.x), np.ascontiguousarray(cage.polynomial.c)
+
+
+def _spall_tables(scene: Scene) -> tuple[Array, Cubics]:
+    rows, edges, cubics, first = [], [np.zeros(0)], [np.zeros((4, 0))], 0
+    for spall in scene.spalls:
+        nodes, cubic = _unpacked(build_path(spall, scene.rig.bearing))
+        speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
+        rows.append([spall.row - 1, spall.angle, spall.travel_sign, speed, first, first + nodes.size])
+        edges.append(nodes)
+        # One empty cubic per spall keeps edges and cubics in step.
+        cubics += [cubic, np.zeros((4, 1))]
+        first += nodes.size
+    return np.array(rows, dtype=np.float64).reshape(-1, 6), (np.concatenate(edges), np.concatenate(cubics, axis=1))
+
+
+def _unpacked(path: DepthPath) -> Cubics:
+    """Edges of all cells (N + 1,), rad, and cubics (4, N) in the arc from each cell's left edge, from the cube down."""
+    pieces = list(zip(path.breaks[:-1], path.breaks[1:], path.cells, strict=True))
+    left = np.concatenate([np.linspace(start, stop, count, endpoint=False) for start, stop, count in pieces])
+    width = np.concatenate([np.full(count, (stop - start) / count) for start, stop, count in pieces])
+    real = width > 0.0
+    cubics = path.cubics[real].T / width[real] ** np.array([[3], [2], [1], [0]])
+    return np.append(left[real], path.breaks[-1]), np.ascontiguousarray(cubics)
+
+
+@njit
+def polynomial_at(edges: Array, polynomials: Array, first: int, last: int, place: float) -> tuple[float, float]:
+    """Value and slope at `place` of the piecewise polynomial whose edges are edges[first:last]."""
+    piece = first + int(np.searchsorted(edges[first:last], place, side="right")) - 1
+    piece = min(max(piece, first), last - 2)
+    x = place - edges[piece]
+    value, slope = 0.0, 0.0
+    for k in range(polynomials.shape[0]):
+        slope = slope * x + value
+        value = value * x + polynomials[k, piece]
+    return value, slope
+
+
+@njit
+def _missing(equations: Equations, row: float, angle: float, speed: float, time: float) -> tuple[float, float]:
+    """Radial depth (m) met by a ball of a row at `angle` (rad) moving at `speed` (rad/s), and its total rate (m/s)."""
+    depth, rate = 0.0, 0.0
+    edges, cubics = equations.path
+    for spall in equations.spalls:
+        if spall[0] == row:
+            first, last = int(spall[4]), int(spall[5])
+            arc = spall[2] * (angle - spall[1] - spall[3] * time)
+            arc -= 2.0 * math.pi * math.floor(arc / (2.0 * math.pi) + 0.5)
+            if edges[first] <= arc <= edges[last - 1]:
+                drop, slope = polynomial_at(edges, cubics, first, last, arc)
+                depth += drop
+                rate += slope * spall[2] * (speed - spall[3])
+    for wave in equations.waves:
+        phase = wave[0] * (angle - wave[3] * time) + wave[2]
+        depth += wave[1] * math.cos(phase)
+        rate -= wave[1] * wave[0] * math.sin(phase) * (speed - wave[3])
+    return depth, rate
+
+
+@njit
+def _closing(equations: Equations, time: float, state: Array, ball: int) -> tuple[float, float, float, float]:
+    """Compression of one ball along its normal (m), its rate (m/s), and cosine and sine of the ball's angle."""
+    row = equations.balls[ball, 0]
+    edges, quartics = equations.cages[0] if row == 0.0 else equations.cages[1]
+    angle, speed = polynomial_at(edges, quartics, 0, edges.size, time)
+    angle += equations.balls[ball, 1]
+    cosine, sine = math.cos(angle), math.sin(angle)
+    dx, dy = state[0] - state[2], state[1] - state[3]
+    vx, vy = state[6] - state[8], state[7] - state[9]
+    depth, depth_rate = _missing(equations, row, angle, speed, time)
+    tight = equations.balls[ball, 2] - equations.law[4]
+    compression = dx * cosine + dy * sine - depth + tight
+    rate = vx * cosine + vy * sine + speed * (dy * cosine - dx * sine) - depth_rate
+    return equations.law[3] * compression, equations.law[3] * rate, cosine, sine
+
+
+@njit
+def _pressed(equations: Equations, time: float, state: Array, ball: int) -> tuple[float, float, float, float]:
+    """Compression (m) of one ball, its force along the normal if it touches (N), and cosine and sine of its angle."""
+    compression, rate, cosine, sine = _closing(equations, time, state, ball)
+    law = equations.law
+    return compression, law[0] * max(compression, 0.0) ** law[1] + law[2] * rate, cosine, sine
+
+
+@njit
+def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.bool_]:
+    """Which balls (B,) touch: those compressed, and under the no-tension law only while they also push."""
+    touching = np.empty(equations.balls.shape[0], dtype=np.bool_)
+    for ball in range(touching.size):
+        compression, force, _, _ = _pressed(equations, time, state, ball)
+        touching[ball] = compression > 0.0 and (equations.law[5] == 0.0 or force > 0.0)
+    return touching
+
+
+@njit
+def slopes(equations: Equations, touching: NDArray[np.bool_], time: float, state: Array) -> Array:
+    """Time derivative (12,) of the state while exactly the balls `touching` (B,) are in contact."""
+    contact = np.zeros(2)
+    law = equations.law
+    for ball in range(touching.size):
+        if touching[ball]:
+            _, force, cosine, sine = _pressed(equations, time, state, ball)
+            contact[0] += force * law[3] * cosine
+            contact[1] += force * law[3] * sine
+    turn = law[6] * time
+    load = np.empty(2)
+    load[0] = equations.loads[1] * math.cos(turn + equations.loads[2])
+    load[1] = equations.loads[1] * math.sin(turn + equations.loads[2])
+    load[1] -= equations.loads[0] * (1.0 + equations.loads[3] * math.cos(turn + equations.loads[4]))
+    result = np.empty(12)
+    result[:6] = state[6:]
+    for axis in range(2):
+        mass_i, mass_o, mass_r, stiffness, damping, link_stiffness, link_damping = equations.axes[:, axis]
+        link = link_stiffness * (state[2 + axis] - state[4 + axis])
+        link += link_damping * (state[8 + axis] - state[10 + axis])
+        support = stiffness * state[2 + axis] + damping * state[8 + axis]
+        result[6 + axis] = (load[axis] - contact[axis]) / mass_i
+        result[8 + axis] = (contact[axis] - support - link) / mass_o
+        result[10 + axis] = link / mass_r
+    return result

@@ -1,0 +1,178 @@
+"""Where the shaft rests at one instant: safeguarded Newton's method on the energy of contacts and load.
+
+The elastic energy of the contacts minus the work of the load is a convex function of the shaft's position, so Newton's
+method with a line search finds the equilibrium from anywhere; where the stiffness is singular the answer says so.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.contact import COMPRESSION, COSINE, FLOOR, FORCE, FRAME_COSINE, FRAME_SINE, SINE, Law
+
+Array = NDArray[np.float64]
+
+LOADED, NOT_UNIQUE, NOT_LOADED, NO_EQUILIBRIUM = 0, 1, 2, 3
+
+TOLERANCE = 1e-11
+ACCEPTABLE = 1e-7
+SINGULAR = 1e-9
+NEGLIGIBLE_COMPRESSION = 1e-13
+LARGEST_MOVE = 0.05
+MOST_ITERATIONS = 200
+MOST_SHORTENINGS = 40
+
+
+class Hold(NamedTuple):
+    """What the contacts do at one position of the shaft [P14 Eq. 22, 26].
+
+    Elastic `energy` (J), net force on the outer ring (N), `pressed`: sum of the ball loads (N), stiffness (N/m).
+    """
+
+    energy: float
+    force_x: float
+    force_y: float
+    pressed: float
+    xx: float
+    yy: float
+    xy: float
+
+
+@njit
+def direction(balls: Array, frames: Array, cage: int, place: int) -> tuple[float, float]:
+    """Cosine and sine of the angle φ of a ball."""
+    cosine, sine = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE]
+    return (
+        balls[cage, COSINE, place] * cosine - balls[cage, SINE, place] * sine,
+        balls[cage, SINE, place] * cosine + balls[cage, COSINE, place] * sine,
+    )
+
+
+@njit
+def elastic(balls: Array, frames: Array, law: Law, dx: float, dy: float) -> Hold:
+    """What the contacts hold without damping at the displacement (dx, dy), m.
+
+    `set_time` must have been called; leaves compression and elastic force of every ball in `balls`.
+    """
+    energy, force_x, force_y, pressed, xx, yy, xy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    n = law.exponent
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            c, s = direction(balls, frames, cage, j)
+            compression = dx * c + dy * s - balls[cage, FLOOR, j]
+            balls[cage, COMPRESSION, j] = compression
+            balls[cage, FORCE, j] = 0.0
+            if compression > 0.0:
+                secant = law.stiffness * (math.sqrt(compression) if n == 1.5 else compression ** (n - 1.0))
+                force = secant * compression
+                balls[cage, FORCE, j] = force
+                energy += force * compression / (n + 1.0)
+                force_x += force * c
+                force_y += force * s
+                pressed += force
+                xx += n * secant * c * c
+                yy += n * secant * s * s
+                xy += n * secant * c * s
+    return Hold(energy, force_x, force_y, pressed, xx, yy, xy)
+
+
+@njit
+def solve_at(
+    balls: Array, frames: Array, law: Law, load_x: float, load_y: float, dx: float, dy: float
+) -> tuple[float, float, Hold, int]:
+    """Equilibrium position (m, m) under the load (N, N) from the guess (dx, dy), what holds there, and the status.
+
+    Safeguarded Newton: a regularised step where the stiffness is singular, shortened until the energy falls.
+    """
+    load = math.hypot(load_x, load_y)
+    if load == 0.0:
+        dx, dy = 0.0, 0.0
+    hold = elastic(balls, frames, law, dx, dy)
+    for _ in range(MOST_ITERATIONS):
+        gx, gy = load_x - hold.force_x, load_y - hold.force_y
+        if _ends(hold, law, load, gx, gy, TOLERANCE):
+            break
+        step_x, step_y = _newton_step(hold, law, load, gx, gy, 0.5 * math.hypot(dx, dy))
+        x, y, hold = _descend(balls, frames, law, load_x, load_y, dx, dy, step_x, step_y, hold)
+        stuck = math.hypot(x - dx, y - dy) <= 1e-15 * math.hypot(x, y)
+        dx, dy = x, y
+        if stuck or math.hypot(dx, dy) > LARGEST_MOVE:
+            break
+    status = _status(hold, law, load, load_x - hold.force_x, load_y - hold.force_y)
+    if status in (NO_EQUILIBRIUM, NOT_LOADED):
+        dx, dy = 0.0, 0.0
+        hold = elastic(balls, frames, law, dx, dy)
+    return dx, dy, hold, status
+
+
+@njit
+def _ends(hold: Hold, law: Law, load: float, gx: float, gy: float, share: float) -> bool:
+    """Whether the unbalanced force (gx, gy) is a small `share` of the load, or there is no load and no ball pressed."""
+    # Under preload the balls press each other harder than the load, and rounding grows with that.
+    return _is_free(hold, law, load) or math.hypot(gx, gy) <= share * (load + 1e-3 * hold.pressed)
+
+
+@njit
+def _is_free(hold: Hold, law: Law, load: float) -> bool:
+    return load == 0.0 and hold.pressed <= law.stiffness * NEGLIGIBLE_COMPRESSION**law.exponent
+
+
+@njit
+def _status(hold: Hold, law: Law, load: float, gx: float, gy: float) -> int:
+    if not _ends(hold, law, load, gx, gy, ACCEPTABLE):
+        return NO_EQUILIBRIUM
+    if _is_free(hold, law, load):
+        return NOT_LOADED
+    return NOT_UNIQUE if _singular(hold) else LOADED
+
+
+@njit
+def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_room: float) -> tuple[float, float]:
+    """Step (m, m) against the unbalanced force; softened where the stiffness is singular, and never very long."""
+    force = max(load, hold.pressed)
+    typical = (force / law.stiffness) ** (1.0 / law.exponent)
+    extra = SINGULAR * max(hold.xx + hold.yy, force / typical) if _singular(hold) else 0.0
+    xx, yy = hold.xx + extra, hold.yy + extra
+    determinant = xx * yy - hold.xy * hold.xy
+    x, y = (yy * gx - hold.xy * gy) / determinant, (xx * gy - hold.xy * gx) / determinant
+    share = min(1.0, (20.0 * typical + least_room) / math.hypot(x, y))
+    return share * x, share * y
+
+
+@njit
+def _descend(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    load_x: float,
+    load_y: float,
+    dx: float,
+    dy: float,
+    step_x: float,
+    step_y: float,
+    hold: Hold,
+) -> tuple[float, float, Hold]:
+    """The position (m, m) along the step at which the energy has fallen enough, and what holds there."""
+    objective = hold.energy - load_x * dx - load_y * dy
+    descent = (load_x - hold.force_x) * step_x + (load_y - hold.force_y) * step_y
+    share = 1.0
+    for _ in range(MOST_SHORTENINGS):
+        x, y = dx + share * step_x, dy + share * step_y
+        hold = elastic(balls, frames, law, x, y)
+        if hold.energy - load_x * x - load_y * y <= objective - 1e-4 * share * descent + 1e-14 * abs(objective):
+            break
+        # Past the lowest point along the step: the slope of the energy there and its stiffness say how far.
+        slope = (hold.force_x - load_x) * step_x + (hold.force_y - load_y) * step_y
+        bend = hold.xx * step_x * step_x + 2.0 * hold.xy * step_x * step_y + hold.yy * step_y * step_y
+        share = min(max(share - slope / bend, 0.01 * share), 0.9 * share) if bend > 0.0 else 0.5 * share
+    return x, y, hold
+
+
+@njit
+def _singular(hold: Hold) -> bool:
+    return hold.xx * hold.yy - hold.xy * hold.xy <= SINGULAR * (hold.xx + hold.yy) ** 2

@@ -1,0 +1,153 @@
+"""A tiny corpus made once, and records made of plain numbers for tests of files that need no physics."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from datagen.generate import generate
+from datagen.recipe import Recipe, load_recipe
+from datagen.record import Record
+from datagen.shard import finished_shards
+from datagen.workers import Engine
+from labels.schema import LABELS
+from labels.truth import PassTable
+from physics.spall import Spall
+
+RATE, SAMPLES, ROWS, BALLS = 1000.0, 200, 2, 5
+TINY_RECORDS = 14
+TINY_RECIPE = """
+name = "tiny"
+title = "A few short records"
+seed = 7
+[signal]
+rate_hz = 32768
+duration_s = 0.05
+[store]
+records_per_shard = 2
+clean = true
+cage_angle = true
+contact_force = "first_of_each"
+[[part]]
+name = "gearbox"
+records = 8
+records_per_machine = 2
+machine.rig = "gearbox"
+background.white_rms_m_s2 = 0.01
+[part.defect]
+condition = {choice = ["healthy", "line", "extended"]}
+depth_um = 10
+line.extent_deg = 2
+extended.extent_deg = 40
+[[part]]
+name = "fan"
+records = 6
+machine.rig = "fan"
+[part.defect]
+condition = "line"
+race = {choice = ["outer", "inner"]}
+depth_um = 10
+extent_deg = 2.6
+"""
+
+
+@pytest.fixture(scope="session")
+def tiny_recipe(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """File of a recipe of 14 short records on both rigs, in shards of two."""
+    path = tmp_path_factory.mktemp("recipe") / "tiny.toml"
+    path.write_text(TINY_RECIPE)
+    return path
+
+
+@pytest.fixture(scope="session")
+def tiny(tiny_recipe: Path) -> Recipe:
+    """The recipe itself."""
+    return load_recipe(tiny_recipe)
+
+
+@pytest.fixture(scope="session")
+def tiny_corpus(tiny: Recipe, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The whole corpus of the tiny recipe, made without interruption in this process; tests only read it."""
+    folder = tmp_path_factory.mktemp("corpus") / "tiny"
+    assert generate(tiny, folder, engine=Engine(workers=1)).complete
+    return folder
+
+
+def contents(folder: Path) -> dict[int, str]:
+    """Hash of the decoded arrays of every finished shard."""
+    return {sidecar.shard: sidecar.content for sidecar in finished_shards(folder)}
+
+
+@pytest.fixture(scope="session")
+def expected(tiny_corpus: Path) -> dict[int, str]:
+    """Hash of the decoded arrays of every shard of the tiny corpus."""
+    return contents(tiny_corpus)
+
+
+def plain_labels(index: int, spall: Spall | None) -> dict[str, Any]:
+    """A value for every label of the schema, consistent for a healthy record or one with `spall`."""
+    empty: dict[str, Any] = {"str": "word", "float64": 0.5, "int64": 3, "bool": False}
+    labels = {label.name: empty[label.dtype] for label in LABELS} | {
+        "record": index,
+        "split": "train",
+        "bearing_id": f"b{index // 2}",
+        "condition": "line" if spall else "healthy",
+        "location": spall.race if spall else "none",
+        "profile": "tukey" if spall else "none",
+        "contact_law": "paper",
+        "spalls": 1 if spall else 0,
+        "extent": spall.extent if spall else 0.0,
+        "extent_spacing": 0.3 if spall else 0.0,
+        "rate_hz": RATE,
+        "duration_s": SAMPLES / RATE,
+        "snr_db": math.nan if index % 2 else 12.5,
+        "envelope_band": (100.0, 200.0),
+        "validity": "",
+    }
+    return labels
+
+
+def plain_passes(count: int, start: float) -> PassTable:
+    """A table of `count` complete passes that begin at `start` (s)."""
+    one, time = np.ones(count, np.int16), np.full(count, start)
+    truth = np.ones(count, np.bool_)
+    return PassTable(one, one, one - 1, time, time + 0.01, time + 0.02, time + 0.005, time + 0.015, truth, truth)
+
+
+@pytest.fixture
+def make_plain_record() -> Callable[..., Record]:
+    """A function that gives a record of random numbers; the defect is on the outer race, or there is none."""
+
+    def make(index: int, healthy: bool = False, full: bool = False) -> Record:
+        generator = np.random.default_rng(index)
+        spall = None if healthy else Spall("outer", 1, 4.7, 0.05, 1e-5)
+        noise = generator.standard_normal((SAMPLES, 2)).astype(np.float32)
+        record = Record(
+            index=index,
+            time=np.arange(SAMPLES) / RATE,
+            stiffness_time=np.linspace(0.0, SAMPLES / RATE, 7),
+            acceleration=noise,
+            envelope=np.abs(noise[:, 1]),
+            stiffness=generator.uniform(5e7, 9e7, (3, 7)).astype(np.float32),
+            passes=plain_passes(0 if healthy else 1, 0.01 * index),
+            spalls=() if spall is None else (spall,),
+            labels=plain_labels(index, spall),
+            scenario=f'{{"record": {index}, "umlaut": "ü"}}',
+        )
+        if not full:
+            return record
+        return replace(
+            record,
+            acceleration_clean=noise / 2.0,
+            cage_angle=np.cumsum(generator.random(SAMPLES)),
+            profile_depth=np.zeros((ROWS, 64), np.float32),
+            contact_force=generator.random((SAMPLES, ROWS, BALLS)).astype(np.float32),
+        )
+
+    return make

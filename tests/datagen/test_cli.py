@@ -1,0 +1,136 @@
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.plain import plain_json
+
+ROOT = Path(__file__).parents[2]
+COMMANDS = ("generate", "check", "info", "preview", "catalog")
+HEAVY = ("numpy", "numba", "xarray", "scipy", "pandas", "netCDF4", "pydantic", "joblib", "matplotlib", "rich")
+
+
+def run(*arguments: object) -> tuple[int, str, str]:
+    """Exit code, standard output and standard error of the command with these arguments, run in this process."""
+    done = CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_help_imports_nothing_heavy() -> None:
+    script = (
+        "import sys; sys.argv = ['spallgen', '--help']\n"
+        "from datagen.cli import main\n"
+        "try: main()\n"
+        f"except SystemExit: print('HEAVY', [name for name in {HEAVY} if name in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.endswith("HEAVY []\n")
+
+
+def test_the_module_runs_as_the_command() -> None:
+    done = subprocess.run([sys.executable, "-m", "datagen", "--help"], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0
+    assert all(command in done.stdout for command in COMMANDS)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_shows_an_example_and_takes_json(command: str) -> None:
+    code, shown, _ = run(command, "--help")
+    assert code == 0
+    assert f"Example: spallgen {command}" in shown
+    assert "--json FILE" in shown
+
+
+def test_generate_check_and_info_work_and_write_their_results(tiny_recipe: Path, tmp_path: Path) -> None:
+    out, results = tmp_path / "out", tmp_path / "results.json"
+    code, shown, told = run("generate", tiny_recipe, "--out", out, "--limit", 3, "--workers", 1, "--json", results)
+    assert code == 0, told
+    assert f"3 of 3 records are in {out}" in shown
+    assert json.loads(results.read_text())["made"] == 3
+    code, shown, _ = run("check", out, "--json", results)
+    assert code == 0
+    assert "3 records in" in shown
+    assert "sound" in shown
+    assert json.loads(results.read_text())["problems"] == []
+    code, shown, _ = run("info", out, "--json", results)
+    assert code == 0
+    assert "gearbox 3" in shown
+    assert json.loads(results.read_text())["counts"]["rig"] == {"gearbox": 3}
+
+
+def test_check_ends_with_1_and_says_what_is_wrong(tiny_recipe: Path, tmp_path: Path) -> None:
+    run("generate", tiny_recipe, "--out", tmp_path / "out", "--records", "1", "--workers", 1)
+    shard = next((tmp_path / "out" / "shards").glob("*.nc"))
+    shard.write_bytes(shard.read_bytes()[:-7])
+    code, shown, told = run("check", tmp_path / "out")
+    assert code == 1
+    assert "NOT sound" in shown
+    assert f"{shard.name}: its bytes have changed" in told
+
+
+def test_the_catalogue_gives_every_number_with_its_source(tmp_path: Path) -> None:
+    code, shown, _ = run("catalog", "--json", tmp_path / "c.json")
+    assert code == 0
+    assert "rig gearbox" in shown
+    rows = json.loads((tmp_path / "c.json").read_text())
+    assert all(row["source"] for row in rows)
+    assert any(row["quantity"] == "resonator_mass" and row["value"] == 0.5 for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("generate", "RECIPE"), "--out"),
+        (("generate", "RECIPE", "--out", "OUT", "--limit", "0"), "--limit = 0"),
+        (("generate", "RECIPE", "--out", "OUT", "--limit", "x"), "--limit"),
+        (("generate", "RECIPE", "--out", "OUT", "--records", "1,b"), "--records"),
+        (("generate", "RECIPE", "--out", "OUT", "--records", "99"), "0 to 13"),
+        (("generate", "RECIPE", "--out", "OUT", "--workers", "0"), "--workers = 0"),
+        (("generate", "RECIPE", "--out", "OUT", "--backend", "ray"), "loky, dask"),
+        (("generate", "nowhere.toml", "--out", "OUT"), "nowhere.toml"),
+        (("generate", "RECIPE", "--out", "OUT", "--limt", "3"), "--limit"),
+        (("check", "OUT"), "no corpus"),
+        (("info", "OUT"), "no corpus"),
+        (("preview", "RECIPE", "--record", "99", "--out", "x.png"), "0 to 13"),
+        (("frobnicate",), "frobnicate"),
+    ],
+)
+def test_bad_input_ends_with_2_and_one_clear_message_and_writes_nothing(
+    arguments: tuple[str, ...], words: str, tiny_recipe: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    places = {"RECIPE": str(tiny_recipe), "OUT": str(tmp_path / "out")}
+    code, _, told = run(*(places.get(argument, argument) for argument in arguments))
+    assert code == 2, told
+    assert words in told
+    assert "Traceback" not in told
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_misspelt_setting_of_a_recipe_is_named_with_the_nearest_known(tiny_recipe: Path, tmp_path: Path) -> None:
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(tiny_recipe.read_text().replace("duration_s", "duratoin_s"))
+    code, _, told = run("generate", wrong, "--out", tmp_path / "out")
+    assert code == 2
+    assert "duratoin_s" in told
+    assert '"duration_s"' in told
+    assert not (tmp_path / "out").exists()
+
+
+def test_results_that_cannot_be_written_are_bad_input(tiny_corpus: Path, tmp_path: Path) -> None:
+    code, _, told = run("info", tiny_corpus, "--json", tmp_path / "no" / "such.json")
+    assert code == 2
+    assert "--json" in told
+
+
+def test_json_of_results_has_null_where_a_number_is_not_finite() -> None:
+    assert json.loads(plain_json({"a": (1, float("nan")), 2: {"b": float("inf")}})) == {
+        "a": [1, None],
+        "2": {"b": None},
+    }

@@ -1,0 +1,154 @@
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.info import corpus_info
+from datagen.scenario import Scenario
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def corpus(tiny_corpus: Path) -> Corpus:
+    return Corpus(tiny_corpus)
+
+
+def test_labels_are_read_without_opening_a_shard(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(netCDF4, "Dataset", None)
+    monkeypatch.setattr(xarray, "open_dataset", None)
+    labels = Corpus(tiny_corpus).labels
+    assert len(labels) == 14
+    assert set(labels["rig"]) == {"gearbox", "fan"}
+
+
+def test_a_waveform_is_what_plain_xarray_reads(corpus: Corpus) -> None:
+    for path in sorted((corpus.folder / "shards").glob("*.nc")):
+        with xarray.open_dataset(path) as shard:
+            for position, record in enumerate(shard["record"].values):
+                assert np.array_equal(corpus.waveform(record), shard["acceleration"].values[position])
+                assert np.array_equal(corpus.waveform(record, "stiffness"), shard["stiffness"].values[position])
+
+
+def test_the_dataset_of_a_record_holds_its_own_passes_and_defects_only(corpus: Corpus) -> None:
+    total = 0
+    for record in corpus.labels["record"]:
+        found = corpus.dataset(record)
+        assert set(found["pass_record"].values) <= {record}
+        assert found.sizes["defect"] == found["spalls"]
+        total += found.sizes["ball_pass"]
+    stored = 0
+    for path in (corpus.folder / "shards").glob("*.nc"):
+        with xarray.open_dataset(path) as shard:
+            stored += shard.sizes["ball_pass"]
+    assert total == stored > 0
+
+
+def test_the_scenario_of_a_record_reads_back(corpus: Corpus) -> None:
+    assert corpus.scenario(3)["record"] == 3
+    assert Scenario.from_json(str(corpus.waveform(3, "scenario"))).record == 3
+
+
+def test_contact_force_is_stored_of_the_first_record_of_each_rig_and_condition(corpus: Corpus) -> None:
+    firsts = corpus.labels.groupby(["rig", "condition"])["record"].min()
+    kept = [record for record in corpus.labels["record"] if "contact_force" in corpus.dataset(record)]
+    assert kept == sorted(firsts)
+    for record in kept:
+        assert np.isfinite(corpus.waveform(record, "contact_force")).all()
+
+
+def test_batches_cover_every_record_once_in_order(corpus: Corpus) -> None:
+    gearbox = corpus.labels.query("rig == 'gearbox'")["record"]
+    batches = list(corpus.batches(3, records=gearbox))
+    assert [len(records) for records, _ in batches] == [3, 3, 2]
+    assert list(np.concatenate([records for records, _ in batches])) == list(gearbox)
+    assert np.array_equal(np.concatenate([signals for _, signals in batches]), corpus.to_numpy(records=gearbox))
+
+
+def test_records_of_different_shapes_are_not_stacked(corpus: Corpus) -> None:
+    firsts = corpus.labels.query("condition == 'line'").groupby("rig")["record"].min()
+    with pytest.raises(BadInput, match="differ in shape"):
+        corpus.to_numpy("contact_force", firsts)
+
+
+def test_an_unknown_record_or_signal_is_refused_with_what_is_known(corpus: Corpus) -> None:
+    with pytest.raises(BadInput, match="record = 14: not in this corpus"):
+        corpus.waveform(14)
+    with pytest.raises(BadInput, match=r"velocity.*allowed: .*acceleration"):
+        corpus.waveform(0, "velocity")
+
+
+def test_a_corpus_is_a_sequence_of_signals_and_labels_that_can_be_pickled(corpus: Corpus) -> None:
+    corpus.waveform(0)
+    again = pickle.loads(pickle.dumps(corpus))
+    assert len(again) == 14
+    signal, labels = again[3]
+    assert np.array_equal(signal, corpus.waveform(3))
+    assert labels["record"] == 3
+
+
+def test_few_files_stay_open_however_many_are_read(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("datagen.corpus.OPEN_FILES", 2)
+    corpus = Corpus(tiny_corpus)
+    for record in range(14):
+        corpus.waveform(record)
+        assert len(corpus._shards.files) <= 2
+    corpus.close()
+    assert not corpus._shards.files
+
+
+def test_a_corpus_dropped_without_closing_does_no_harm(tiny_corpus: Path) -> None:
+    for _ in range(20):  # netCDF4 crashed here when its files were left to the garbage collector
+        first = Corpus(tiny_corpus).waveform(0)
+    assert np.isfinite(first).all()
+
+
+def test_a_forked_process_opens_its_own_files(corpus: Corpus) -> None:
+    script = (
+        "import multiprocessing; from datagen.corpus import Corpus\n"
+        f"corpus = Corpus({str(corpus.folder)!r}); before = corpus.waveform(5)\n"
+        "with multiprocessing.get_context('fork').Pool(2) as pool:\n"
+        "    read = pool.map(corpus.waveform, [5] * 8)\n"
+        "print(all((one == before).all() for one in [*read, corpus.waveform(5)]))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stdout == "True\n", done.stderr
+
+
+def test_folds_keep_the_records_of_a_bearing_together_and_use_each_record_once(corpus: Corpus) -> None:
+    bearing = corpus.labels.set_index("record")["bearing_id"]
+    tested = []
+    for train, test in corpus.folds(3):
+        assert not set(bearing[train]) & set(bearing[test])
+        assert sorted([*train, *test]) == list(range(14))
+        tested += list(test)
+    assert sorted(tested) == list(range(14))
+
+
+def test_info_counts_every_record_and_gives_the_ranges_of_the_labels(corpus: Corpus) -> None:
+    info = corpus_info(corpus.folder)
+    assert info.records == info.asked == info.recipe_records == 14
+    assert info.counts["rig"] == {"gearbox": 8, "fan": 6}
+    assert sum(info.counts["condition"].values()) == 14
+    assert (info.ranges["speed_rpm"].smallest, info.ranges["speed_rpm"].largest) == pytest.approx(
+        (420.0, 800.0), rel=1e-12
+    )  # rounding
+    assert info.ranges["snr_db"].missing == 6
+    assert info.bytes == sum(path.stat().st_size for path in (corpus.folder / "shards").glob("*.nc"))
+
+
+def test_a_folder_that_is_no_corpus_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="no corpus"):
+        Corpus(tmp_path)
+    (tmp_path / "manifest.json").write_text('{"name": 3')
+    with pytest.raises(BadInput, match="not a manifest"):
+        Corpus(tmp_path)

@@ -1,0 +1,109 @@
+"""The recipes that come with spallgen: the reference scenes first, then what the dataset promises."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+
+import pytest
+
+from datagen.recipe import load_recipe
+from datagen.recipe_files import shipped_recipes
+from datagen.sampling import draw_scenario
+from datagen.scenario import Scenario
+from physics import catalog
+from physics.spall import Spall
+
+REFERENCES = ["0", "1", "1s", "1p", "2", *["2r"] * 10]
+
+
+def scenarios(name: str) -> list[Scenario]:
+    """Every scenario of a dataset."""
+    recipe = load_recipe(name)
+    return [draw_scenario(recipe, record) for record in range(recipe.count)]
+
+
+def test_the_shipped_datasets_are_the_three_promised() -> None:
+    assert sorted(shipped_recipes()) == ["fan_rig", "gearbox_rig", "quickstart"]
+
+
+@pytest.mark.parametrize(
+    ("name", "rig", "letter", "line_deg", "speed", "load", "clearance"),
+    [
+        ("gearbox_rig", "gearbox", "G", 2.0, 2 * math.pi * 7, 346.0, 0.0),
+        ("fan_rig", "fan", "F", 2.6, 2 * math.pi * 800 / 60, 100.0, 3e-6),
+    ],
+)
+def test_a_rigs_dataset_starts_with_the_reference_scenes(
+    name: str, rig: str, letter: str, line_deg: float, speed: float, load: float, clearance: float
+) -> None:
+    drawn = scenarios(name)[: len(REFERENCES)]
+    assert [scenario.part for scenario in drawn] == [letter + label for label in REFERENCES]
+    for scenario in drawn:
+        scene = scenario.scene
+        assert scene.rig == catalog.rig(rig)
+        assert scene.rig.bearing.clearance == clearance
+        assert (scene.operation.shaft_speed, scene.operation.load) == (pytest.approx(speed, rel=1e-15), load)
+        assert (scene.operation.unbalance_force, scene.operation.load_fluctuation) == (0.0, 0.0)
+        assert (scene.cage.knot_values, scene.cage.mean_slip, scene.cage.start_angle) == ((), 0.0, 0.0)
+        assert (scenario.rate, scenario.duration, scenario.background.white_rms) == (65536.0, 0.5, 0.0)
+        assert scene.imperfections.waviness == scene.imperfections.ball_deviation == ()
+        assert scene.contact_law == "paper"
+    healthy, *defective = (scenario.scene.spalls for scenario in drawn)
+    assert healthy == ()
+    line, arc, taper = math.radians(line_deg), math.radians(40), math.radians(0.3)
+    for spalls, expected in zip(
+        defective,
+        [
+            (line, 12e-6, taper, taper, "tukey"),
+            (line, 12e-6, 0.9 * line, 0.1 * line, "tukey"),
+            (line, 200e-6, 0.0, 0.0, "ball_path"),
+            (arc, 4e-6, math.radians(1), math.radians(1), "tukey"),
+            *[(arc, 6e-6, math.radians(1), math.radians(1), "tukey")] * 10,
+        ],
+        strict=True,
+    ):
+        (spall,) = spalls
+        assert (spall.race, spall.row, spall.angle) == ("outer", 1, math.radians(270))
+        assert (spall.extent, spall.depth, spall.entry_taper, spall.exit_taper, spall.profile) == expected
+    rough = [spalls[0] for spalls in defective[4:]]
+    assert all(spall.roughness == 2e-6 for spall in rough)
+    assert len({spall.roughness_values for spall in rough}) == 10
+    assert all(spalls[0].roughness_values == () for spalls in defective[:4])
+
+
+@pytest.mark.parametrize("name", ["gearbox_rig", "fan_rig"])
+def test_a_rigs_dataset_goes_on_with_all_conditions_both_races_and_both_profiles(name: str) -> None:
+    drawn = scenarios(name)[len(REFERENCES) :]
+    assert 180 <= len(drawn) <= 220
+    classes = Counter((scenario.condition, scenario.location) for scenario in drawn)
+    assert min(classes.values()) >= 20
+    assert set(classes) == {("healthy", "none"), *((c, r) for c in ("line", "extended") for r in ("outer", "inner"))}
+    spalls = [spall for scenario in drawn for spall in scenario.scene.spalls]
+    assert {spall.profile for spall in spalls} == {"tukey", "ball_path"}
+    assert all(scenario.background.white_rms > 0.0 for scenario in drawn)
+    machines = Counter(scenario.bearing_id for scenario in drawn)
+    assert set(machines.values()) == {5}
+
+
+@pytest.mark.parametrize("name", ["quickstart", "gearbox_rig", "fan_rig"])
+def test_drawn_sizes_leave_a_clear_gap_between_line_and_extended(name: str) -> None:
+    for scenario in scenarios(name):
+        shares = [spall.extent / scenario.scene.rig.bearing.spacing for spall in scenario.scene.spalls]
+        assert all(0.02 <= share <= 0.31 or share >= 1.0 for share in shares)
+
+
+def test_the_quick_start_holds_sixty_records_of_both_rigs_with_every_class_in_every_split() -> None:
+    drawn = scenarios("quickstart")
+    assert len(drawn) == 60
+    classes = Counter((scenario.rig, scenario.condition, scenario.location) for scenario in drawn)
+    assert len(classes) == 10
+    assert min(classes.values()) >= 5
+    assert len({(scenario.split, scenario.condition) for scenario in drawn}) == 9
+    store = load_recipe("quickstart").store
+    assert (store.clean, store.cage_angle, store.profile, store.contact_force) == (True, True, True, "first_of_each")
+
+
+def test_outer_spalls_of_the_datasets_lie_near_the_load_zone() -> None:
+    spalls: list[Spall] = [s.scene.spalls[0] for s in scenarios("quickstart") if s.location == "outer"]
+    assert all(math.radians(225) <= spall.angle <= math.radians(315) for spall in spalls)

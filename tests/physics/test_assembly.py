@@ -1,0 +1,78 @@
+"""From a scene to the arrays of the kernels: which ball is where, on which cage, over which race."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from physics.assembly import assemble, race_speed
+from physics.cage import CagePath, draw_slip_knots
+from physics.contact import COMPRESSION, FRAME_COSINE, FRAME_SINE, FRAME_SPEED, press, reset_contact, set_time
+
+REST, MOVING = (1e-6, -6e-6), (2e-3, -3e-3)
+
+
+def net_force(scene):
+    """Net force (2,) of the balls that touch, N."""
+    model = assemble(scene)
+    set_time(model.balls, model.frames, model.track, 0.0123)
+    press(model.balls, model.frames, model.law, *REST, *MOVING)
+    reset_contact(model.balls, model.law)
+    return press(model.balls, model.frames, model.law, *REST, *MOVING)
+
+
+def slipping(scene, seed, start_angle, knot_time):
+    step, first, values = draw_slip_knots(np.random.default_rng(seed), 0.05, knot_time, 0.5)
+    return CagePath(scene.cage.nominal_speed, 0.5, start_angle, 0.02, step, first, values)
+
+
+def test_the_contact_angle_enters_as_its_cosine_to_the_power_n_plus_1(gearbox, build_scene):
+    tilted = build_scene(gearbox, start_angle=0.2, bearing={"contact_angle": math.radians(25)})
+    straight = build_scene(gearbox, start_angle=0.2)
+    laws = assemble(tilted).law, assemble(straight).law
+    cosine = math.cos(math.radians(25))
+    assert laws[0].stiffness / laws[1].stiffness == pytest.approx(cosine**2.5, rel=1e-14)
+    assert laws[0].damping / laws[1].damping == pytest.approx(cosine**2, rel=1e-14)
+
+
+def test_padding_never_touches(gearbox, build_scene):
+    model = assemble(build_scene(gearbox, bearing={"rows": 1, "balls": 7}))
+    assert model.balls.shape == (1, 9, 8)
+    assert model.ball.tolist() == [0, 1, 2, 3, 4, 5, 6, -1]
+    assert model.row.tolist() == [0] * 7 + [-1]
+    set_time(model.balls, model.frames, model.track, 0.1)
+    press(model.balls, model.frames, model.law, 1e-3, 1e-3, 0.0, 0.0)
+    assert model.balls[0, COMPRESSION, 7] < 0.0
+
+
+def test_rows_of_one_cage_lie_side_by_side_and_rows_of_two_cages_apart(gearbox, build_scene):
+    scene = build_scene(gearbox)
+    together = assemble(scene)
+    assert together.balls.shape == (1, 9, 24)
+    assert together.row.tolist() == [0] * 12 + [1] * 12
+    apart = assemble(dataclasses.replace(scene, second_cage=scene.cage))
+    assert apart.balls.shape == (2, 9, 12)
+    assert apart.row.tolist() == together.row.tolist()
+    assert apart.ball.tolist() == together.ball.tolist() == [*range(12), *range(12)]
+    assert net_force(scene) == pytest.approx(net_force(dataclasses.replace(scene, second_cage=scene.cage)), rel=1e-12)
+
+
+@pytest.mark.parametrize("time", [-0.01, 0.0, 0.1234, 0.4999, 0.5, 0.52])
+def test_the_kernels_read_the_cage_path_even_where_one_cage_has_fewer_knots(gearbox, build_scene, time):
+    scene = build_scene(gearbox)
+    fine = slipping(scene, 2, 1.0, 0.02)
+    coarse = CagePath(scene.cage.nominal_speed, 0.5, 0.2, 0.02, 0.1, 0.0, (0.03, -0.04, 0.01, 0.02, -0.05, 0.04))
+    model = assemble(dataclasses.replace(scene, cage=coarse, second_cage=fine))
+    set_time(model.balls, model.frames, model.track, time)
+    for frame, cage in zip(model.frames, (coarse, fine), strict=True):
+        angle = float(cage.polynomial(time))
+        assert frame[FRAME_COSINE] == pytest.approx(math.cos(angle), abs=1e-12)
+        assert frame[FRAME_SINE] == pytest.approx(math.sin(angle), abs=1e-12)
+        assert frame[FRAME_SPEED] == pytest.approx(float(cage.polynomial(time, nu=1)), rel=1e-12)
+
+
+def test_a_race_turns_with_the_shaft_or_not_at_all(gearbox, build_scene):
+    scene = build_scene(gearbox)
+    assert race_speed(scene, "outer") == 0.0
+    assert race_speed(scene, "inner") == pytest.approx(2 * math.pi * 7.0)

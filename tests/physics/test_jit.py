@@ -1,0 +1,170 @@
+"""The door to numba: one cache folder per content of the physics, kernels that agree, a cure for a damaged cache."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+
+import physics
+from physics import _jit
+from physics._jit import CACHE_FOLDER, fingerprint, njit, njit_inline, specialise
+
+PACKAGE = Path(physics.__file__).parent
+
+
+@pytest.fixture
+def copied(tmp_path, monkeypatch):
+    """A copy of the physics package which `fingerprint` reads instead."""
+    copy = tmp_path / "physics"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(_jit, "__file__", str(copy / "_jit.py"))
+    return copy
+
+
+def test_a_copy_of_the_physics_has_the_same_fingerprint(copied, monkeypatch):
+    of_copy = fingerprint()
+    monkeypatch.undo()
+    assert of_copy == fingerprint()
+    assert len(of_copy) == 16
+
+
+@pytest.mark.parametrize("name", ["contact.py", "integrators/march.py", "_jit.py"])
+def test_the_fingerprint_changes_with_the_text_of_any_file(copied, name):
+    before = fingerprint()
+    file = copied / name
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text + "\n", encoding="utf-8")
+    assert fingerprint() != before
+    file.write_text(text, encoding="utf-8")
+    assert fingerprint() == before
+
+
+def test_the_fingerprint_changes_when_a_file_comes_goes_or_is_renamed(copied):
+    before = fingerprint()
+    (copied / "new.py").write_text("", encoding="utf-8")
+    with_new = fingerprint()
+    (copied / "new.py").rename(copied / "newer.py")
+    assert len({before, with_new, fingerprint()}) == 3
+    (copied / "newer.py").unlink()
+    assert fingerprint() == before
+
+
+def test_the_fingerprint_does_not_depend_on_anything_but_python_files(copied):
+    before = fingerprint()
+    (copied / "notes.txt").write_text("not physics", encoding="utf-8")
+    (copied / "__pycache__").mkdir()
+    (copied / "__pycache__" / "contact.pyc").write_bytes(b"compiled")
+    assert fingerprint() == before
+
+
+def test_the_cache_folder_is_named_by_a_fingerprint_and_the_version_of_numba():
+    name, version = CACHE_FOLDER.name.split("-", 1)
+    assert len(name) == 16
+    assert version == f"numba{numba.__version__}"
+    assert Path(numba.config.CACHE_DIR) == CACHE_FOLDER
+
+
+def polynomial(values):
+    total = 0.0
+    for k in range(values.size):
+        total += values[k] * values[k] / (1.0 + values[k])
+    return total
+
+
+called = njit(polynomial)
+pasted = njit_inline(polynomial)
+
+
+@njit
+def calling(values):
+    return 3.0 * called(values) - values[0]
+
+
+@njit
+def pasting(values):
+    return 3.0 * pasted(values) - values[0]
+
+
+def test_a_pasted_kernel_gives_the_same_bits_as_a_called_one_and_as_plain_python():
+    values = np.random.default_rng(0).uniform(0.0, 2.0, 1001)
+    assert calling(values) == pasting(values) == 3.0 * polynomial(values) - values[0]
+
+
+def test_a_kernel_divides_by_zero_as_numpy_does():
+    assert called(np.array([-1.0])) == np.inf
+
+
+slope = 1.0  # replaced by each binding
+
+
+def line(x):
+    """A straight line."""
+    return slope * x
+
+
+def test_a_specialised_kernel_has_its_bindings_built_in():
+    steep, flat = specialise(line, "steep", slope=3.0), specialise(line, "flat", slope=0.5)
+    assert (steep(2.0), flat(2.0)) == (6.0, 1.0)
+    assert steep.__name__ == "steep"
+    assert flat.__doc__ == line.__doc__
+
+
+KERNEL = """
+import sys
+from physics._jit import CACHE_FOLDER, discard_cache, njit
+
+@njit
+def square(x):
+    return x * x
+
+try:
+    answer = square(3.0)
+except Exception as damage:
+    discard_cache()
+    answer = square(3.0)
+    print("damaged", type(damage).__name__)
+print(answer, sum(square.stats.cache_hits.values()))
+print(CACHE_FOLDER)
+"""
+
+
+def run_kernel(folder, home):
+    script = folder / "kernel.py"
+    if not script.exists():
+        script.write_text(KERNEL, encoding="utf-8")
+    environment = {**os.environ, "SPALLGEN_CACHE": str(home), "PYTHONPATH": str(PACKAGE.parent)}
+    done = subprocess.run(
+        [sys.executable, str(script)], env=environment, capture_output=True, text=True, check=False, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def test_a_cut_cache_file_is_cured_by_discarding_the_cache(tmp_path):
+    home = tmp_path / "cache"
+    answer, folder = run_kernel(tmp_path, home)
+    assert answer == "9.0 0"
+    assert Path(folder).parent == home / "spallgen"
+    assert run_kernel(tmp_path, home)[0] == "9.0 1"
+    cut = sorted(Path(folder).rglob("*.nb[ci]"))
+    assert len(cut) == 2
+    for file in cut:
+        file.write_bytes(file.read_bytes()[:10])
+    damaged, answer, _ = run_kernel(tmp_path, home)
+    assert damaged.startswith("damaged")
+    assert answer.startswith("9.0")
+    assert run_kernel(tmp_path, home)[0] == "9.0 1"
+
+
+def test_without_a_writable_place_the_cache_goes_to_a_temporary_folder(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder", encoding="utf-8")
+    answer, folder = run_kernel(tmp_path, blocked)
+    assert answer == "9.0 0"
+    assert "spallgen-cache-" in folder
+    shutil.rmtree(folder)

@@ -1,0 +1,142 @@
+"""What `simulate` refuses and how it says so, and what its options give back."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import physics.response
+from physics.operation import Operation
+from physics.outcome import Outcome, SimulationFailed
+from physics.simulate import simulate
+
+RATE = 65536.0
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def with_rig(scene, **changes):
+    return dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, **changes))
+
+
+def with_bearing(scene, **changes):
+    return with_rig(scene, bearing=dataclasses.replace(scene.rig.bearing, **changes))
+
+
+@pytest.mark.parametrize(
+    ("request_made", "told"),
+    [
+        ({"method": "euler"}, 'method = "euler"; allowed: exponential_rk4, reference'),
+        ({"rate": 0.0}, r"rate = 0\.0 Hz; it must be above 0"),
+        ({"rate": -5.0}, r"rate = -5\.0 Hz"),
+        ({"rate": math.nan}, "rate = nan Hz"),
+        ({"rate": math.inf}, "rate = inf Hz"),
+        ({"rate": 10.0}, r"a duration of 0\.02 s holds no sample at 10 Hz"),
+        ({"substeps": 0}, "substeps = 0; it must be"),
+        ({"substeps": -3}, "substeps = -3; it must be"),
+        ({"substeps": 1.5}, r"substeps = 1\.5; it must be"),
+    ],
+)
+def test_a_bad_request_is_refused_with_the_argument_and_its_value(request_made, told, reference_scene):
+    chosen = {"rate": RATE} | request_made
+    with pytest.raises(SimulationFailed, match=told) as caught:
+        simulate(reference_scene("G1", 0.02), **chosen)
+    assert caught.value.outcome is Outcome.BAD_REQUEST
+    assert str(caught.value).endswith(caught.value.remedy)
+
+
+def test_a_load_that_no_position_carries_is_told_with_the_load(reference_scene):
+    soft = with_bearing(reference_scene("G0", 0.02), load_deflection=1e5)
+    scene = dataclasses.replace(soft, operation=Operation(44.0, 1e7))
+    with pytest.raises(
+        SimulationFailed, match=r"at t = 0 no position of the shaft carries the load of 1e\+07 N"
+    ) as caught:
+        simulate(scene, RATE)
+    assert caught.value.outcome is Outcome.NO_START
+
+
+@pytest.mark.parametrize("absurd", [{"film_damping": 1e6}, {"inner_mass": 1e-5}])
+def test_a_response_that_blows_up_is_told_with_the_step(absurd, reference_scene):
+    with pytest.raises(
+        SimulationFailed, match=r"stopped being finite with steps of 1\.53e-05 s; use a shorter"
+    ) as caught:
+        simulate(with_rig(reference_scene("G1", 0.05), **absurd), RATE, substeps=1, estimate_error=False)
+    assert caught.value.outcome is Outcome.NOT_FINITE
+
+
+def test_more_contact_changes_than_can_be_logged_are_told(reference_scene, monkeypatch):
+    monkeypatch.setattr(physics.response, "FIRST_CHANGE_LOG", 4)
+    monkeypatch.setattr(physics.response, "LARGEST_CHANGE_LOG", 32)
+    with pytest.raises(SimulationFailed, match=r"more than 32 changes of contact in 0\.5 s") as caught:
+        simulate(reference_scene("G1", 0.5), RATE, estimate_error=False)
+    assert caught.value.outcome is Outcome.TOO_MANY_CHANGES
+
+
+def test_a_log_that_was_too_short_at_first_changes_nothing(reference_scene, reference_trace, monkeypatch):
+    once = reference_trace("G1", 0.5)
+    monkeypatch.setattr(physics.response, "FIRST_CHANGE_LOG", 4)
+    again = simulate(reference_scene("G1", 0.5), RATE, substeps=1, estimate_error=False)
+    assert np.array_equal(again.acceleration, once.acceleration)
+    assert np.array_equal(again.changes.time, once.changes.time)
+
+
+def test_states_and_forces_are_kept_only_when_asked_for_and_do_not_touch_the_response(reference_scene):
+    scene = reference_scene("F1", 0.03)
+    bare = simulate(scene, RATE, estimate_error=False)
+    full = simulate(scene, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    samples = round(0.03 * RATE)
+    assert bare.state is None
+    assert bare.contact_force is None
+    assert bare.acceleration.shape == (samples, 2)
+    assert full.state.shape == (samples, 12)
+    assert full.contact_force.shape == (samples, 2, 14)
+    assert np.array_equal(bare.acceleration, full.acceleration)
+    assert np.array_equal(bare.time, np.arange(samples) / RATE)
+
+
+def test_the_same_scene_gives_the_same_bits_again(reference_scene):
+    scene = reference_scene("G2r", 0.05, slip_seed=3)
+    first, second = simulate(scene, RATE), simulate(scene, RATE)
+    assert np.array_equal(first.acceleration, second.acceleration)
+    assert first.error_estimate == second.error_estimate
+
+
+@pytest.mark.parametrize("name", ["G1", "F1s"])
+def test_the_start_is_at_rest_in_static_equilibrium(name, reference_scene):
+    scene = reference_scene(name, 0.001)
+    trace = simulate(scene, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    assert np.all(trace.state[0, 6:] == 0.0)
+    assert np.all(trace.acceleration[0] == 0.0)
+    support = scene.rig.support_stiffness_y * trace.state[0, 3]
+    assert support == pytest.approx(-scene.operation.load, rel=1e-12)  # a single spring carries the load
+    # The film adds forces because the balls roll into and out of their load at once: a few hundredths of a newton.
+    angle = 2.0 * np.pi * np.arange(scene.rig.bearing.balls) / scene.rig.bearing.balls
+    rows = np.array([angle, angle + np.pi / scene.rig.bearing.balls])
+    assert np.sum(trace.contact_force[0] * np.sin(rows)) == pytest.approx(-scene.operation.load, rel=1e-3)
+
+
+def test_a_low_rate_is_simulated_at_a_higher_one_and_lowered_without_aliasing(reference_scene, reference_trace):
+    high = reference_trace("G1", 0.5).acceleration[:, 1]
+    low_rate = RATE / 8.0
+    low = simulate(reference_scene("G1", 0.5), low_rate, estimate_error=False).acceleration[:, 1]
+    assert low.size == high.size // 8
+    # Both records keep what lies below 3 kHz; the resonator at 10.5 kHz, far stronger, would alias to 2.3 kHz.
+    spectra = [np.fft.rfft(signal * np.hanning(signal.size)) / signal.size for signal in (high, low)]
+    below = np.fft.rfftfreq(low.size, 1.0 / low_rate) < 3000.0
+    error = np.abs(spectra[0][: below.size][below] - spectra[1][below])
+    assert rms(error) < 1e-3 * rms(np.abs(spectra[0][: below.size][below]))  # the filter's ripple of -80 dB
+
+
+def test_a_low_rate_gives_the_states_and_forces_of_its_own_instants(reference_scene):
+    scene = reference_scene("G1", 0.0625)
+    low = simulate(scene, RATE / 4.0, keep_state=True, keep_force=True, estimate_error=False)
+    high = simulate(scene, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    assert np.array_equal(low.time, high.time[::4])
+    for kept in ("state", "contact_force"):
+        here, there = getattr(low, kept), getattr(high, kept)[::4]
+        assert here.shape == there.shape
+        error = np.abs(here - there).reshape(here.shape[0], -1).max(axis=0)
+        assert np.all(error <= 5e-3 * np.abs(there).reshape(here.shape[0], -1).max(axis=0))  # two errors of one step

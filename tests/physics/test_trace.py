@@ -1,0 +1,69 @@
+"""What a simulation gives back is a plain record that nobody changes by accident."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from physics.simulate import simulate
+from physics.spall import Spall
+from physics.trace import ContactChanges, Trace
+
+RATE = 65536.0
+LINE = Spall("outer", 1, 4.712388980384690, 0.035, 12e-6, 0.005, 0.005)
+
+
+@pytest.fixture(scope="module")
+def trace(gearbox, build_scene):
+    scene = build_scene(gearbox, LINE, start_angle=0.1)
+    short = dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, duration=0.1))
+    return simulate(short, RATE, keep_state=True, keep_force=True)
+
+
+def test_a_trace_holds_one_row_a_sample(trace):
+    count = round(0.1 * RATE)
+    assert trace.time == pytest.approx(np.arange(count) / RATE, abs=1e-15)
+    assert trace.acceleration.shape == (count, 2)
+    assert trace.state.shape == (count, 12)
+    assert trace.contact_force.shape == (count, 2, 12)
+    assert trace.rate == RATE
+
+
+def test_states_and_forces_are_absent_unless_asked_for():
+    none = np.zeros(0)
+    nobody = np.zeros(0, dtype=np.int16)
+    changes = ContactChanges(none, nobody, nobody, np.zeros(0, dtype=bool), np.ones((1, 8), dtype=bool))
+    bare = Trace(RATE, none, np.zeros((0, 2)), changes, "model", "method", 1 / RATE, 0.0, 0.0)
+    assert bare.state is None
+    assert bare.contact_force is None
+    assert bare.unlocated_changes == 0
+
+
+def test_a_trace_cannot_be_changed_by_assignment(trace):
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        trace.rate = 1.0
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        trace.changes.time = np.zeros(0)
+
+
+def test_contact_changes_are_in_time_order_and_name_balls_from_one(trace):
+    changes = trace.changes
+    assert changes.time.size == changes.row.size == changes.ball.size == changes.made.size > 0
+    assert np.all(np.diff(changes.time) >= 0.0)
+    assert {1, 2} >= set(changes.row.tolist())
+    assert set(range(1, 13)) >= set(changes.ball.tolist())
+    assert changes.initial.shape == (2, 12)
+
+
+def test_replaying_the_changes_from_the_first_contact_set_gives_the_balls_that_carry_force(trace):
+    held = trace.changes.initial.copy()
+    contact = np.empty(trace.contact_force.shape, dtype=bool)
+    place = 0
+    for k, time in enumerate(trace.time):
+        while place < trace.changes.time.size and trace.changes.time[place] <= time:
+            here = trace.changes.row[place] - 1, trace.changes.ball[place] - 1
+            assert held[here] != trace.changes.made[place]
+            held[here] = trace.changes.made[place]
+            place += 1
+        contact[k] = held
+    assert np.array_equal(contact, trace.contact_force != 0.0)

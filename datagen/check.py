@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from datagen.corpus import Corpus
     from datagen.recipe import Recipe
 
 LARGEST_DIFFERENCE = 1e-3
@@ -30,8 +31,8 @@ LARGEST_DIFFERENCE = 1e-3
 class Verdict:
     """What a check found: `problems` are sentences (none: all is well).
 
-    `remade` are the records simulated again, `largest_difference` the largest RMS difference of their acceleration
-    from what is stored, relative to its RMS.
+    `remade` are the records simulated again (none with other physics than theirs), `largest_difference` the largest
+    RMS difference of their acceleration from what is stored, relative to its RMS.
     """
 
     folder: str
@@ -157,8 +158,16 @@ class _Check:
         if content_hash(dataset) != sidecar.content:
             yield "its arrays are not those that were written"
         yield from violations(dataset)
+        yield from self._missing_signals(dataset)
         yield from self._wrong_labels(sidecar, dataset)
         yield from self._wrong_scenarios(dataset)
+
+    def _missing_signals(self, dataset: xarray.Dataset) -> Iterator[str]:
+        from datagen.plan import signals_of_every_record
+
+        for name in signals_of_every_record(self.recipe) if self.recipe else ():
+            if name not in dataset:
+                yield f"{name} is missing, but the recipe asks for it"
 
     def _wrong_labels(self, sidecar: Sidecar, dataset: xarray.Dataset) -> Iterator[str]:
         if label_columns(dataset) != sidecar.labels:
@@ -203,24 +212,32 @@ class _Check:
     def remake(self, count: int) -> None:
         """Simulate `count` records, spread over the corpus, again from their stored scenarios and compare."""
         from datagen.corpus import Corpus
-        from datagen.record import make_record
-        from datagen.scenario import Scenario
+        from physics._jit import fingerprint
 
-        if not count or not self.records or self.index is None or self.problems:
+        if not count or not self.records or self.problems or self.manifest.identity.model_hash != fingerprint():
             return
         ordered = sorted(self.records)
         corpus = Corpus(self.folder)
         for place in np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int)):
-            record = ordered[place]
-            text = str(corpus.waveform(record, "scenario"))
-            again = make_record(Scenario.from_json(text), ()).acceleration.astype(np.float64)
-            stored = corpus.waveform(record).astype(np.float64)
-            difference = float(np.sqrt(np.mean((again - stored) ** 2) / np.mean(stored**2)))
-            self.remade.append(record)
-            self.difference = max(self.difference, difference)
-            if not difference <= LARGEST_DIFFERENCE:
-                self.problems.append(
-                    f"record {record} simulated again from its scenario differs by {difference:.2g} of its RMS; "
-                    f"allowed: {LARGEST_DIFFERENCE:g}"
-                )
+            self._remake_one(corpus, ordered[place])
         corpus.close()
+
+    def _remake_one(self, corpus: Corpus, record: int) -> None:
+        from datagen.record import make_record
+        from datagen.scenario import Scenario
+        from physics.outcome import SimulationFailed
+
+        stored = corpus.waveform(record).astype(np.float64)
+        try:
+            again = make_record(Scenario.from_json(str(corpus.waveform(record, "scenario")))).acceleration
+        except (BadInput, SimulationFailed) as problem:
+            self.problems.append(f"record {record} cannot be simulated again from its scenario: {problem}")
+            return
+        difference = float(np.sqrt(np.mean((again.astype(np.float64) - stored) ** 2) / np.mean(stored**2)))
+        self.remade.append(record)
+        self.difference = max(self.difference, difference)
+        if not difference <= LARGEST_DIFFERENCE:
+            self.problems.append(
+                f"record {record} simulated again from its scenario differs by {difference:.2g} of its RMS; "
+                f"allowed: {LARGEST_DIFFERENCE:g}"
+            )

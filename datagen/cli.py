@@ -44,6 +44,7 @@ def command(example: str) -> Callable[[Command], Command]:
         @functools.wraps(function)
         def guarded(*args: Any, **options: Any) -> None:
             try:
+                _check_json(options["json_file"])
                 function(*args, **options)
             except BadInput as problem:
                 _complain(f"error: {problem}")
@@ -119,14 +120,16 @@ def check(
     _write_json(json_file, verdict)
     for sentence in verdict.problems:
         _complain(sentence)
-    _tell_verdict(verdict)
+    _tell_verdict(verdict, remake)
     if not verdict.sound:
         raise typer.Exit(FAILED)
 
 
-def _tell_verdict(verdict: Verdict) -> None:
+def _tell_verdict(verdict: Verdict, remake: int) -> None:
     state = "sound" if verdict.sound else f"NOT sound: {len(verdict.problems)} problems"
     print(f"{verdict.folder}: {verdict.records} records in {verdict.shards} shards, {state}")
+    if not verdict.remade and verdict.sound and remake:
+        print("not simulated again: this program's physics are another version than the corpus's")
     if verdict.remade:
         names = ", ".join(map(str, verdict.remade))
         print(
@@ -154,8 +157,13 @@ def preview(
 ) -> None:
     """Draw one record: trace, spectrogram, envelope spectrum, stiffness and profile."""
     from datagen.preview import draw_preview
+    from physics.outcome import SimulationFailed
 
-    drawn = draw_preview(source, record, out)
+    try:
+        drawn = draw_preview(source, record, out)
+    except SimulationFailed as failure:
+        _complain(f"record {record} could not be made: {failure}")
+        raise typer.Exit(FAILED) from None
     _write_json(json_file, {"record": record, "picture": str(out), "facts": drawn})
     print(f"record {record} of {source} is drawn in {out}")
 
@@ -175,6 +183,12 @@ def _show(tables: list[Table]) -> None:
     console = Console(width=None if sys.stdout.isatty() else 140)
     for table in tables:
         console.print(table)
+
+
+def _check_json(path: Path | None) -> None:
+    """Refuse a file of results that cannot be written, before any work is done."""
+    if path is not None and not path.absolute().parent.is_dir():
+        raise BadInput("no such folder", field="--json", value=str(path), allowed="a file in an existing folder")
 
 
 def _write_json(path: Path | None, result: Any) -> None:

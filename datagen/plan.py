@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from datagen.errors import BadInput
+from datagen.format import ZLIB_SHARE
 from datagen.manifest import Span, add_spans
 from datagen.recipe import Recipe
 from datagen.record import PROFILE_POINTS
@@ -22,13 +23,13 @@ from labels.variables import AXES, COMPONENTS, SIGNALS
 class PlannedShard:
     """A shard of the whole corpus: its number, its records and the optional signals that they all store.
 
-    `record_bytes` is the size of the signals of one record before compression, `record_seconds` its length.
+    `record_bytes` is about what the signals of one record need on the disk, `record_seconds` its length.
     """
 
     number: int
     records: tuple[int, ...]
     stored: tuple[str, ...]
-    record_bytes: int
+    record_bytes: float
     record_seconds: float
 
 
@@ -48,7 +49,8 @@ def plan_shards(recipe: Recipe, stop: int) -> list[PlannedShard]:
         kind = (shard_key(scenario), stored)
         if kind not in growing:
             growing[kind] = len(shards)
-            shards.append(PlannedShard(len(shards), (), stored, signal_bytes(scenario, stored), scenario.duration))
+            size = stored_bytes(scenario, stored, recipe.store.compression)
+            shards.append(PlannedShard(len(shards), (), stored, size, scenario.duration))
         place = growing[kind]
         shards[place] = replace(shards[place], records=(*shards[place].records, record))
         if len(shards[place].records) == recipe.store.records_per_shard:
@@ -58,21 +60,27 @@ def plan_shards(recipe: Recipe, stop: int) -> list[PlannedShard]:
 
 def stored_signals(recipe: Recipe, scenario: Scenario, forces_kept: set[tuple[str, str]]) -> tuple[str, ...]:
     """Names of the optional signals stored of a record; `forces_kept` collects the kinds whose first has been met."""
-    store = recipe.store
     kind = (scenario.rig, scenario.condition)
     first = kind not in forces_kept
     forces_kept.add(kind)
-    wanted = {
+    keep_force = recipe.store.contact_force == "first_of_each" and first
+    return signals_of_every_record(recipe) + (("contact_force",) if keep_force else ())
+
+
+def signals_of_every_record(recipe: Recipe) -> tuple[str, ...]:
+    """Names of the optional signals that the recipe asks of every record."""
+    store = recipe.store
+    asked = {
         "acceleration_clean": store.clean,
         "cage_angle": store.cage_angle,
         "profile_depth": store.profile,
-        "contact_force": store.contact_force == "all" or (store.contact_force == "first_of_each" and first),
+        "contact_force": store.contact_force == "all",
     }
-    return tuple(name for name, keep in wanted.items() if keep)
+    return tuple(name for name, keep in asked.items() if keep)
 
 
-def signal_bytes(scenario: Scenario, stored: tuple[str, ...]) -> int:
-    """Size of the signals of one record before compression."""
+def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) -> float:
+    """About what the signals of one record need on the disk."""
     bearing = scenario.scene.rig.bearing
     sizes = {
         "record": 1,
@@ -84,8 +92,17 @@ def signal_bytes(scenario: Scenario, stored: tuple[str, ...]) -> int:
         "row": bearing.rows,
         "ball": bearing.balls,
     }
-    kept = [signal for signal in SIGNALS if signal.stored == "always" or signal.name in stored]
-    return sum(math.prod(sizes[dim] for dim in one.dims) * np.dtype(one.dtype).itemsize for one in kept)
+    total = 0.0
+    for signal in SIGNALS:
+        if signal.stored == "always" or signal.name in stored:
+            raw = math.prod(sizes[dim] for dim in signal.dims) * np.dtype(signal.dtype).itemsize
+            total += raw * (ZLIB_SHARE[signal.name] if compression == "zlib" else 1.0)
+    return total
+
+
+def needed_bytes(shards: Sequence[PlannedShard]) -> float:
+    """About what the shards need on the disk."""
+    return sum(len(shard.records) * shard.record_bytes for shard in shards)
 
 
 def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) -> tuple[Span, ...]:

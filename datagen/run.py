@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from datagen.atomic import NO_SPACE, sweep_temporaries, write_atomically
-from datagen.format import MEASURED_RATIO, Identity
+from datagen.format import Identity
 from datagen.index import write_index
 from datagen.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
-from datagen.plan import PlannedShard
+from datagen.plan import PlannedShard, needed_bytes
 from datagen.progress import Reporter, for_people
 from datagen.recipe import Recipe
 from datagen.shard import Failure, Sidecar, finished_shards
@@ -157,17 +157,13 @@ class Run:
         return todo
 
     def _announce(self, todo: Sequence[PlannedShard]) -> None:
-        needed, free = self._needed_bytes(todo), shutil.disk_usage(self.folder).free
+        needed, free = needed_bytes(todo), shutil.disk_usage(self.folder).free
         count = sum(len(shard.records) for shard in todo)
         warning = "" if needed < free else ": the disk will be full before the end"
         self.reporter.say(
             f"{count} records in {len(todo)} shards to make; they need about {for_people(needed)} of disk, "
             f"{for_people(free)} are free{warning}"
         )
-
-    def _needed_bytes(self, todo: Iterable[PlannedShard]) -> float:
-        raw = sum(len(shard.records) * shard.record_bytes for shard in todo)
-        return raw / MEASURED_RATIO[self.recipe.store.compression]
 
     def _make_persistently(self, todo: list[PlannedShard]) -> None:
         """Make the shards together; when workers keep dying, those under way one by one, to find the cause."""
@@ -221,7 +217,7 @@ class Run:
         return replace(self.engine, timeout=LONGEST_TASK_BASE + LONGEST_TASK_FACTOR * longest)
 
     def _out_of_space(self, todo: Sequence[PlannedShard]) -> str:
-        missing = max(self._needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
+        missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
         return (
             f"the disk is full: {sum(len(shard.records) for shard in todo)} records are not made, and about "
             f"{for_people(missing)} more are needed; finished shards are kept, and the same command goes on from there"

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import platform
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 PACKAGES = ("spallgen", "numpy", "scipy", "numba", "xarray", "netCDF4")
 
 
+@cache
 def program_hash() -> str:
     """Hash of the text of every Python file of `labels` and `datagen`, 16 hexadecimal digits."""
     root = Path(__file__).parents[1]

@@ -30,8 +30,8 @@ METHODS = (*MARCHES, REFERENCE)
 STEPS_PER_FAST_PERIOD = 6.2
 SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0
-# An inner spall has to come round through the load zone once.
-PILOT_TURNS = 1.1
+# A pilot of a scene that turns with the shaft has to see it come round twice.
+PILOT_TURNS = 2.2
 SHORTEST_PILOT = 2048
 MOST_SUBSTEPS = 32
 # On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
@@ -105,8 +105,8 @@ def _check_request(scene: Scene, rate: float, method: str, substeps: int | None,
         problem = f"rate = {rate!r} Hz; it must be above 0"
     elif round(scene.duration * rate) < 1:
         problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
-    elif substeps is not None and substeps < 1:
-        problem = f"substeps = {substeps!r}; it must be 1 or more"
+    elif substeps is not None and (substeps != int(substeps) or substeps < 1):
+        problem = f"substeps = {substeps!r}; it must be a whole number, 1 or more"
     elif method == REFERENCE and keep_force:
         problem = "keep_force = True; the reference method keeps no forces"
     if problem:
@@ -148,7 +148,9 @@ def _pilot(
 def _pilot_duration(scene: Scene) -> float:
     passes = PILOT_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
     turns = PILOT_TURNS * 2.0 * math.pi / scene.operation.shaft_speed
-    return max(passes, turns) if scene.defective_race == "inner" else passes
+    run = scene.operation
+    turning = scene.defective_race == "inner" or run.unbalance_force > 0.0 or run.load_fluctuation > 0.0
+    return max(passes, turns) if turning else passes
 
 
 def _relative_error(coarse: Array, fine: Array) -> float:

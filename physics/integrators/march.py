@@ -137,13 +137,24 @@ def record(balls: Array, motion: MotionModel, state: Array, sample: int, output:
 
 
 @njit
-def next_kink(balls: Array, stops: Stops, place: int, time: float, finish: float) -> int:
-    """Index of the first kink after `time` and before `finish` that a ball in contact crosses, or of one after that."""
-    while place < stops.time.size and stops.time[place] < finish:
-        if stops.time[place] > time and of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
-            break
+def passed_kinks(stops: Stops, place: int, time: float) -> int:
+    """Index of the first kink after `time`, counting on from `place`."""
+    while place < stops.time.size and stops.time[place] <= time:
         place += 1
     return place
+
+
+@njit
+def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
+    """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`.
+
+    A ball out of contact does not feel its kinks, but may make contact before a later one: none is dropped here.
+    """
+    while place < stops.time.size and stops.time[place] < finish:
+        if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
+            return stops.time[place]
+        place += 1
+    return finish
 
 
 def _unbound(*_arguments: object) -> Any:
@@ -182,10 +193,11 @@ def _cross(
     time, tried = start, 0
     smallest, nudge = SMALLEST_STEP_SHARE * full_step, KINK_NUDGE_SHARE * full_step
     while finish - time > smallest:
-        place = next_kink(balls, stops, place, time + smallest, finish - smallest)
+        place = passed_kinks(stops, place, time + smallest)
         target, beyond = finish, finish
-        if place < stops.time.size and stops.time[place] < finish - smallest:
-            target, beyond = stops.time[place] - nudge, stops.time[place] + nudge
+        kink = next_kink(balls, stops, place, finish - smallest)
+        if kink < finish - smallest:
+            target, beyond = kink - nudge, kink + nudge
         if target - time > pace[0] + smallest:
             target = beyond = time + pace[0]
         step = target - time
@@ -263,8 +275,8 @@ def _march(
         for substep in range(grid.substeps):
             start = (sample * grid.substeps + substep) * grid.step
             finish = (sample * grid.substeps + substep + 1) * grid.step
-            place = next_kink(balls, stops, place, start, finish)
-            if pace[0] >= grid.step and (place == stops.time.size or stops.time[place] >= finish):
+            place = passed_kinks(stops, place, start)
+            if pace[0] >= grid.step and next_kink(balls, stops, place, finish) >= finish:
                 contradicted = step_pasted(
                     balls, frames, law, track, motion, weights, start, grid.step, now, force, then, stage
                 )

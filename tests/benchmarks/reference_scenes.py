@@ -91,7 +91,7 @@ def table(results: dict[str, dict[str, float]], rivals: dict[str, float], machin
         [
             *lines,
             "",
-            f"Error: resonator acceleration against {FINER_SUBSTEPS} steps a sample, relative, from {SCORED_FROM} s on, "
+            f"Error: resonator acceleration against {FINER_SUBSTEPS} steps a sample, relative, from {SCORED_FROM} s, "
             "at 65 536 Hz; times are of the processor. SciPy's DOP853 at a relative tolerance of 1e-9 on a compiled "
             f"right-hand side, with events located, runs at {rival} times real time in the same run. {machine}",
         ]

@@ -140,6 +140,7 @@ def test_thirty_runs_killed_at_random_all_end_in_the_same_arrays(
         while not finished(out, expected):
             process = Process(tiny_recipe, out, "--workers", "2")
             time.sleep(chance.uniform(0.5, 6.0))
+            assert process.popen.poll() in (None, 0)
             kills += process.popen.poll() is None
             process.kill()
             assert wait_until(lambda: not process.alive(), 3.0)  # noqa: B023

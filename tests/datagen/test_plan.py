@@ -1,10 +1,15 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from datagen.errors import BadInput
-from datagen.plan import plan_shards, selection
+from datagen.plan import needed_bytes, plan_shards, selection, stored_bytes
 from datagen.recipe import Recipe
+from datagen.record import PROFILE_POINTS
+from datagen.sampling import draw_scenario
+from datagen.stiffness_axis import stiffness_axis
 
 
 def test_every_record_is_planned_once_and_shards_are_filled_in_order(tiny: Recipe) -> None:
@@ -32,11 +37,19 @@ def test_records_of_different_rigs_or_stored_signals_never_share_a_shard(tiny: R
 
 def test_the_size_of_a_record_counts_every_stored_signal(tiny: Recipe) -> None:
     samples, rows, balls = 1638, 2, 12  # 0.05 s at 32 768 Hz on the gearbox rig
-    shard = next(shard for shard in plan_shards(tiny, 8) if "contact_force" in shard.stored)
-    fixed = samples * (2 * 4 + 4 + 2 * 4 + 8 + rows * balls * 4)  # two accelerations, envelope, cage angle, forces
-    stiffness = (shard.record_bytes - fixed) / (3 * 4)
-    assert stiffness == int(stiffness)
-    assert 2 <= stiffness <= samples + 1
+    scenario = next(one for one in (draw_scenario(tiny, record) for record in range(8)) if one.condition == "line")
+    always = samples * (2 * 4 + 4) + stiffness_axis(scenario).size * 3 * 4  # acceleration, envelope, stiffness
+    assert stored_bytes(scenario, (), "none") == always
+    everything = ("acceleration_clean", "cage_angle", "profile_depth", "contact_force")
+    optional = samples * (2 * 4 + 8 + rows * balls * 4) + rows * PROFILE_POINTS * 4
+    assert stored_bytes(scenario, everything, "none") == always + optional
+    assert 0.3 * always < stored_bytes(scenario, (), "zlib") < always
+
+
+def test_the_size_said_beforehand_is_near_that_of_the_corpus(tiny: Recipe, tiny_corpus: Path) -> None:
+    signals = needed_bytes(plan_shards(tiny, tiny.count))
+    # a shard of 1600 samples is half labels, tables and the library's 64 kB blocks
+    assert 0.2 < signals / sum(path.stat().st_size for path in (tiny_corpus / "shards").glob("*.nc")) < 1.2
 
 
 def test_a_selection_is_everything_a_prefix_or_a_list(tiny: Recipe) -> None:

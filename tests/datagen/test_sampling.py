@@ -199,13 +199,33 @@ def test_every_number_of_rig_and_bearing_can_be_set() -> None:
     assert named == set(MachineSettings.model_fields) - others
 
 
+OVERRIDES = {
+    "pitch_diameter_mm": (39.5, 0.0395),
+    "ball_diameter_mm": (7.0, 0.007),
+    "contact_angle_deg": (9.0, math.pi / 20),
+    "row_offset_deg": (9.0, math.pi / 20),
+    "load_deflection": (5.5e9, 5.5e9),
+    "exponent": (1.4, 1.4),
+    "clearance_um": (-2.5, -2.5e-6),
+    "inner_mass_kg": (0.7, 0.7),
+    "outer_mass_kg": (9.5, 9.5),
+    "resonator_mass_kg": (0.4, 0.4),
+    "support_stiffness_x_n_per_m": (1.1e7, 1.1e7),
+    "support_stiffness_y_n_per_m": (1.2e7, 1.2e7),
+    "resonator_stiffness_n_per_m": (1.9e9, 1.9e9),
+    "support_damping_x_n_s_per_m": (601.0, 601.0),
+    "support_damping_y_n_s_per_m": (602.0, 602.0),
+    "resonator_damping_n_s_per_m": (303.0, 303.0),
+    "film_damping_n_s_per_m": (90.0, 90.0),
+}
+
+
 @pytest.mark.parametrize(("setting", "field", "per_unit"), [*BEARING_NUMBERS, *RIG_NUMBERS])
 def test_an_override_lands_in_its_field_in_si_units(setting: str, field: str, per_unit: float) -> None:
-    rig = catalog.rig("gearbox")
-    value = 1.5 if field == "exponent" else 1.01 * (getattr(rig.bearing, field, None) or getattr(rig, field, 1e-6))
-    drawn = draw(machine={"rig": "gearbox", setting: value * per_unit})[0].scene.rig
+    given, expected = OVERRIDES[setting]
+    drawn = draw(machine={"rig": "gearbox", setting: given})[0].scene.rig
     owner = drawn.bearing if (setting, field, per_unit) in BEARING_NUMBERS else drawn
-    assert getattr(owner, field) == pytest.approx(value, rel=1e-15)  # one multiplication and one division
+    assert getattr(owner, field) == pytest.approx(expected, rel=1e-15)  # one division
 
 
 def test_another_number_of_balls_takes_half_its_own_spacing_as_stagger() -> None:
@@ -250,6 +270,7 @@ def test_an_impossible_machine_is_redrawn_once_for_all_its_records() -> None:
         ({"defect": EXTENDED | {"condition": "line"}}, "reaches the ball spacing"),
         ({"defect": LINE | {"condition": "extended"}}, "is shorter than the ball spacing"),
         ({"defect": {"condition": "line", "extent_mm": 1, "depth_um": 9, "entry_taper_deg": 20}}, "entry_taper"),
+        ({"defect": LINE | {"count": 2, "angle_deg": 359.5, "separation_deg": 1.5}}, "overlap: 1.5 degrees apart"),
         ({"defect": LINE | {"row": 2}, "machine": {"rig": "cwru"}}, "spall on row 2"),
         ({"operation": {"load_n": 1e7}, "machine": {"rig": "gearbox", "load_deflection": 1e4}}, "carries the load"),
     ],

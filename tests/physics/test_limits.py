@@ -51,7 +51,7 @@ LIMITS = {
     "preload without load": (lambda s: changed(s, bearing={"clearance": -5e-6}, operation={"load": 0.0}), 1e-3),
     "large clearance": (lambda s: changed(s, bearing={"clearance": 50e-6}), 1e-3),
     "reversed load": (lambda s: changed(s, operation={"load": -s.operation.load}, spall=top(s)), 1e-3),
-    "steep tapers": (lambda s: changed(s, spall={"entry_taper": 1e-6, "exit_taper": 1e-6}), 2e-3),
+    "steep tapers": (lambda s: changed(s, spall={"entry_taper": 1e-6, "exit_taper": 1e-6}), 1e-3),
     "no tapers": (lambda s: changed(s, spall={"entry_taper": 0.0, "exit_taper": 0.0}), 1e-3),
     "shorter than a tenth of a step": (
         lambda s: changed(s, spall={"extent": 2e-5, "entry_taper": 0.0, "exit_taper": 0.0}),
@@ -73,8 +73,8 @@ LIMITS = {
         lambda s: changed(s, spall={"depth": 40e-6, "roughness": 3e-6, "roughness_values": BUMPS} | BALL_PATH),
         1e-3,
     ),
-    # The corners inside a table are rounded over 5 um, less than the ball rolls in one step.
-    "measured table": (lambda s: changed(s, spall=TABLE), 2e-2),
+    # The corners inside a table are rounded over 5 um, less than the ball rolls in one step: 0.6 % on the gearbox rig.
+    "measured table": (lambda s: changed(s, spall=TABLE), 1e-2),
 }
 
 

@@ -140,3 +140,15 @@ def test_a_low_rate_gives_the_states_and_forces_of_its_own_instants(reference_sc
         assert here.shape == there.shape
         error = np.abs(here - there).reshape(here.shape[0], -1).max(axis=0)
         assert np.all(error <= 5e-3 * np.abs(there).reshape(here.shape[0], -1).max(axis=0))  # two errors of one step
+
+
+def test_without_a_number_of_steps_they_are_doubled_until_the_pilot_meets_the_accuracy(reference_scene):
+    scene = reference_scene("F1", 0.1)
+    fixed = simulate(scene, RATE, substeps=1)
+    free = simulate(scene, RATE, accuracy=1e-5)
+    truth = simulate(scene, RATE, substeps=64, estimate_error=False).acceleration
+    assert fixed.step == 1.0 / RATE
+    assert fixed.error_estimate > 1e-5
+    assert free.step < fixed.step
+    assert free.error_estimate < 1e-5
+    assert rms(free.acceleration - truth) < 5e-5 * rms(truth)  # the factor of five that an estimate is allowed

@@ -48,10 +48,16 @@ def sweep_temporaries(folder: Path) -> int:
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold `folder` for this process alone; BadInput if another run holds it. The lock dies with its process."""
+    """Hold `folder` for this process alone; BadInput if another run holds it or it cannot be written into.
+
+    The lock dies with its process.
+    """
     import fcntl
 
-    descriptor = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        descriptor = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+    except OSError as problem:
+        raise BadInput(f"cannot write into this folder: {problem.strerror}", file=str(folder)) from problem
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as problem:

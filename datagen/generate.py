@@ -15,7 +15,7 @@ from datagen.progress import Reporter, Silence
 from datagen.recipe import Recipe
 from datagen.run import Run, Summary
 from datagen.versions import program_hash
-from datagen.workers import Engine
+from datagen.workers import Engine, engaged
 
 
 def generate(
@@ -37,15 +37,16 @@ def generate(
     check_compression(recipe.store.compression)
     identity = corpus_identity(recipe)
     check_folder(folder, identity)
-    planned = plan_shards(recipe, asked[-1][1])
-    _make_folder(folder)
-    with locked(folder):
-        run = Run(recipe, folder, identity, asked, engine or Engine(), reporter or Silence())
-        run.begin()
-        try:
-            run.make(planned)
-        finally:
-            run.finish()
+    with engaged(engine or Engine()):
+        planned = plan_shards(recipe, asked[-1][1])
+        _make_folder(folder)
+        with locked(folder):
+            run = Run(recipe, folder, identity, asked, reporter or Silence())
+            run.begin()
+            try:
+                run.make(planned)
+            finally:
+                run.finish()
     return run.summary(time.monotonic() - began)
 
 

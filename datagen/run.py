@@ -19,7 +19,7 @@ from datagen.recipe import Recipe
 from datagen.shard import Failure, Sidecar, finished_shards
 from datagen.task import make_shard, warm_kernels
 from datagen.versions import program_versions
-from datagen.workers import Engine, WorkerLost, run_tasks
+from datagen.workers import WorkerLost, run_tasks
 
 ATTEMPTS_TOGETHER = 2
 LONGEST_TASK_BASE = 600.0
@@ -50,7 +50,7 @@ class Summary:
 
 
 class Run:
-    """The records `asked` for, made in `folder` by `engine`; call begin, make and finish, in this order."""
+    """The records `asked` for, made in `folder`; call begin, make and finish, in this order."""
 
     def __init__(
         self,
@@ -58,11 +58,10 @@ class Run:
         folder: Path,
         identity: Identity,
         asked: tuple[Span, ...],
-        engine: Engine,
         reporter: Reporter,
     ) -> None:
         earlier = read_manifest(folder) if manifest_path(folder).exists() else None
-        self.recipe, self.folder, self.engine, self.reporter = recipe, folder, engine, reporter
+        self.recipe, self.folder, self.reporter = recipe, folder, reporter
         self.wanted = frozenset(record for start, stop in asked for record in range(start, stop))
         self.manifest = Manifest(
             name=recipe.name,
@@ -197,7 +196,7 @@ class Run:
     def _make_together(self, todo: Sequence[PlannedShard], started: set[int]) -> None:
         """Make the shards in any order; `started` collects the numbers of those handed to workers."""
         by_number = {shard.number: shard for shard in todo}
-        for row in run_tasks(make_shard, self._tasks(todo, started), self._engine_for(todo)):
+        for row in run_tasks(make_shard, self._tasks(todo, started), _time_limit(todo)):
             shard = by_number[row.shard]
             if row.error:
                 self.errors[row.shard] = (shard, row.error)
@@ -210,11 +209,6 @@ class Run:
         for shard in todo:
             started.add(shard.number)
             yield self.recipe, folder, shard, self.manifest.identity
-
-    def _engine_for(self, todo: Sequence[PlannedShard]) -> Engine:
-        """The engine with a time limit far above what any of the shards can take."""
-        longest = max(len(shard.records) * shard.record_seconds for shard in todo)
-        return replace(self.engine, timeout=LONGEST_TASK_BASE + LONGEST_TASK_FACTOR * longest)
 
     def _out_of_space(self, todo: Sequence[PlannedShard]) -> str:
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
@@ -234,3 +228,9 @@ class Run:
             write_atomically(path, "".join(f"{json.dumps(asdict(failure))}\n" for failure in failures).encode())
         else:
             path.unlink(missing_ok=True)
+
+
+def _time_limit(todo: Sequence[PlannedShard]) -> float:
+    """Seconds far above what any of the shards can take."""
+    longest = max(len(shard.records) * shard.record_seconds for shard in todo)
+    return LONGEST_TASK_BASE + LONGEST_TASK_FACTOR * longest

@@ -7,7 +7,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,16 +19,14 @@ PARENT_POLL = 0.25
 
 @dataclass(frozen=True)
 class Engine:
-    """Who does the work: `workers` None takes every processor; `backend` None takes loky, or what the caller has set
-    through `joblib.parallel_config`; `scheduler` is the address of a running Dask scheduler.
+    """Who does the work; what is None follows the caller's `joblib.parallel_config`, or is loky on every processor.
 
-    `timeout` (s) bounds one task on Dask, where a task that keeps killing its worker would otherwise never end.
+    `scheduler` is the address of a running Dask scheduler.
     """
 
     workers: int | None = None
     backend: str | None = None
     scheduler: str | None = None
-    timeout: float = 3600.0
 
     def __post_init__(self) -> None:
         if self.workers is not None and self.workers < 1:
@@ -55,49 +53,63 @@ def _exit_with(parent: int) -> None:
     os._exit(1)
 
 
-def run_tasks(function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], engine: Engine) -> Iterator[Any]:
-    """Results of `function(*task)` as they come; raises WorkerLost, and whatever `function` raises."""
-    from multiprocessing import TimeoutError as TaskTimeout
-
-    from joblib import Parallel, delayed
-    from joblib.externals.loky.process_executor import BrokenProcessPool
-
-    with ExitStack() as stack:
-        timeout = _configure(engine, stack)
-        parallel = Parallel(return_as="generator_unordered", batch_size=1, pre_dispatch="2*n_jobs", timeout=timeout)
-        try:
-            yield from parallel(delayed(function)(*task) for task in tasks)
-        except (BrokenProcessPool, TaskTimeout) as problem:
-            raise WorkerLost(str(problem) or type(problem).__name__) from problem
-        except Exception as problem:
-            if type(problem).__name__ == "KilledWorker":
-                raise WorkerLost(str(problem)) from problem
-            raise
-
-
-def _configure(engine: Engine, stack: ExitStack) -> float | None:
-    """Set joblib's backend for the life of `stack`; returns the time limit of one task (s) or None."""
+@contextmanager
+def engaged(engine: Engine) -> Iterator[None]:
+    """joblib works with `engine` in this context; raises BadInput if Dask is not there."""
     from joblib import cpu_count, parallel_config
     from joblib.parallel import get_active_backend
 
-    active, _ = get_active_backend()
+    callers, callers_workers = get_active_backend()
     if engine.backend == "dask":
-        stack.enter_context(_dask_client(engine))
-        stack.enter_context(parallel_config(backend="dask", n_jobs=-1))
-        return engine.timeout
-    if engine.backend is None and type(active).__name__ != "LokyBackend":
-        return None
-    stack.enter_context(
-        parallel_config(
+        with _dask_client(engine), parallel_config(backend="dask", n_jobs=-1):
+            yield
+    elif engine.backend is None and type(callers).__name__ != "LokyBackend":
+        yield
+    else:
+        with parallel_config(
             backend="loky",
-            n_jobs=engine.workers or cpu_count(),
+            n_jobs=engine.workers or callers_workers or cpu_count(),
             inner_max_num_threads=1,
             max_nbytes=None,
             initializer=watch_parent,
             initargs=(os.getpid(),),
-        )
+        ):
+            yield
+
+
+def run_tasks(
+    function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], time_limit: float | None = None
+) -> Iterator[Any]:
+    """Results of `function(*task)` as they come; raises WorkerLost, and whatever `function` raises.
+
+    `time_limit` (s) bounds one task on Dask, where a task that keeps killing its worker would otherwise never end.
+    """
+    from multiprocessing import TimeoutError as TaskTimeout
+
+    from joblib import Parallel, delayed
+    from joblib.externals.loky.process_executor import BrokenProcessPool
+    from joblib.parallel import get_active_backend
+
+    on_dask = type(get_active_backend()[0]).__name__ == "DaskDistributedBackend"
+    parallel = Parallel(
+        return_as="generator_unordered",
+        batch_size=1,
+        pre_dispatch="2*n_jobs",
+        timeout=time_limit if on_dask else None,
     )
-    return None
+    try:
+        yield from parallel(delayed(function)(*task) for task in tasks)
+    except (BrokenProcessPool, TaskTimeout) as problem:
+        raise WorkerLost(_cause(problem)) from problem
+    except Exception as problem:
+        if type(problem).__name__ == "KilledWorker":
+            raise WorkerLost(_cause(problem)) from problem
+        raise
+
+
+def _cause(problem: BaseException) -> str:
+    text = str(problem).strip()
+    return text.splitlines()[0].split(". ")[0] if text else type(problem).__name__
 
 
 def _dask_client(engine: Engine) -> Any:

@@ -19,7 +19,6 @@ class Outcome(Enum):
 
     NO_START = "give a load that the bearing can carry, or fewer or smaller gaps in the loaded race"
     NOT_FINITE = "use a shorter step (more substeps), or check masses, stiffness and damping for extreme values"
-    STEP_TOO_LONG = "use a shorter step: more substeps per sample"
     TOO_MANY_CHANGES = "use the no-tension contact law, more film damping or a shorter step"
     BAD_REQUEST = "correct the argument named in the message"
 

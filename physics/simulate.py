@@ -12,7 +12,7 @@ from physics._jit import discard_cache
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
-from physics.integrators.propagator import LONGEST_REACH, reach
+from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
@@ -111,13 +111,6 @@ def _check_request(scene: Scene, rate: float, method: str, substeps: int | None,
         problem = "keep_force = True; the reference method keeps no forces"
     if problem:
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
-    if substeps is not None and method != REFERENCE:
-        turned = reach(motion_model(scene), 1.0 / (rate * oversampling(scene, rate) * substeps))
-        if turned > LONGEST_REACH:
-            raise SimulationFailed(
-                Outcome.STEP_TOO_LONG,
-                f"the fastest linear mode turns {turned:.3g} rad in one step; the limit is {LONGEST_REACH:g}",
-            )
 
 
 def _starting_state(scene: Scene) -> Array:

@@ -17,7 +17,6 @@ from physics.motion import MotionModel
 
 Array = NDArray[np.float64]
 
-LONGEST_REACH = 8.0
 SERIES_TOLERANCE = 1e-18
 
 

@@ -285,6 +285,14 @@ def test_a_run_says_beforehand_what_disk_it_needs(
     assert "1 records in 1 shards to make; they need about" in capsys.readouterr().err
 
 
+def test_a_dask_scheduler_that_does_not_answer_is_refused_before_anything_is_written(
+    tiny: Recipe, tmp_path: Path
+) -> None:
+    with pytest.raises(BadInput, match="no Dask scheduler answers there"):
+        generate(tiny, tmp_path / "out", engine=Engine(backend="dask", scheduler="nonsense://localhost:1"))
+    assert not (tmp_path / "out").exists()
+
+
 def test_lz4_is_refused_before_anything_is_written(tiny: Recipe, tmp_path: Path) -> None:
     recipe = tiny.model_copy(update={"store": tiny.store.model_copy(update={"compression": "lz4"})})
     with pytest.raises(BadInput, match="lz4"):

@@ -12,7 +12,6 @@ from physics.integrators.propagator import (
     FIRST,
     HALF,
     LAST,
-    LONGEST_REACH,
     MIDDLE,
     TO_2_3,
     TO_3_4,
@@ -79,7 +78,7 @@ def phi_kicks(matrix, step, outer_mass):
 
 
 @pytest.mark.parametrize("share", [1.0, 0.37, 1e-3])
-@pytest.mark.parametrize("radians", [0.3, 1.0, 0.99 * LONGEST_REACH])
+@pytest.mark.parametrize("radians", [0.3, 1.0, 7.9])
 @pytest.mark.parametrize("name", ["gearbox", "fan"])
 def test_the_weights_of_a_step_are_krogstads_combinations_of_phi_functions(name, radians, share, request):
     scene = unloaded_scene(request.getfixturevalue(name))
@@ -116,7 +115,7 @@ def test_the_linear_matrix_is_that_of_the_equations_of_motion(gearbox):
         assert linear_matrix(motion_model(scene), axis) == pytest.approx(typed, rel=1e-15)  # the same divisions
 
 
-@pytest.mark.parametrize("radians", [0.05, 1.0, 0.99 * LONGEST_REACH])
+@pytest.mark.parametrize("radians", [0.05, 1.0, 7.9])
 @pytest.mark.parametrize("name", ["gearbox", "fan"])
 def test_without_contact_outer_ring_and_resonator_decay_as_the_matrix_exponential_for_any_step(name, radians, request):
     machine = request.getfixturevalue(name)

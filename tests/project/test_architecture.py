@@ -1,0 +1,51 @@
+"""Import arrows point one way: datagen to labels and physics, labels to physics, physics to nobody of ours."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+MAY_IMPORT = {
+    "physics": {"physics"},
+    "labels": {"labels", "physics"},
+    "datagen": {"datagen", "labels", "physics"},
+}
+ABOUT_FILES = {"xarray", "netCDF4", "pathlib", "io", "shutil", "tempfile", "pandas", "matplotlib"}
+# Compiled kernels are cached in a folder; this is the one place of physics that knows of folders.
+CACHE_DOOR = ROOT / "physics" / "_jit.py"
+
+
+def imported(path):
+    """Top-level names of every module that a file imports, anywhere in it."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names.add(node.module.split(".")[0])
+    return names
+
+
+def files(package):
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+@pytest.mark.parametrize("package", MAY_IMPORT)
+def test_imports_follow_the_arrows(package):
+    for path in files(package):
+        assert imported(path) & set(MAY_IMPORT) <= MAY_IMPORT[package], path
+
+
+@pytest.mark.parametrize("package", ["physics", "labels"])
+def test_only_datagen_reads_and_writes_files(package):
+    for path in files(package):
+        if path != CACHE_DOOR:
+            assert not imported(path) & ABOUT_FILES, path
+            assert "open(" not in path.read_text(encoding="utf-8"), path
+
+
+def test_numba_has_one_door():
+    for package in MAY_IMPORT:
+        for path in files(package):
+            assert path == CACHE_DOOR or "numba" not in imported(path), path

@@ -19,6 +19,7 @@ from datagen.errors import BadInput
 from datagen.generate import generate
 from datagen.index import read_index
 from datagen.manifest import read_manifest
+from datagen.plan import plan_shards
 from datagen.progress import Lines
 from datagen.recipe import Recipe
 from datagen.shard import finished_shards, shard_path, sidecar_path
@@ -106,6 +107,14 @@ def test_records_asked_for_later_are_added_to_those_there(tiny: Recipe, tmp_path
     assert (run.asked, run.made, run.new) == (2, 2, 2)
     assert list(read_index(tmp_path / "some")["record"]) == [0, 1, 9]
     assert read_manifest(tmp_path / "some").asked == ((0, 2), (9, 10))
+
+
+def test_a_record_of_a_shard_stays_when_another_of_the_same_shard_is_added(tiny: Recipe, tmp_path: Path) -> None:
+    first, second = next(shard.records for shard in plan_shards(tiny, 14) if len(shard.records) == 2)
+    generate(tiny, tmp_path / "some", records=[first], engine=ALONE)
+    generate(tiny, tmp_path / "some", records=[second], engine=ALONE)
+    assert [sidecar.records for sidecar in finished_shards(tmp_path / "some")] == [(first, second)]
+    assert list(read_index(tmp_path / "some")["record"]) == [first, second]
 
 
 def test_a_finished_corpus_is_left_alone(tiny: Recipe, copy: Path) -> None:

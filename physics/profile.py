@@ -22,7 +22,8 @@ Curve = Callable[[Array], Array]
 
 CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4
-ROLLED_STEP = 5e-6
+# Cells of 5 µm round the corners of a path over a rough surface and move the acceleration by 1.2 %, these by 0.3 %.
+ROLLED_STEP = 2e-6
 TOUCHING_SHARE = 0.02
 
 

@@ -32,8 +32,6 @@ app = typer.Typer(
 
 JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write the results to this file too.")]
 CorpusFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a corpus.")]
-
-
 Command = Callable[..., None]
 
 
@@ -50,7 +48,7 @@ def command(example: str) -> Callable[[Command], Command]:
                 _complain(f"error: {problem}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt:
-                _complain("interrupted; what is finished is kept, and the same command goes on from there")
+                _complain("interrupted; nothing that was finished is lost")
                 raise typer.Exit(INTERRUPTED) from None
 
         return app.command(epilog=f"Example: {example}")(guarded)

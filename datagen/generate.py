@@ -42,7 +42,6 @@ def generate(
         _make_folder(folder)
         with locked(folder):
             run = Run(recipe, folder, identity, asked, reporter or Silence())
-            run.begin()
             try:
                 run.make(planned)
             finally:

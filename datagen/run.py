@@ -50,7 +50,7 @@ class Summary:
 
 
 class Run:
-    """The records `asked` for, made in `folder`; call begin, make and finish, in this order."""
+    """The records `asked` for, made in `folder`; call make, then finish whatever happened."""
 
     def __init__(
         self,
@@ -77,7 +77,18 @@ class Run:
         self.done = 0
         self.problem = ""
 
-    def begin(self) -> None:
+    def make(self, planned: Sequence[PlannedShard]) -> None:
+        """Make every planned shard that is not finished; what cannot be made is remembered, not raised."""
+        try:
+            self._begin()
+            self._make_missing(planned)
+        except OSError as problem:
+            if problem.errno not in NO_SPACE:
+                raise
+            self._rescan()
+            self.problem = self._out_of_space(self._unfinished(planned))
+
+    def _begin(self) -> None:
         """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
         for place in (self.folder, self.folder / "shards"):
             sweep_temporaries(place)
@@ -85,8 +96,7 @@ class Run:
         self.made_before = self._made()
         write_manifest(self.folder, self.manifest)
 
-    def make(self, planned: Sequence[PlannedShard]) -> None:
-        """Make every planned shard that is not finished; what cannot be made is remembered, not raised."""
+    def _make_missing(self, planned: Sequence[PlannedShard]) -> None:
         todo = self._unfinished(planned)
         self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
         if not todo:
@@ -95,13 +105,7 @@ class Run:
         self._announce(todo)
         warm_kernels(self.reporter)
         self.reporter.advance(self.done, len(self.wanted))
-        try:
-            self._make_persistently(todo)
-        except OSError as problem:
-            if problem.errno not in NO_SPACE:
-                raise
-            self._rescan()
-            self.problem = self._out_of_space(self._unfinished(planned))
+        self._make_persistently(todo)
 
     def finish(self) -> None:
         """Rebuild manifest, index and the list of failures from the finished shards."""

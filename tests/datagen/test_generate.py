@@ -12,6 +12,8 @@ from typing import Any
 import joblib
 import pytest
 
+import datagen.index
+import datagen.manifest
 import datagen.run
 import datagen.shard
 from datagen.atomic import write_atomically
@@ -214,6 +216,19 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
     monkeypatch.undo()
     assert generate(tiny, tmp_path / "out", engine=ALONE).complete
     assert contents(tmp_path / "out") == expected
+
+
+def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, data: bytes | memoryview) -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    for module in (datagen.shard, datagen.manifest, datagen.index):
+        monkeypatch.setattr(module, "write_atomically", full)
+    run = generate(tiny, tmp_path / "out", engine=ALONE)
+    assert (run.made, run.asked) == (0, 14)
+    assert "the disk is full" in run.problem
 
 
 def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +22,6 @@ from labels.truth import PassTable
 from physics.spall import Spall
 
 RATE, SAMPLES, ROWS, BALLS = 1000.0, 200, 2, 5
-TINY_RECORDS = 14
 TINY_RECIPE = """
 name = "tiny"
 title = "A few short records"
@@ -79,13 +79,23 @@ def tiny_corpus(tiny: Recipe, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def contents(folder: Path) -> dict[int, str]:
-    """Hash of the decoded arrays of every finished shard."""
-    return {sidecar.shard: sidecar.content for sidecar in finished_shards(folder)}
+Contents = Callable[[Path], dict[int, str]]
 
 
 @pytest.fixture(scope="session")
-def expected(tiny_corpus: Path) -> dict[int, str]:
+def contents() -> Contents:
+    """A function that gives the hash of the decoded arrays of every finished shard of a folder."""
+    return lambda folder: {sidecar.shard: sidecar.content for sidecar in finished_shards(folder)}
+
+
+@pytest.fixture
+def copy(tiny_corpus: Path, tmp_path: Path) -> Path:
+    """A copy of the tiny corpus that a test may damage."""
+    return Path(shutil.copytree(tiny_corpus, tmp_path / "copy"))
+
+
+@pytest.fixture(scope="session")
+def expected(tiny_corpus: Path, contents: Contents) -> dict[int, str]:
     """Hash of the decoded arrays of every shard of the tiny corpus."""
     return contents(tiny_corpus)
 

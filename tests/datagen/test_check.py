@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,12 +15,6 @@ from datagen.format import content_hash
 from datagen.shard import file_hash, label_columns, serialise, shard_path, sidecar_path
 
 Change = Callable[[xarray.Dataset], xarray.Dataset]
-
-
-@pytest.fixture
-def copy(tiny_corpus: Path, tmp_path: Path) -> Path:
-    """A copy of the tiny corpus that a test may damage."""
-    return Path(shutil.copytree(tiny_corpus, tmp_path / "copy"))
 
 
 def forge(folder: Path, shard: int, change: Change) -> None:

@@ -3,9 +3,9 @@ from __future__ import annotations
 import errno
 import json
 import os
-import shutil
 import signal
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -30,16 +30,7 @@ from datagen.workers import Engine
 from physics.outcome import Outcome, SimulationFailed
 
 ALONE = Engine(workers=1)
-
-
-def contents(folder: Path) -> dict[int, str]:
-    return {sidecar.shard: sidecar.content for sidecar in finished_shards(folder)}
-
-
-@pytest.fixture
-def copy(tiny_corpus: Path, tmp_path: Path) -> Path:
-    """A copy of the tiny corpus that a test may damage."""
-    return Path(shutil.copytree(tiny_corpus, tmp_path / "copy"))
+Contents = Callable[[Path], dict[int, str]]
 
 
 def test_a_corpus_holds_every_record_once_with_manifest_and_index(tiny_corpus: Path, tiny: Recipe) -> None:
@@ -50,20 +41,22 @@ def test_a_corpus_holds_every_record_once_with_manifest_and_index(tiny_corpus: P
     assert not (tiny_corpus / "failed.jsonl").exists()
 
 
-def test_two_workers_give_the_arrays_that_one_gives(tiny: Recipe, expected: dict[int, str], tmp_path: Path) -> None:
+def test_two_workers_give_the_arrays_that_one_gives(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
     assert generate(tiny, tmp_path / "two", engine=Engine(workers=2)).complete
     assert contents(tmp_path / "two") == expected
 
 
 def test_the_dask_backend_gives_the_arrays_that_one_worker_gives(
-    tiny: Recipe, expected: dict[int, str], tmp_path: Path
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:
     assert generate(tiny, tmp_path / "dask", engine=Engine(workers=2, backend="dask")).complete
     assert contents(tmp_path / "dask") == expected
 
 
 def test_a_backend_set_by_the_caller_is_used(
-    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
 ) -> None:
     threads: set[str] = set()
 
@@ -80,7 +73,7 @@ def test_a_backend_set_by_the_caller_is_used(
 
 
 def test_a_limit_makes_the_first_records_and_a_later_run_completes_the_rest(
-    tiny: Recipe, expected: dict[int, str], tmp_path: Path
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:
     run = generate(tiny, tmp_path / "some", limit=5, engine=ALONE)
     assert (run.asked, run.made, run.new) == (5, 5, 5)
@@ -126,7 +119,9 @@ def test_a_finished_corpus_is_left_alone(tiny: Recipe, copy: Path) -> None:
 
 
 @pytest.mark.parametrize("damage", ["cut file", "no file", "no sidecar", "cut sidecar"])
-def test_a_damaged_shard_is_made_again(tiny: Recipe, expected: dict[int, str], copy: Path, damage: str) -> None:
+def test_a_damaged_shard_is_made_again(
+    tiny: Recipe, expected: dict[int, str], copy: Path, damage: str, contents: Contents
+) -> None:
     victim = sidecar_path(copy, 1) if "sidecar" in damage else shard_path(copy, 1)
     content = victim.read_bytes()
     victim.unlink()
@@ -198,7 +193,7 @@ def test_impossible_requests_are_refused_and_nothing_is_written(
 
 
 def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finished(
-    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
 ) -> None:
     def filling(path: Path, data: bytes | memoryview) -> None:
         if path.suffix == ".nc" and path >= shard_path(tmp_path / "out", 3):
@@ -253,7 +248,7 @@ def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(
 
 
 def test_an_unforeseen_error_costs_its_shard_only_and_is_tried_again(
-    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
 ) -> None:
     import datagen.task
     from datagen.record import make_record
@@ -276,7 +271,7 @@ def test_an_unforeseen_error_costs_its_shard_only_and_is_tried_again(
 
 
 def test_a_shard_that_kills_its_worker_every_time_is_given_up_and_the_others_are_made(
-    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
 ) -> None:
     def deadly(*arguments: Any) -> ShardRow:
         if arguments[2].number == 2:

@@ -15,8 +15,8 @@ from datagen.errors import BadInput
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from datagen.check import Verdict
-    from datagen.run import Summary
+    from datagen.corpora.check import Verdict
+    from datagen.runs.run import Summary
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
@@ -68,10 +68,10 @@ def generate(
     json_file: JsonFile = None,
 ) -> None:
     """Make the records of a recipe, or go on where an earlier run stopped."""
-    from datagen.generate import generate as make
-    from datagen.progress import reporter
-    from datagen.recipe import load_recipe
-    from datagen.workers import Engine
+    from datagen.recipes.recipe import load_recipe
+    from datagen.runs.generate import generate as make
+    from datagen.runs.progress import reporter
+    from datagen.runs.workers import Engine
 
     chosen = None if records is None else _numbers("--records", records)
     engine = Engine(workers=workers, backend=backend, scheduler=scheduler)
@@ -91,7 +91,7 @@ def _numbers(option: str, text: str) -> list[int]:
 
 
 def _tell_run(run: Summary) -> None:
-    from datagen.progress import for_people
+    from datagen.runs.progress import for_people
 
     for failure in run.failed[:3]:
         _complain(f"record {failure.record} could not be made: {failure.reason.strip().splitlines()[-1]}")
@@ -112,7 +112,7 @@ def check(
     json_file: JsonFile = None,
 ) -> None:
     """Read a whole corpus and say everything that is wrong with it."""
-    from datagen.check import check_corpus
+    from datagen.corpora.check import check_corpus
 
     verdict = check_corpus(folder, remake)
     _write_json(json_file, verdict)
@@ -138,7 +138,7 @@ def _tell_verdict(verdict: Verdict, remake: int) -> None:
 @command("spallgen info out/quickstart")
 def info(folder: CorpusFolder, json_file: JsonFile = None) -> None:
     """Show what a corpus holds: counts, balance, ranges, size, cost."""
-    from datagen.info import corpus_info
+    from datagen.corpora.info import corpus_info
     from datagen.tables import info_tables
 
     found = corpus_info(folder)
@@ -154,7 +154,7 @@ def preview(
     json_file: JsonFile = None,
 ) -> None:
     """Draw one record: trace, spectrogram, envelope spectrum, stiffness and profile."""
-    from datagen.preview import draw_preview
+    from datagen.drawing.preview import draw_preview
     from physics.outcome import SimulationFailed
 
     try:

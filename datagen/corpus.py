@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.corpora.index import read_index
+from datagen.corpora.manifest import Manifest, read_manifest
 from datagen.errors import BadInput
-from datagen.index import read_index
-from datagen.manifest import Manifest, read_manifest
 
 if TYPE_CHECKING:
     import netCDF4

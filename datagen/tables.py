@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from datagen.progress import for_people
+from datagen.runs.progress import for_people
 
 if TYPE_CHECKING:
-    from datagen.info import Info
+    from datagen.corpora.info import Info
 
 
 def info_tables(info: Info) -> list[Table]:

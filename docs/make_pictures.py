@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from datagen.drawing.preview import draw_preview
 from datagen.drawing.style import (
     BLUE,
     GREY,
@@ -24,7 +25,6 @@ from datagen.drawing.style import (
     outside_legend,
     plt,
 )
-from datagen.preview import draw_preview
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.truth import PassTable, ball_passes
 from physics import catalog

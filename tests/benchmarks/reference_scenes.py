@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.recipe import load_recipe
-from datagen.sampling import draw_scenario
+from datagen.recipes.recipe import load_recipe
+from datagen.scenarios.sampling import draw_scenario
 from physics.simulate import simulate, warm_up
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from datagen.generate import generate
-from datagen.recipe import Recipe, load_recipe
-from datagen.record import Record
-from datagen.shard import finished_shards
-from datagen.workers import Engine
+from datagen.corpora.shard import finished_shards
+from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.records.record import Record
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
 from labels.schema import LABELS
 from labels.truth import PassTable
 from physics.spall import Spall

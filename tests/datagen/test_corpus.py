@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import xarray
 
+from datagen.corpora.info import corpus_info
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.info import corpus_info
-from datagen.scenario import Scenario
+from datagen.scenarios.scenario import Scenario
 
 ROOT = Path(__file__).parents[2]
 

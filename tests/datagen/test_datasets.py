@@ -7,10 +7,10 @@ from collections import Counter
 
 import pytest
 
-from datagen.recipe import load_recipe
-from datagen.recipe_files import shipped_recipes
-from datagen.sampling import draw_scenario
-from datagen.scenario import Scenario
+from datagen.recipes.recipe import load_recipe
+from datagen.recipes.recipe_files import shipped_recipes
+from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario
 from physics import catalog
 from physics.spall import Spall
 

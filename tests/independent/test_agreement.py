@@ -9,7 +9,7 @@ import pytest
 from reference_scenes import FAN, GEARBOX, reference_scene_json
 from replay import replay
 
-from datagen.scenario import Scenario, Seeds
+from datagen.scenarios.scenario import Scenario, Seeds
 from physics.cage import CagePath, draw_slip_knots
 from physics.catalog import rig
 from physics.imperfections import Imperfections, Waviness

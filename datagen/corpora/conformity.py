@@ -1,0 +1,107 @@
+"""Whether a shard's dataset is what the tables of labels and variables say: one sentence for each thing wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from datagen.corpora.format import LABEL_VARIABLES
+from labels.variables import VARIABLES, Variable
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def violations(dataset: xarray.Dataset) -> Iterator[str]:
+    """Every way in which the decoded `dataset` of a shard departs from the format or contradicts itself."""
+    wrong = [sentence for variable in (*VARIABLES, *LABEL_VARIABLES) for sentence in _wrong_variable(dataset, variable)]
+    yield from wrong
+    if not wrong:
+        yield from _wrong_times(dataset)
+        yield from _wrong_labels(dataset)
+        yield from _wrong_tables(dataset)
+
+
+def _is_optional(variable: Variable, dataset: xarray.Dataset) -> bool:
+    coordinate_of_nothing = variable.dims == (variable.name,) and variable.name not in dataset.dims
+    return variable.stored != "always" or coordinate_of_nothing
+
+
+def _wrong_variable(dataset: xarray.Dataset, variable: Variable) -> Iterator[str]:
+    name = variable.name
+    if name not in dataset.variables:
+        if not _is_optional(variable, dataset):
+            yield f"{name} is missing"
+        return
+    found = dataset.variables[name]
+    kind = "str" if found.dtype.kind in "OUT" else str(found.dtype)
+    if found.dims != variable.dims:
+        yield f"{name} has dimensions {found.dims}; they must be {variable.dims}"
+    if kind != variable.dtype:
+        yield f"{name} is of type {kind}; it must be {variable.dtype}"
+        return
+    if found.attrs.get("units", "") != variable.unit:
+        yield f'{name} has the unit "{found.attrs.get("units", "")}"; it must be "{variable.unit}"'
+    if kind.startswith("float"):
+        bad = ~np.isfinite(found.values) if not variable.missing else np.isinf(found.values)
+        if bad.any():
+            yield f"{name} has {int(bad.sum())} values that are not finite"
+    if variable.values is not None:
+        strange = sorted(set(found.values.ravel().tolist()) - set(variable.values))
+        if strange:
+            yield f'{name} has the value "{strange[0]}"; allowed: {", ".join(variable.values)}'
+
+
+def _wrong_times(dataset: xarray.Dataset) -> Iterator[str]:
+    time = dataset["time"].values
+    for rate in np.unique(dataset["rate_hz"].values):
+        if np.abs(time * rate - np.arange(time.size)).max() > 1e-6:
+            yield f"time is not 0, 1/rate_hz, 2/rate_hz, … for rate_hz = {rate:g}"
+    for duration in np.unique(dataset["duration_s"].values):
+        if abs(time.size - duration * dataset["rate_hz"].values[0]) > 1e-6 * time.size:
+            yield f"duration_s = {duration:g} does not fit {time.size} samples"
+
+
+def _wrong_labels(dataset: xarray.Dataset) -> Iterator[str]:
+    healthy = dataset["condition"].values == "healthy"
+    extended = dataset["condition"].values == "extended"
+    relative = dataset["extent_spacing"].values
+    low, high = dataset["envelope_band"].values.T
+    rules = {
+        "condition and location disagree": healthy != (dataset["location"].values == "none"),
+        "condition and spalls disagree": healthy != (dataset["spalls"].values == 0),
+        "condition and extent disagree": healthy != (dataset["extent"].values == 0.0),
+        "condition and extent_spacing disagree": extended != (relative >= 1.0 - 1e-9),
+        "envelope_band is not below half the rate": ~((low < high) & (high <= dataset["rate_hz"].values / 2.0)),
+        "tension_share is not a share": ~_within(dataset["tension_share"].values, 0.0, 1.0),
+    }
+    for sentence, broken in rules.items():
+        if broken.any():
+            yield f"{sentence} in record {int(dataset['record'].values[broken][0])}"
+
+
+def _wrong_tables(dataset: xarray.Dataset) -> Iterator[str]:
+    record = dataset["record"].values
+    if np.unique(record).size != record.size:
+        yield "a record occurs twice"
+    passes = dataset["pass_record"].values
+    entry, deepest, leave = (dataset[f"{moment}_time"].values for moment in ("entry", "deepest", "exit"))
+    release, regain = dataset["release_time"].values, dataset["regain_time"].values
+    rules = {
+        "a ball pass belongs to no record": ~np.isin(passes, record),
+        "a ball pass is not in the order entry, deepest point, exit": ~((entry <= deepest) & (deepest <= leave)),
+        "a release lies outside its pass": (release < entry) | (release > leave),
+        "contact is regained before it is lost": regain < release,
+    }
+    for sentence, broken in rules.items():
+        if broken.any():
+            yield f"{sentence} (row {int(np.flatnonzero(broken)[0])} of the pass table)"
+    counts = [(dataset["defect_record"].values == one).sum() for one in record]
+    if not np.array_equal(counts, dataset["spalls"].values):
+        yield "the defect table and the label spalls disagree"
+
+
+def _within(values: np.ndarray, low: float, high: float) -> np.ndarray:
+    return np.isnan(values) | ((values >= low) & (values <= high))

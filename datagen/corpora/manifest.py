@@ -1,0 +1,128 @@
+"""The manifest of a corpus: the recipe it was made from, by what, and the shards it consists of."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from datagen.corpora.atomic import write_atomically
+from datagen.corpora.format import FORMAT, Identity
+from datagen.corpora.shard import Failure, Sidecar, shard_path
+from datagen.errors import BadInput
+
+Span = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class ShardEntry:
+    """One finished shard: `file` relative to the corpus, how many records it holds and from which to which."""
+
+    file: str
+    records: int
+    first: int
+    last: int
+    bytes: int
+    sha256: str
+    content: str
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """What a corpus is. `asked` are the spans [start, stop) of records that runs were asked for, over all runs.
+
+    `recipe` is the whole recipe as data; `shards`, `failed`, `bytes` and `seconds` (of work, summed over workers) are
+    what the sidecars of the shards say.
+    """
+
+    name: str
+    identity: Identity
+    recipe: dict[str, Any]
+    recipe_records: int
+    asked: tuple[Span, ...]
+    made_with: dict[str, str] = field(default_factory=dict)
+    shards: tuple[ShardEntry, ...] = ()
+    failed: tuple[Failure, ...] = ()
+    bytes: int = 0
+    seconds: float = 0.0
+
+    @property
+    def records(self) -> int:
+        """Number of finished records."""
+        return sum(shard.records for shard in self.shards)
+
+    @property
+    def asked_records(self) -> int:
+        """Number of records asked for."""
+        return sum(stop - start for start, stop in self.asked)
+
+    def with_shards(self, folder: Path, sidecars: Iterable[Sidecar]) -> Manifest:
+        """The manifest with what the sidecars of the finished shards in `folder` say."""
+        found = list(sidecars)
+        return replace(
+            self,
+            shards=tuple(shard_entry(sidecar, folder) for sidecar in found if sidecar.records),
+            failed=tuple(failure for sidecar in found for failure in sidecar.failed),
+            bytes=sum(sidecar.bytes for sidecar in found),
+            seconds=round(sum(sidecar.seconds for sidecar in found), 3),
+        )
+
+
+def manifest_path(folder: Path) -> Path:
+    """Where the manifest of the corpus `folder` lies."""
+    return folder / "manifest.json"
+
+
+def write_manifest(folder: Path, manifest: Manifest) -> None:
+    """Put the manifest into the corpus `folder`, whole or not at all."""
+    content = {"format": FORMAT, "records": manifest.records, **asdict(manifest)}
+    write_atomically(manifest_path(folder), json.dumps(content, indent=1, allow_nan=False).encode())
+
+
+def read_manifest(folder: Path) -> Manifest:
+    """The manifest of the corpus `folder`; raises BadInput if there is none or it cannot be read."""
+    path = manifest_path(folder)
+    try:
+        found = json.loads(path.read_text())
+        return Manifest(
+            name=found["name"],
+            identity=Identity(**found["identity"]),
+            recipe=dict(found["recipe"]),
+            recipe_records=int(found["recipe_records"]),
+            asked=tuple((int(start), int(stop)) for start, stop in found["asked"]),
+            made_with=dict(found["made_with"]),
+            shards=tuple(ShardEntry(**shard) for shard in found["shards"]),
+            failed=tuple(Failure(**failure) for failure in found["failed"]),
+            bytes=int(found["bytes"]),
+            seconds=float(found["seconds"]),
+        )
+    except FileNotFoundError:
+        raise BadInput("this folder has no manifest.json, so it is no corpus", str(folder)) from None
+    except (OSError, ValueError, KeyError, TypeError) as problem:
+        raise BadInput(f"not a manifest of a corpus: {problem!r}", str(path)) from None
+
+
+def shard_entry(sidecar: Sidecar, folder: Path) -> ShardEntry:
+    """What the manifest of the corpus `folder` says of a finished shard."""
+    return ShardEntry(
+        file=shard_path(folder, sidecar.shard).relative_to(folder).as_posix(),
+        records=len(sidecar.records),
+        first=sidecar.records[0],
+        last=sidecar.records[-1],
+        bytes=sidecar.bytes,
+        sha256=sidecar.sha256,
+        content=sidecar.content,
+    )
+
+
+def add_spans(asked: tuple[Span, ...], more: Iterable[Span]) -> tuple[Span, ...]:
+    """The union of spans [start, stop), sorted and merged."""
+    merged: list[Span] = []
+    for start, stop in sorted((*asked, *more)):
+        if merged and start <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(stop, merged[-1][1]))
+        else:
+            merged.append((start, stop))
+    return tuple(merged)

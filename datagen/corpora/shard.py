@@ -1,0 +1,158 @@
+"""One shard: a netCDF file of records and, written after it, the small JSON beside it that says it is finished."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import threading
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from datagen.corpora.atomic import write_atomically
+from datagen.corpora.format import Identity, content_hash, encoding
+from labels.schema import LABELS
+
+if TYPE_CHECKING:
+    import xarray
+
+READ_BLOCK = 1 << 20
+ONE_AT_A_TIME = threading.Lock()  # the netCDF library crashes when two threads write
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A record that could not be made: `reason` is one sentence."""
+
+    record: int
+    reason: str
+
+
+@dataclass(frozen=True)
+class Sidecar:
+    """What is known of a finished shard without opening it; its being there is what makes the shard count.
+
+    `sha256` is of the file's bytes, `content` of its decoded arrays; `seconds` is what making it took.
+    `labels` holds a list per column of the labels' flat table, in the order of `records`; None stands for NaN.
+    A shard whose every record failed has no file: `bytes` is 0 and both hashes are empty.
+    """
+
+    shard: int
+    identity: Identity
+    records: tuple[int, ...]
+    failed: tuple[Failure, ...]
+    bytes: int
+    sha256: str
+    content: str
+    seconds: float
+    labels: dict[str, list[Any]]
+
+    @property
+    def settled(self) -> frozenset[int]:
+        """Records that need no further work: made, or known to be impossible."""
+        return frozenset(self.records) | {failure.record for failure in self.failed}
+
+
+def shard_path(folder: Path, shard: int) -> Path:
+    """Where the file of a shard lies in the corpus `folder`."""
+    return folder / "shards" / f"shard_{shard:06d}.nc"
+
+
+def sidecar_path(folder: Path, shard: int) -> Path:
+    """Where the JSON beside the file of a shard lies."""
+    return shard_path(folder, shard).with_suffix(".json")
+
+
+def write_shard(
+    folder: Path,
+    shard: int,
+    identity: Identity,
+    dataset: xarray.Dataset | None,
+    failed: tuple[Failure, ...],
+    compression: str,
+    seconds: float,
+) -> Sidecar:
+    """Write `dataset` (None: every record failed) whole or not at all, then its sidecar; OSError on a full disk."""
+    if dataset is None:
+        sidecar = Sidecar(shard, identity, (), failed, 0, "", "", seconds, {})
+    else:
+        content = serialise(dataset, compression)
+        sidecar = Sidecar(
+            shard=shard,
+            identity=identity,
+            records=tuple(int(record) for record in dataset["record"].values),
+            failed=failed,
+            bytes=content.nbytes,
+            sha256=hashlib.sha256(content).hexdigest(),
+            content=content_hash(dataset),
+            seconds=seconds,
+            labels=label_columns(dataset),
+        )
+        write_atomically(shard_path(folder, shard), content)
+    write_atomically(sidecar_path(folder, shard), json.dumps(asdict(sidecar), allow_nan=False).encode())
+    return sidecar
+
+
+def serialise(dataset: xarray.Dataset, compression: str) -> memoryview:
+    """The bytes of a netCDF file of `dataset`.
+
+    They are made in memory: a file that netCDF fills in place and that is cut short opens cleanly and holds NaN.
+    """
+    with ONE_AT_A_TIME:
+        return dataset.to_netcdf(engine="netcdf4", format="NETCDF4", encoding=encoding(dataset, compression))
+
+
+def label_columns(dataset: xarray.Dataset) -> dict[str, list[Any]]:
+    """The labels of a shard's `dataset` as a flat table: a list of plain values per column."""
+    columns: dict[str, list[Any]] = {}
+    for label in LABELS:
+        values = dataset[label.name].values
+        for place, column in enumerate(label.columns):
+            chosen = (values[:, place] if label.components else values).tolist()
+            columns[column] = [None if value != value else value for value in chosen]
+    return columns
+
+
+def read_sidecar(path: Path) -> Sidecar | None:
+    """The sidecar at `path`, or None if it is absent or not one."""
+    try:
+        found = json.loads(path.read_text())
+        return Sidecar(
+            shard=int(found["shard"]),
+            identity=Identity(**found["identity"]),
+            records=tuple(found["records"]),
+            failed=tuple(Failure(**failure) for failure in found["failed"]),
+            bytes=int(found["bytes"]),
+            sha256=str(found["sha256"]),
+            content=str(found["content"]),
+            seconds=float(found["seconds"]),
+            labels={str(name): list(column) for name, column in found["labels"].items()},
+        )
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None
+
+
+def is_whole(folder: Path, sidecar: Sidecar) -> bool:
+    """True if the shard's file is there with the size its sidecar states (`verify` reads it all)."""
+    if not sidecar.records:
+        return True
+    path = shard_path(folder, sidecar.shard)
+    return path.is_file() and path.stat().st_size == sidecar.bytes
+
+
+def file_hash(path: Path) -> str:
+    """SHA-256 of the file's bytes."""
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        while block := file.read(READ_BLOCK):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def finished_shards(folder: Path) -> Iterator[Sidecar]:
+    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of its size."""
+    for path in sorted((folder / "shards").glob("shard_*.json")):
+        sidecar = read_sidecar(path)
+        if sidecar is not None and is_whole(folder, sidecar):
+            yield sidecar

@@ -1,0 +1,124 @@
+"""The preview: one record of a recipe or of a corpus, drawn on one sheet."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from datagen.corpora.atomic import write_atomically
+from datagen.corpora.manifest import manifest_path
+from datagen.errors import BadInput
+from labels.schema import LABELS
+from labels.truth import PassTable
+from physics.outcome import SimulationFailed
+
+if TYPE_CHECKING:
+    import xarray
+
+    from datagen.drawing.portrait import Portrait
+
+
+def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, Any]:
+    """Draw `record` of a recipe (it is simulated) or of a corpus (it is read) into the PNG `out`; gives what was drawn.
+
+    Raises BadInput if the source, the record or the picture's name cannot be used, or if the record cannot be
+    simulated; nothing is written then.
+    """
+    from datagen.drawing.sheet import sheet_png
+
+    picture = _writable(Path(out))
+    folder = Path(source)
+    portrait = _of_corpus(folder, record) if manifest_path(folder).is_file() else _of_recipe(source, record)
+    write_atomically(picture, sheet_png(portrait))
+    return _facts(portrait)
+
+
+def _writable(picture: Path) -> Path:
+    if picture.suffix.lower() != ".png":
+        raise BadInput(field="--out", value=str(picture), allowed="a file name that ends in .png")
+    if not picture.parent.is_dir():
+        raise BadInput("no such folder", field="--out", value=str(picture), allowed="a file in an existing folder")
+    return picture
+
+
+def _of_recipe(source: str | Path, record: int) -> Portrait:
+    from datagen.drawing.portrait import Portrait
+    from datagen.recipes.recipe import load_recipe
+    from datagen.records.record import make_record
+    from datagen.scenarios.sampling import draw_scenario
+
+    recipe = load_recipe(source)
+    recipe.place(record)
+    scenario = draw_scenario(recipe, record)
+    try:
+        made = make_record(scenario, ("acceleration_clean",))
+    except SimulationFailed as problem:
+        raise BadInput(str(problem), recipe.source, "record", record) from problem
+    return Portrait(
+        corpus=recipe.name,
+        scene=scenario.scene,
+        labels=made.labels,
+        rate=float(made.labels["rate_hz"]),
+        acceleration=np.asarray(made.acceleration, dtype=np.float64),
+        clean=np.asarray(made.acceleration_clean, dtype=np.float64),
+        envelope=np.asarray(made.envelope, dtype=np.float64),
+        stiffness_time=np.asarray(made.stiffness_time),
+        stiffness=np.asarray(made.stiffness, dtype=np.float64),
+        passes=made.passes,
+    )
+
+
+def _of_corpus(folder: Path, record: int) -> Portrait:
+    from datagen.corpus import Corpus
+    from datagen.drawing.portrait import Portrait
+    from datagen.scenarios.scenario import Scenario
+
+    corpus = Corpus(folder)
+    try:
+        found = corpus.dataset(record)
+    finally:
+        corpus.close()
+    labels = {label.name: _plain(found[label.name].values) for label in LABELS}
+    clean = found["acceleration_clean"].values.astype(np.float64) if "acceleration_clean" in found else None
+    return Portrait(
+        corpus=str(found.attrs.get("id", folder.name)),
+        scene=Scenario.from_json(str(found["scenario"].values)).scene,
+        labels=labels,
+        rate=float(labels["rate_hz"]),
+        acceleration=found["acceleration"].values.astype(np.float64),
+        clean=clean,
+        envelope=found["envelope"].values.astype(np.float64),
+        stiffness_time=found["stiffness_time"].values,
+        stiffness=found["stiffness"].values.astype(np.float64),
+        passes=_pass_table(found),
+    )
+
+
+def _plain(values: np.ndarray) -> Any:
+    return values.item() if values.ndim == 0 else tuple(values.tolist())
+
+
+def _pass_table(found: xarray.Dataset) -> PassTable:
+    names = [field.name for field in fields(PassTable)]
+    return PassTable(**{name: found[f"pass_{name}" if f"pass_{name}" in found else name].values for name in names})
+
+
+def _facts(portrait: Portrait) -> dict[str, Any]:
+    """What the sheet shows, in numbers: labels, frequencies (Hz), modes along y (Hz) and the close-up (s)."""
+    from datagen.drawing.time_panels import vertical_modes
+
+    table, shown = portrait.passes, portrait.shown_pass
+    facts: dict[str, Any] = {
+        "labels": {name: list(value) if isinstance(value, tuple) else value for name, value in portrait.labels.items()},
+        "frequencies_hz": portrait.frequencies,
+        "modes_along_y_hz": vertical_modes(portrait),
+        "close_up_s": list(portrait.window),
+        "passes": len(table),
+        "released": int(np.isfinite(table.release_time).sum()),
+    }
+    if shown is not None:
+        facts["shown_pass"] = {field.name: getattr(table, field.name)[shown].item() for field in fields(PassTable)}
+    return facts

@@ -1,0 +1,50 @@
+"""What a recipe says of how a machine is run; drawn for each record."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import model_validator
+
+from datagen.recipes.distributions import Distribution, Fixed, Uniform
+from datagen.recipes.settings import Between, Table, at_most_one
+
+Degrees = Annotated[Distribution, Between()]
+ANY_ANGLE = Uniform(0.0, 360.0)
+
+
+class OperationSettings(Table):
+    """Speed, load, the cage's start and slip, and loads that turn with the shaft."""
+
+    speed_rpm: Annotated[Distribution, Between(0.0, 1e6, above=True)] | None = None
+    """Shaft speed, rpm; the rig's rated speed if neither this nor speed_of_rated is given."""
+    speed_of_rated: Annotated[Distribution, Between(0.0, 1e3, above=True)] | None = None
+    """Shaft speed as a multiple of the rig's rated speed."""
+    load_n: Annotated[Distribution, Between(0.0, 1e7)] | None = None
+    """Static radial load, N; the rig's rated load if neither this nor load_of_rated is given."""
+    load_of_rated: Annotated[Distribution, Between(0.0, 1e3)] | None = None
+    """Static radial load as a multiple of the rig's rated load."""
+    cage_angle_deg: Degrees = ANY_ANGLE
+    """Angle of ball 1 of row 1 at the start, degrees; anywhere if not given."""
+    second_cage_angle_deg: Degrees = ANY_ANGLE
+    """The same of row 2, before its stagger, where the rows have separate cages."""
+    mean_slip: Annotated[Distribution, Between(-0.2, 0.2)] = Fixed(0.0)
+    """Mean slip of the cage, as a share of its speed."""
+    slip_deviation: Annotated[Distribution, Between(0.0, 0.1)] = Fixed(0.01)
+    """Standard deviation of the cage's slip, as a share of its speed."""
+    slip_correlation_passes: Annotated[Distribution, Between(0.1, 1e4)] = Fixed(1.0)
+    """Correlation time of the slip, in nominal ball passes of the outer race."""
+    unbalance_n: Annotated[Distribution, Between(0.0, 1e7)] = Fixed(0.0)
+    """Load that turns with the shaft, N."""
+    unbalance_phase_deg: Degrees = ANY_ANGLE
+    """Its angle at the start, degrees; anywhere if not given."""
+    load_fluctuation: Annotated[Distribution, Between(0.0, 10.0)] = Fixed(0.0)
+    """Amplitude of a fluctuation of the static load once a turn, as a share of it."""
+    fluctuation_phase_deg: Degrees = ANY_ANGLE
+    """Its phase at the start, degrees; anywhere if not given."""
+
+    @model_validator(mode="after")
+    def _one_of_each(self) -> OperationSettings:
+        at_most_one(self, "speed_rpm", "speed_of_rated")
+        at_most_one(self, "load_n", "load_of_rated")
+        return self

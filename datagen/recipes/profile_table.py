@@ -1,0 +1,86 @@
+"""A measured spall: a file of angles and depths, as a recipe names it."""
+
+from __future__ import annotations
+
+import csv
+import math
+from itertools import pairwise
+from pathlib import Path
+
+from pydantic import Field, ValidationInfo, model_validator
+from pydantic_core import PydanticCustomError
+
+from datagen.recipes.settings import Table
+
+COLUMNS = ("angle_deg", "depth_um")
+FOLDER = "folder"
+DEEPEST_UM = 1e4
+
+
+class ProfileTable(Table):
+    """A measured surface: a CSV file with the columns `angle_deg` (rising, along increasing angle) and `depth_um`."""
+
+    name: str
+    angle_deg: tuple[float, ...] = Field(strict=False)
+    depth_um: tuple[float, ...] = Field(strict=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, value: object, info: ValidationInfo) -> object:
+        if not isinstance(value, str):
+            return value
+        folder = (info.context or {}).get(FOLDER, Path())
+        return {"name": Path(value).name} | read_table(Path(folder) / value)
+
+    @model_validator(mode="after")
+    def _is_a_surface(self) -> ProfileTable:
+        if len(self.angle_deg) != len(self.depth_um) or len(self.angle_deg) < 2:
+            raise _refused("angle_deg and depth_um must hold equally many numbers, at least two")
+        if not all(math.isfinite(value) for value in (*self.angle_deg, *self.depth_um)):
+            raise _refused("angle_deg and depth_um must be finite")
+        if any(after <= before for before, after in pairwise(self.angle_deg)):
+            raise _refused("angle_deg must rise")
+        if min(self.depth_um) < 0.0 or max(self.depth_um) > DEEPEST_UM:
+            raise _refused(f"depth_um must lie from 0 to {DEEPEST_UM:g}")
+        if self.extent_deg > 180.0:
+            raise _refused(f"the table covers {self.extent_deg:g} degrees; allowed: at most 180")
+        return self
+
+    @property
+    def extent_deg(self) -> float:
+        """Arc from the first to the last angle, degrees."""
+        return self.angle_deg[-1] - self.angle_deg[0]
+
+    def centred_angles(self) -> tuple[float, ...]:
+        """Angles from the middle of the table, rad."""
+        middle = (self.angle_deg[0] + self.angle_deg[-1]) / 2.0
+        return tuple(math.radians(angle - middle) for angle in self.angle_deg)
+
+    def depths(self) -> tuple[float, ...]:
+        """Depth at each angle, m."""
+        return tuple(depth / 1e6 for depth in self.depth_um)
+
+
+def read_table(path: Path) -> dict[str, tuple[float, ...]]:
+    """The columns of a profile file; raises PydanticCustomError naming the file and the line."""
+    try:
+        rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not a text file"
+        raise _refused(f"{path} cannot be read ({reason})") from None
+    if not rows or tuple(cell.strip() for cell in rows[0]) != COLUMNS:
+        raise _refused(f"{path}: the first line must be {','.join(COLUMNS)}")
+    numbers = [_numbers(path, line, row) for line, row in enumerate(rows[1:], start=2) if row]
+    return {"angle_deg": tuple(angle for angle, _ in numbers), "depth_um": tuple(depth for _, depth in numbers)}
+
+
+def _numbers(path: Path, line: int, row: list[str]) -> tuple[float, float]:
+    try:
+        angle, depth = (float(cell) for cell in row)
+    except ValueError:
+        raise _refused(f"{path}, line {line}: {','.join(row)} is not two numbers") from None
+    return angle, depth
+
+
+def _refused(problem: str) -> PydanticCustomError:
+    return PydanticCustomError("table", "{problem}", {"problem": problem})

@@ -1,0 +1,211 @@
+"""A recipe: everything a person says of a corpus, checked; the same recipe always gives the same corpus."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import tomllib
+from bisect import bisect_right
+from functools import cached_property
+from itertools import accumulate
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
+
+from datagen.errors import BadInput
+from datagen.recipes.defect_settings import DefectSettings
+from datagen.recipes.distributions import Distribution, Fixed
+from datagen.recipes.machine_settings import BackgroundSettings, ImperfectionSettings, MachineSettings
+from datagen.recipes.operation_settings import OperationSettings
+from datagen.recipes.profile_table import FOLDER
+from datagen.recipes.recipe_errors import bad_recipe
+from datagen.recipes.recipe_files import find_recipe
+from datagen.recipes.settings import Between, OneOf, Table, refuse
+from physics.scene import CONTACT_LAWS
+
+FEWEST_SAMPLES = 16
+Count = Annotated[int, Field(ge=1, le=10_000_000)]
+
+
+class Signal(Table):
+    """How every record is sampled; drawn once for each virtual machine if not fixed."""
+
+    rate_hz: Annotated[Distribution, Between(100.0, 1e7)]
+    """Sampling rate, Hz."""
+    duration_s: Annotated[Distribution, Between(0.001, 3600.0)]
+    """Length of a record, s, rounded to whole samples."""
+    envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
+    """Band of the stored envelope, Hz; by default the resonator's coupled mode ± 5 %."""
+
+    @model_validator(mode="after")
+    def _long_enough(self) -> Signal:
+        rate, duration = min(self.rate_hz.stated()), min(self.duration_s.stated())
+        if rate * duration < FEWEST_SAMPLES:
+            shortest = f"at least {FEWEST_SAMPLES / rate:g} at {rate:g} Hz"
+            raise refuse(f"a record would hold fewer than {FEWEST_SAMPLES} samples", "duration_s", shortest)
+        return self
+
+    @model_validator(mode="after")
+    def _band_below_nyquist(self) -> Signal:
+        if self.envelope_band_hz is not None:
+            low, high = self.envelope_band_hz
+            nyquist = min(self.rate_hz.stated()) / 2.0
+            if not 0.0 <= low < high <= nyquist:
+                problem = "the band is empty" if low >= high else "the band is not below half the sampling rate"
+                raise refuse(problem, "envelope_band_hz", f"0 <= low < high <= {nyquist:g}")
+        return self
+
+
+class Store(Table):
+    """What is written and how."""
+
+    compression: Literal["zlib", "none", "lz4"] = "zlib"
+    """Compression of the shards."""
+    records_per_shard: Annotated[int, Field(ge=1, le=1_000_000)] = 32
+    """Most records in one shard."""
+    clean: bool = False
+    """Store the acceleration without sensor path and background too."""
+    cage_angle: bool = False
+    """Store the cage angle too."""
+    profile: bool = False
+    """Store the path of the ball's centre over the defective race too."""
+    contact_force: Literal["none", "first_of_each", "all"] = "none"
+    """Store the force of every ball too: of no record, of the first of each rig and condition, or of all."""
+
+
+class Split(Table):
+    """Shares of the virtual machines in each split; never divides the records of one machine."""
+
+    train: Annotated[float, Field(ge=0.0, le=1.0)] = 0.7
+    """Share for training."""
+    validation: Annotated[float, Field(ge=0.0, le=1.0)] = 0.15
+    """Share for choosing between models."""
+    test: Annotated[float, Field(ge=0.0, le=1.0)] = 0.15
+    """Share for the final score."""
+
+    @model_validator(mode="after")
+    def _whole(self) -> Split:
+        total = self.train + self.validation + self.test
+        if abs(total - 1.0) > 1e-9:
+            raise refuse(f"train, validation and test add up to {total:g}", "train", "shares that add up to 1")
+        return self
+
+
+class Part(Table):
+    """A number of records drawn alike, on virtual machines of their own."""
+
+    name: Annotated[str, Field(min_length=1, max_length=80)]
+    """Name of the part, stored with each of its records."""
+    records: Count
+    """Number of records."""
+    records_per_machine: Count = 1
+    """Records made on each virtual machine, with the same bearing, imperfections and noise floor."""
+    contact_law: Annotated[Distribution, OneOf(CONTACT_LAWS)] = Fixed("paper")
+    """paper: the oil film may pull a ball; no_tension: it may not."""
+    machine: MachineSettings
+    """The virtual machines."""
+    operation: OperationSettings = OperationSettings()
+    """How they are run."""
+    defect: DefectSettings | None = None
+    """Their state of health; healthy if not given."""
+    imperfections: ImperfectionSettings = ImperfectionSettings()
+    """What their bearings lack."""
+    background: BackgroundSettings = BackgroundSettings()
+    """Their noise."""
+
+    @property
+    def machines(self) -> int:
+        """Number of virtual machines."""
+        return -(-self.records // self.records_per_machine)
+
+
+class Recipe(Table):
+    """A corpus before it is drawn: `load_recipe` reads one from a TOML file."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
+    """Name of the corpus: letters, digits, - and _."""
+    title: str = ""
+    """One line for people."""
+    summary: str = ""
+    """A few sentences for people."""
+    seed: Annotated[int, Field(ge=0, le=2**63 - 1)]
+    """Seed of every random number."""
+    signal: Signal
+    """How records are sampled."""
+    store: Store = Store()
+    """What is written."""
+    split: Split = Split()
+    """How virtual machines are divided."""
+    part: tuple[Part, ...] = Field(min_length=1, strict=False)
+    """The parts of the corpus, in order."""
+
+    _source: str = PrivateAttr(default="")
+
+    @model_validator(mode="after")
+    def _distinct_names(self) -> Recipe:
+        names = [part.name for part in self.part]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise refuse(f'two parts are called "{twice}"', "part", "a different name for each part")
+        return self
+
+    @property
+    def source(self) -> str:
+        """The file it was read from, for messages."""
+        return self._source
+
+    @cached_property
+    def hash(self) -> str:
+        """Hex SHA-256 of everything that was read, defaults and tables included; comments and layout do not count."""
+        content = json.dumps(self.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(content.encode()).hexdigest()
+
+    @property
+    def count(self) -> int:
+        """Number of records of all parts."""
+        return self._first_records[-1]
+
+    @cached_property
+    def _first_records(self) -> list[int]:
+        return list(accumulate((part.records for part in self.part), initial=0))
+
+    @cached_property
+    def _first_machines(self) -> list[int]:
+        return list(accumulate((part.machines for part in self.part), initial=0))
+
+    def place(self, record: int) -> tuple[int, int]:
+        """Index of the part that `record` (0 ≤ record < count) belongs to, and its machine's number in the corpus."""
+        if not 0 <= record < self.count:
+            raise BadInput(file=self.source, field="record", value=record, allowed=f"0 to {self.count - 1}")
+        part = bisect_right(self._first_records, record) - 1
+        local = record - self._first_records[part]
+        return part, self._first_machines[part] + local // self.part[part].records_per_machine
+
+
+def load_recipe(path_or_name: str | Path) -> Recipe:
+    """The recipe in a file, in a folder's `recipe.toml` or of a dataset that comes with spallgen; raises BadInput."""
+    path = find_recipe(path_or_name)
+    try:
+        text = path.read_text(encoding="utf-8")
+        content = tomllib.loads(text)
+    except UnicodeDecodeError:
+        raise BadInput("not a UTF-8 text file", file=str(path)) from None
+    except tomllib.TOMLDecodeError as error:
+        raise BadInput(f"not valid TOML: {error}", file=str(path)) from None
+    return parse_recipe(content, path, text)
+
+
+def parse_recipe(content: dict[str, Any], path: Path, text: str = "") -> Recipe:
+    """The recipe of parsed TOML read from `path`; raises BadInput, with line numbers where `text` is given."""
+    try:
+        recipe = Recipe.model_validate(content, context={FOLDER: path.parent})
+    except ValidationError as error:
+        raise bad_recipe(error, Recipe, path, text) from None
+    recipe._source = str(path)
+    return recipe
+
+
+def recipe_schema() -> dict[str, Any]:
+    """JSON Schema of a recipe, for editors."""
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | Recipe.model_json_schema()

@@ -1,0 +1,51 @@
+"""Where recipes are found: as a file or folder first, then among the datasets that come with spallgen.
+
+A wheel holds the repository's `datasets` folder as `datagen/datasets` (pyproject.toml maps it there, so that nothing is
+copied by hand); in a checkout the folder is found beside the packages.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+
+import datagen
+from datagen.errors import BadInput
+from datagen.recipes.spelling import suggestion
+
+FILE_NAME = "recipe.toml"
+
+
+def dataset_folders() -> list[Path]:
+    """Folders that may hold the datasets that come with spallgen: the wheel's, then the checkout's."""
+    package = Path(datagen.__file__).resolve().parent
+    return [package / "datasets", package.parent / "datasets"]
+
+
+def shipped_recipes() -> dict[str, Path]:
+    """Recipe file of each dataset that comes with spallgen, by name."""
+    found = [path for folder in reversed(dataset_folders()) for path in sorted(folder.glob(f"*/{FILE_NAME}"))]
+    return {path.parent.name: path for path in found}
+
+
+def find_recipe(path_or_name: str | Path) -> Path:
+    """File of a recipe given as a file, a folder or the name of a dataset ("quickstart", "datasets/quickstart")."""
+    path = Path(path_or_name)
+    if path.is_file():
+        return path
+    if (path / FILE_NAME).is_file():
+        return path / FILE_NAME
+    if path.is_dir():
+        raise BadInput(f"this folder has no {FILE_NAME}", file=str(path))
+    shipped = shipped_recipes()
+    name = _dataset_name(path)
+    if name in shipped:
+        return shipped[name]
+    known = ", ".join(shipped) or "(none)"
+    raise BadInput(f"no such file, and no dataset of that name ({known})" + suggestion(name, shipped), file=str(path))
+
+
+def _dataset_name(path: Path) -> str:
+    parts = PurePosixPath(path.as_posix()).parts
+    parts = parts[1:] if parts[:1] == ("datasets",) else parts
+    parts = parts[:-1] if parts[-1:] == (FILE_NAME,) else parts
+    return "/".join(parts)

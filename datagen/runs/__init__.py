@@ -1,0 +1,1 @@
+"""Making a corpus: the plan of its shards, the workers, crashes and resumption."""

@@ -1,0 +1,100 @@
+"""Making a corpus: from a recipe to shards, manifest and index, by workers, resumed where an earlier run stopped."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from datagen.corpora.atomic import locked
+from datagen.corpora.format import Identity, check_compression, format_hash
+from datagen.corpora.manifest import manifest_path, read_manifest
+from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.records.versions import program_hash
+from datagen.runs.plan import plan_shards, selection
+from datagen.runs.progress import Reporter, Silence
+from datagen.runs.run import Run, Summary
+from datagen.runs.workers import Engine, engaged
+
+
+def generate(
+    recipe: Recipe,
+    folder: Path,
+    *,
+    limit: int | None = None,
+    records: Sequence[int] | None = None,
+    engine: Engine | None = None,
+    reporter: Reporter | None = None,
+) -> Summary:
+    """Make the recipe's records (all, the first `limit`, or those listed) in `folder`, keeping what is finished there.
+
+    The arrays depend on the recipe alone, not on `engine`, order or interruptions. Raises BadInput before anything is
+    written. KeyboardInterrupt leaves a usable corpus of the shards finished so far.
+    """
+    began = time.monotonic()
+    asked = selection(recipe, limit, records)
+    check_compression(recipe.store.compression)
+    identity = corpus_identity(recipe)
+    check_folder(folder, identity)
+    with engaged(engine or Engine()):
+        planned = plan_shards(recipe, asked[-1][1])
+        _make_folder(folder)
+        with locked(folder):
+            run = Run(recipe, folder, identity, asked, reporter or Silence())
+            try:
+                run.make(planned)
+            finally:
+                run.finish()
+    return run.summary(time.monotonic() - began)
+
+
+def corpus_identity(recipe: Recipe) -> Identity:
+    """The hashes that a corpus made now from this recipe carries."""
+    from physics._jit import fingerprint
+
+    return Identity(recipe.hash[:16], fingerprint(), format_hash(), program_hash())
+
+
+def check_folder(folder: Path, identity: Identity) -> None:
+    """Raise BadInput if `folder` holds anything but nothing, or a corpus of the same identity."""
+    if folder.exists() and not folder.is_dir():
+        raise BadInput("a file of this name is in the way", str(folder), "--out")
+    if not manifest_path(folder).exists():
+        strangers = _strangers(folder)
+        if strangers:
+            raise BadInput(
+                f"this folder holds other things ({', '.join(strangers[:3])}) and no corpus", str(folder), "--out"
+            )
+        return
+    found = read_manifest(folder).identity
+    changed = {
+        "the recipe": found.recipe_hash != identity.recipe_hash,
+        "the physics": found.model_hash != identity.model_hash,
+        "the file format": found.format_hash != identity.format_hash,
+        "the program": found.program_hash != identity.program_hash,
+    }
+    names = [name for name, differs in changed.items() if differs]
+    if names:
+        raise BadInput(
+            f"the corpus in this folder was begun with another version of {' and '.join(names)}, and a corpus never "
+            "mixes two: choose another folder, or delete this one",
+            str(folder),
+            "--out",
+        )
+
+
+def _strangers(folder: Path) -> list[str]:
+    """Names in `folder` that an interrupted beginning of a run does not explain."""
+    if not folder.exists():
+        return []
+    ours = (".lock", "shards")
+    names = [path.name for path in folder.iterdir() if path.name not in ours and not path.name.endswith(".part")]
+    return sorted(names) or sorted(path.name for path in (folder / "shards").glob("*.nc"))
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        (folder / "shards").mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise BadInput(f"cannot make this folder: {problem.strerror}", str(folder), "--out") from None

@@ -1,0 +1,123 @@
+"""Which record goes into which shard: a function of the recipe alone, so that a run can stop and go on anywhere."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from datagen.corpora.format import ZLIB_SHARE
+from datagen.corpora.manifest import Span, add_spans
+from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.records.record import PROFILE_POINTS
+from datagen.records.stiffness_axis import shard_key, stiffness_axis
+from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario
+from labels.variables import AXES, COMPONENTS, SIGNALS
+
+
+@dataclass(frozen=True)
+class PlannedShard:
+    """A shard of the whole corpus: its number, its records and the optional signals that they all store.
+
+    `record_bytes` is about what the signals of one record need on the disk, `record_seconds` its length.
+    """
+
+    number: int
+    records: tuple[int, ...]
+    stored: tuple[str, ...]
+    record_bytes: float
+    record_seconds: float
+
+
+def plan_shards(recipe: Recipe, stop: int) -> list[PlannedShard]:
+    """The shards that hold records 0 … `stop` − 1 of the recipe, the last ones perhaps not yet full.
+
+    Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
+    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. Raises BadInput if a record
+    can hardly be drawn.
+    """
+    shards: list[PlannedShard] = []
+    growing: dict[Hashable, int] = {}
+    forces_kept: set[tuple[str, str]] = set()
+    for record in range(stop):
+        scenario = draw_scenario(recipe, record)
+        stored = stored_signals(recipe, scenario, forces_kept)
+        kind = (shard_key(scenario), stored)
+        if kind not in growing:
+            growing[kind] = len(shards)
+            size = stored_bytes(scenario, stored, recipe.store.compression)
+            shards.append(PlannedShard(len(shards), (), stored, size, scenario.duration))
+        place = growing[kind]
+        shards[place] = replace(shards[place], records=(*shards[place].records, record))
+        if len(shards[place].records) == recipe.store.records_per_shard:
+            del growing[kind]
+    return shards
+
+
+def stored_signals(recipe: Recipe, scenario: Scenario, forces_kept: set[tuple[str, str]]) -> tuple[str, ...]:
+    """Names of the optional signals stored of a record; `forces_kept` collects the kinds whose first has been met."""
+    kind = (scenario.rig, scenario.condition)
+    first = kind not in forces_kept
+    forces_kept.add(kind)
+    keep_force = recipe.store.contact_force == "first_of_each" and first
+    return signals_of_every_record(recipe) + (("contact_force",) if keep_force else ())
+
+
+def signals_of_every_record(recipe: Recipe) -> tuple[str, ...]:
+    """Names of the optional signals that the recipe asks of every record."""
+    store = recipe.store
+    asked = {
+        "acceleration_clean": store.clean,
+        "cage_angle": store.cage_angle,
+        "profile_depth": store.profile,
+        "contact_force": store.contact_force == "all",
+    }
+    return tuple(name for name, keep in asked.items() if keep)
+
+
+def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) -> float:
+    """About what the signals of one record need on the disk."""
+    bearing = scenario.scene.rig.bearing
+    sizes = {
+        "record": 1,
+        "time": scenario.samples,
+        "axis": len(AXES),
+        "component": len(COMPONENTS),
+        "stiffness_time": stiffness_axis(scenario).size,
+        "profile_angle": PROFILE_POINTS,
+        "row": bearing.rows,
+        "ball": bearing.balls,
+    }
+    total = 0.0
+    for signal in SIGNALS:
+        if signal.stored == "always" or signal.name in stored:
+            raw = math.prod(sizes[dim] for dim in signal.dims) * np.dtype(signal.dtype).itemsize
+            total += raw * (ZLIB_SHARE[signal.name] if compression == "zlib" else 1.0)
+    return total
+
+
+def needed_bytes(shards: Sequence[PlannedShard]) -> float:
+    """About what the shards need on the disk."""
+    return sum(len(shard.records) * shard.record_bytes for shard in shards)
+
+
+def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) -> tuple[Span, ...]:
+    """Spans [start, stop) of the records that a run is asked for: all, the first `limit`, or those listed.
+
+    Raises BadInput for a limit below 1, an empty list, a record that the recipe does not have, or both at once.
+    """
+    if limit is not None and records is not None:
+        raise BadInput("give either a limit or a list of records", field="--limit, --records")
+    if records is not None:
+        if not records:
+            raise BadInput("no record is listed", field="--records")
+        for record in records:
+            recipe.place(record)
+        return add_spans((), ((record, record + 1) for record in records))
+    if limit is not None and limit < 1:
+        raise BadInput(field="--limit", value=limit, allowed="1 or more")
+    return ((0, min(limit or recipe.count, recipe.count)),)

@@ -1,0 +1,240 @@
+"""One run over one corpus folder, from its first manifest to its summary."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from datagen.corpora.atomic import NO_SPACE, sweep_temporaries, write_atomically
+from datagen.corpora.format import Identity
+from datagen.corpora.index import write_index
+from datagen.corpora.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
+from datagen.corpora.shard import Failure, Sidecar, finished_shards
+from datagen.recipes.recipe import Recipe
+from datagen.records.versions import program_versions
+from datagen.runs.plan import PlannedShard, needed_bytes
+from datagen.runs.progress import Reporter, for_people
+from datagen.runs.task import make_shard, warm_kernels
+from datagen.runs.workers import WorkerLost, run_tasks
+
+ATTEMPTS_TOGETHER = 2
+LONGEST_TASK_BASE = 600.0
+LONGEST_TASK_FACTOR = 30.0
+
+
+@dataclass(frozen=True)
+class Summary:
+    """How a run ended: `asked` records were wanted, `made` of them are in the corpus, `new` were made by this run.
+
+    `failed` could not be made; `problem` is a sentence if the run stopped before its end. `bytes` is the size of all
+    shards of the corpus, `seconds` wall time of this run.
+    """
+
+    folder: str
+    asked: int
+    made: int
+    new: int
+    failed: tuple[Failure, ...]
+    problem: str
+    bytes: int
+    seconds: float
+
+    @property
+    def complete(self) -> bool:
+        """True if every record asked for is in the corpus."""
+        return self.made == self.asked
+
+
+class Run:
+    """The records `asked` for, made in `folder`; call make, then finish whatever happened."""
+
+    def __init__(
+        self,
+        recipe: Recipe,
+        folder: Path,
+        identity: Identity,
+        asked: tuple[Span, ...],
+        reporter: Reporter,
+    ) -> None:
+        earlier = read_manifest(folder) if manifest_path(folder).exists() else None
+        self.recipe, self.folder, self.reporter = recipe, folder, reporter
+        self.wanted = frozenset(record for start, stop in asked for record in range(start, stop))
+        self.manifest = Manifest(
+            name=recipe.name,
+            identity=identity,
+            recipe=recipe.model_dump(mode="json"),
+            recipe_records=recipe.count,
+            asked=add_spans(earlier.asked if earlier else (), asked),
+            made_with=program_versions(),
+        )
+        self.errors: dict[int, tuple[PlannedShard, str]] = {}
+        self.finished: dict[int, Sidecar] = {}
+        self.made_before = 0
+        self.done = 0
+        self.problem = ""
+
+    def make(self, planned: Sequence[PlannedShard]) -> None:
+        """Make every planned shard that is not finished; what cannot be made is remembered, not raised."""
+        try:
+            self._begin()
+            self._make_missing(planned)
+        except OSError as problem:
+            if problem.errno not in NO_SPACE:
+                raise
+            self._rescan()
+            self.problem = self._out_of_space(self._unfinished(planned))
+
+    def _begin(self) -> None:
+        """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
+        for place in (self.folder, self.folder / "shards"):
+            sweep_temporaries(place)
+        self._rescan()
+        self.made_before = self._made()
+        write_manifest(self.folder, self.manifest)
+
+    def _make_missing(self, planned: Sequence[PlannedShard]) -> None:
+        todo = self._unfinished(planned)
+        self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
+        if not todo:
+            self.reporter.say("every record asked for is there already")
+            return
+        self._announce(todo)
+        warm_kernels(self.reporter)
+        self.reporter.advance(self.done, len(self.wanted))
+        self._make_persistently(todo)
+
+    def finish(self) -> None:
+        """Rebuild manifest, index and the list of failures from the finished shards."""
+        self._rescan()
+        try:
+            write_index(self.folder, self._own_sidecars())
+            write_manifest(self.folder, self.manifest)
+            self._write_failures()
+        except OSError as problem:
+            if problem.errno not in NO_SPACE:
+                raise
+            self.problem = (
+                self.problem or "the disk is full: no room for the index; the same command goes on from there"
+            )
+
+    def summary(self, seconds: float) -> Summary:
+        """The summary of the run, which took `seconds`."""
+        made = self._made()
+        return Summary(
+            folder=str(self.folder),
+            asked=len(self.wanted),
+            made=made,
+            new=max(made - self.made_before, 0),
+            failed=tuple(failure for failure in self._failures() if failure.record in self.wanted),
+            problem=self.problem,
+            bytes=self.manifest.bytes,
+            seconds=round(seconds, 3),
+        )
+
+    def _own_sidecars(self) -> Iterator[Sidecar]:
+        return (sidecar for sidecar in finished_shards(self.folder) if sidecar.identity == self.manifest.identity)
+
+    def _rescan(self) -> None:
+        """Learn from the disk, and from nothing else, what is finished (labels are not kept in memory)."""
+        self.finished = {sidecar.shard: replace(sidecar, labels={}) for sidecar in self._own_sidecars()}
+        self.manifest = self.manifest.with_shards(self.folder, self.finished.values())
+
+    def _made(self) -> int:
+        return sum(len(self.wanted.intersection(sidecar.records)) for sidecar in self.finished.values())
+
+    def _wanted_of(self, shard: PlannedShard) -> int:
+        return len(self.wanted.intersection(shard.records))
+
+    def _unfinished(self, planned: Sequence[PlannedShard]) -> list[PlannedShard]:
+        """Planned shards that lack a wanted record, each with all the records that it must then hold."""
+        todo = []
+        for shard in planned:
+            there = self.finished[shard.number].settled if shard.number in self.finished else frozenset()
+            records = tuple(record for record in shard.records if record in self.wanted or record in there)
+            if not there.issuperset(records):
+                todo.append(replace(shard, records=records))
+        return todo
+
+    def _announce(self, todo: Sequence[PlannedShard]) -> None:
+        needed, free = needed_bytes(todo), shutil.disk_usage(self.folder).free
+        count = sum(len(shard.records) for shard in todo)
+        warning = "" if needed < free else ": the disk will be full before the end"
+        self.reporter.say(
+            f"{count} records in {len(todo)} shards to make; they need about {for_people(needed)} of disk, "
+            f"{for_people(free)} are free{warning}"
+        )
+
+    def _make_persistently(self, todo: list[PlannedShard]) -> None:
+        """Make the shards together; when workers keep dying, those under way one by one, to find the cause."""
+        losses = 0
+        while todo:
+            started: set[int] = set()
+            try:
+                self._make_together(todo, started)
+                return
+            except WorkerLost as loss:
+                self.reporter.say(f"a worker was lost ({loss}); going on with what is missing")
+            losses += 1
+            todo = self._still(todo)
+            if losses % ATTEMPTS_TOGETHER == 0:
+                for shard in [shard for shard in todo if shard.number in started] or todo[:1]:
+                    self._make_alone(shard)
+                todo = self._still(todo)
+
+    def _still(self, todo: Sequence[PlannedShard]) -> list[PlannedShard]:
+        """Those of `todo` that are neither on the disk nor given up."""
+        self._rescan()
+        return [shard for shard in self._unfinished(todo) if shard.number not in self.errors]
+
+    def _make_alone(self, shard: PlannedShard) -> None:
+        try:
+            self._make_together([shard], set())
+        except WorkerLost as loss:
+            self.errors[shard.number] = (shard, f"its worker was lost every time ({loss})")
+            self.reporter.say(f"shard {shard.number} is given up: its worker was lost every time")
+
+    def _make_together(self, todo: Sequence[PlannedShard], started: set[int]) -> None:
+        """Make the shards in any order; `started` collects the numbers of those handed to workers."""
+        by_number = {shard.number: shard for shard in todo}
+        for row in run_tasks(make_shard, self._tasks(todo, started), _time_limit(todo)):
+            shard = by_number[row.shard]
+            if row.error:
+                self.errors[row.shard] = (shard, row.error)
+                self.reporter.say(f"shard {row.shard} could not be made: {row.error.strip().splitlines()[-1]}")
+            self.done += self._wanted_of(shard)
+            self.reporter.advance(self.done, len(self.wanted))
+
+    def _tasks(self, todo: Sequence[PlannedShard], started: set[int]) -> Iterator[tuple[Any, ...]]:
+        folder = self.folder.absolute()
+        for shard in todo:
+            started.add(shard.number)
+            yield self.recipe, folder, shard, self.manifest.identity
+
+    def _out_of_space(self, todo: Sequence[PlannedShard]) -> str:
+        missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
+        return (
+            f"the disk is full: {sum(len(shard.records) for shard in todo)} records are not made, and about "
+            f"{for_people(missing)} more are needed; finished shards are kept, and the same command goes on from there"
+        )
+
+    def _failures(self) -> list[Failure]:
+        lost = [Failure(record, reason) for shard, reason in self.errors.values() for record in shard.records]
+        return sorted((*self.manifest.failed, *lost), key=lambda failure: failure.record)
+
+    def _write_failures(self) -> None:
+        path = self.folder / "failed.jsonl"
+        failures = self._failures()
+        if failures:
+            write_atomically(path, "".join(f"{json.dumps(asdict(failure))}\n" for failure in failures).encode())
+        else:
+            path.unlink(missing_ok=True)
+
+
+def _time_limit(todo: Sequence[PlannedShard]) -> float:
+    """Seconds far above what any of the shards can take."""
+    longest = max(len(shard.records) * shard.record_seconds for shard in todo)
+    return LONGEST_TASK_BASE + LONGEST_TASK_FACTOR * longest

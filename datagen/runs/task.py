@@ -1,0 +1,67 @@
+"""What one worker does: make the records of one shard, write them, and give back one small row."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+
+from datagen.corpora.atomic import NO_SPACE
+from datagen.corpora.format import Identity, to_dataset
+from datagen.corpora.shard import Failure, write_shard
+from datagen.recipes.recipe import Recipe
+from datagen.records.record import Record, make_record
+from datagen.runs.plan import PlannedShard
+from datagen.runs.progress import Reporter
+from datagen.scenarios.sampling import draw_scenario
+from physics.outcome import SimulationFailed
+
+
+@dataclass(frozen=True)
+class ShardRow:
+    """How a shard ended: `made` and `failed` records, `bytes` on the disk; `error` is a traceback if none was."""
+
+    shard: int
+    made: int
+    failed: int
+    bytes: int
+    error: str = ""
+
+
+def warm_kernels(reporter: Reporter) -> None:
+    """Compile every kernel before workers start, so that they find it in the cache."""
+    from physics._jit import CACHE_FOLDER
+    from physics.simulate import warm_up
+
+    if not any(CACHE_FOLDER.iterdir()):
+        reporter.say("compiling the physics, once for each version of it")
+    warm_up()
+
+
+def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
+    """Make and write all records of a planned shard; raises OSError only if the disk is full."""
+    try:
+        return _make_shard(recipe, folder, planned, identity)
+    except Exception as problem:
+        if isinstance(problem, OSError) and problem.errno in NO_SPACE:
+            raise
+        return ShardRow(planned.number, 0, len(planned.records), 0, traceback.format_exc())
+
+
+def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
+    began = time.perf_counter()
+    records: list[Record] = []
+    failed: list[Failure] = []
+    for index in planned.records:
+        try:
+            records.append(make_record(draw_scenario(recipe, index), planned.stored))
+        except SimulationFailed as problem:
+            failed.append(Failure(index, str(problem)))
+    title = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
+    dataset = to_dataset(records, title) if records else None
+    seconds = time.perf_counter() - began
+    written = write_shard(
+        folder, planned.number, identity, dataset, tuple(failed), recipe.store.compression, round(seconds, 3)
+    )
+    return ShardRow(planned.number, len(records), len(failed), written.bytes)

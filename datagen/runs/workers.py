@@ -1,0 +1,137 @@
+"""Running tasks on several processes or machines so that nothing outlives its parent and a dead worker is noticed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from datagen.errors import BadInput
+
+BACKENDS = ("loky", "dask")
+PARENT_POLL = 0.25
+
+
+@dataclass(frozen=True)
+class Engine:
+    """Who does the work; what is None follows the caller's `joblib.parallel_config`, or is loky on every processor.
+
+    `scheduler` is the address of a running Dask scheduler.
+    """
+
+    workers: int | None = None
+    backend: str | None = None
+    scheduler: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.workers is not None and self.workers < 1:
+            raise BadInput(field="--workers", value=self.workers, allowed="1 or more")
+        if self.backend is not None and self.backend not in BACKENDS:
+            raise BadInput(field="--backend", value=self.backend, allowed=", ".join(BACKENDS))
+        if self.scheduler is not None and self.backend != "dask":
+            raise BadInput("a scheduler needs --backend dask", field="--scheduler", value=self.scheduler)
+
+
+class WorkerLost(RuntimeError):
+    """A worker process died, or a task ran out of time; what had been finished is on the disk."""
+
+
+def watch_parent(parent: int) -> None:
+    """Start a thread that ends this process within a second of the death of its `parent`; Ctrl-C is the parent's."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
+
+
+def _exit_with(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(PARENT_POLL)
+    os._exit(1)
+
+
+@contextmanager
+def engaged(engine: Engine) -> Iterator[None]:
+    """joblib works with `engine` in this context; raises BadInput if Dask is not there."""
+    from joblib import cpu_count, parallel_config
+    from joblib.parallel import get_active_backend
+
+    callers, callers_workers = get_active_backend()
+    if engine.backend == "dask":
+        with _dask_client(engine) as client, parallel_config(backend="dask", client=client, n_jobs=-1):
+            yield
+    elif engine.backend is None and type(callers).__name__ != "LokyBackend":
+        yield
+    else:
+        with parallel_config(
+            backend="loky",
+            n_jobs=engine.workers or callers_workers or cpu_count(),
+            inner_max_num_threads=1,
+            max_nbytes=None,
+            initializer=watch_parent,
+            initargs=(os.getpid(),),
+        ):
+            yield
+
+
+def run_tasks(
+    function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], time_limit: float | None = None
+) -> Iterator[Any]:
+    """Results of `function(*task)` as they come; raises WorkerLost, and whatever `function` raises.
+
+    `time_limit` (s) bounds one task on Dask, where a task that keeps killing its worker would otherwise never end.
+    """
+    from multiprocessing import TimeoutError as TaskTimeout
+
+    from joblib import Parallel, delayed
+    from joblib.externals.loky.process_executor import BrokenProcessPool
+    from joblib.parallel import get_active_backend
+
+    on_dask = type(get_active_backend()[0]).__name__ == "DaskDistributedBackend"
+    parallel = Parallel(
+        return_as="generator_unordered",
+        batch_size=1,
+        pre_dispatch="2*n_jobs",
+        timeout=time_limit if on_dask else None,
+    )
+    try:
+        yield from parallel(delayed(function)(*task) for task in tasks)
+    except (BrokenProcessPool, TaskTimeout) as problem:
+        raise WorkerLost(_cause(problem)) from problem
+    except Exception as problem:
+        if type(problem).__name__ == "KilledWorker":
+            raise WorkerLost(_cause(problem)) from problem
+        raise
+
+
+def _cause(problem: BaseException) -> str:
+    text = str(problem).strip()
+    return text.splitlines()[0].split(". ")[0] if text else type(problem).__name__
+
+
+def _dask_client(engine: Engine) -> Any:
+    from joblib import cpu_count
+
+    try:
+        from distributed import Client
+    except ImportError as problem:
+        raise BadInput(
+            "Dask is not installed; install it with: pip install 'spallgen[dask]'", field="--backend", value="dask"
+        ) from problem
+    # A default client would outlive its closing in Dask's configuration, and xarray would ask for it when writing.
+    if engine.scheduler is None:
+        return Client(
+            n_workers=engine.workers or cpu_count(),
+            threads_per_worker=1,
+            dashboard_address=":0",
+            set_as_default=False,
+        )
+    try:
+        return Client(engine.scheduler, timeout=10, set_as_default=False)
+    except (OSError, ValueError) as problem:
+        raise BadInput(
+            f"no Dask scheduler answers there ({problem})", field="--scheduler", value=engine.scheduler
+        ) from problem

@@ -1,0 +1,122 @@
+"""Spalls drawn from the settings of a part."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+
+from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, DefectSettings, SpallSettings
+from datagen.recipes.distributions import Distribution, Fixed
+from datagen.recipes.profile_table import ProfileTable
+from datagen.scenarios.machine import DEGREES_PER_RADIAN
+from datagen.scenarios.picker import Picker
+from physics.bearing import Bearing
+from physics.checks import InvalidParameter, require
+from physics.hertz import contact_width
+from physics.roughness import draw_roughness
+from physics.spall import Spall, is_extended
+
+Streams = Callable[[str, int], np.random.Generator]
+TURN = 2.0 * math.pi
+DEFAULT_TAPER_SHARE = {"tukey": 0.1, "ball_path": 0.0, "table": 0.0}
+ROWS = {"1": (1,), "2": (2,), "both": (1, 2)}
+
+
+def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, streams: Streams) -> tuple[Spall, ...]:
+    """Spalls of one record under `load` (N); `streams` opens the stream of a purpose and item.
+
+    Raises InvalidParameter if what was drawn cannot be; the caller draws again.
+    """
+    if settings is None:
+        return ()
+    pick = Picker.of(streams("defect", 0))
+    condition, race, profile = (pick.word(word) for word in (settings.condition, settings.race, settings.profile))
+    if condition == "healthy":
+        return ()
+    spalls = list(_draw_all(settings.refined[condition, race, profile], race, profile, bearing, load, streams))
+    _require_condition(condition, max(spall.extent for spall in spalls), bearing)
+    _require_apart(spalls)
+    return tuple(spalls)
+
+
+def _draw_all(
+    settings: SpallSettings, race: str, profile: str, bearing: Bearing, load: float, streams: Streams
+) -> Iterator[Spall]:
+    pick = Picker.of(streams("spall", 0))
+    rows = ROWS[pick.word(settings.row or Fixed(1))]
+    count = pick.whole(settings.count) or 1
+    angle = pick.number(settings.angle_deg or IN_THE_LOAD_ZONE, DEGREES_PER_RADIAN)
+    for item in range(count):
+        if item > 0:
+            pick = Picker.of(streams("spall", item))
+            angle += pick.number(settings.separation_deg or ANYWHERE, DEGREES_PER_RADIAN)
+        shape = _draw_shape(settings, race, profile, bearing, pick)
+        rough = _draw_roughness(shape, bearing, load, streams("roughness", item))
+        for row in rows:
+            yield replace(rough, row=row, angle=angle % TURN)
+
+
+def _draw_shape(settings: SpallSettings, race: str, profile: str, bearing: Bearing, pick: Picker) -> Spall:
+    """A spall without place and without its roughness values."""
+    extent = _draw_extent(settings, race, bearing, pick)
+    depth = pick.number(settings.depth_um or Fixed(0.0), 1e6)
+    entry = _draw_taper(settings.entry_taper_deg, settings.entry_taper_share, profile, extent, pick)
+    exit_ = _draw_taper(settings.exit_taper_deg, settings.exit_taper_share, profile, extent, pick)
+    roughness = pick.number(settings.roughness_um or Fixed(0.0), 1e6)
+    if profile == "table" and settings.table is not None:
+        return _measured_spall(race, settings.table)
+    return Spall(race, 1, 0.0, extent, depth, entry, exit_, profile, roughness)
+
+
+def _measured_spall(race: str, table: ProfileTable) -> Spall:
+    arcs, depths = table.centred_angles(), table.depths()
+    extent = math.radians(table.extent_deg)
+    return Spall(race, 1, 0.0, extent, max(depths), profile="table", table_angle=arcs, table_depth=depths)
+
+
+def _draw_extent(settings: SpallSettings, race: str, bearing: Bearing, pick: Picker) -> float:
+    number = pick.optional(settings.extent_deg or settings.extent_mm or settings.extent_spacing)
+    if number is None:
+        return bearing.spacing
+    if settings.extent_deg is not None:
+        return math.radians(number)
+    return number / 1e3 / bearing.raceway_radius(race) if settings.extent_mm is not None else number * bearing.spacing
+
+
+def _draw_taper(
+    arc: Distribution | None, share: Distribution | None, profile: str, extent: float, pick: Picker
+) -> float:
+    if arc is not None:
+        return pick.number(arc, DEGREES_PER_RADIAN)
+    return pick.number(share or Fixed(DEFAULT_TAPER_SHARE[profile])) * extent
+
+
+def _draw_roughness(spall: Spall, bearing: Bearing, load: float, generator: np.random.Generator) -> Spall:
+    if spall.roughness == 0.0:
+        return spall
+    width = contact_width(bearing, spall.race, bearing.stribeck_peak_load(load)) if spall.profile == "tukey" else None
+    values = draw_roughness(generator, bearing, spall.race, spall.extent, spall.roughness, width)
+    return replace(spall, roughness_values=values)
+
+
+def _require_condition(condition: str, extent: float, bearing: Bearing) -> None:
+    extended = is_extended(extent, bearing)
+    if extended != (condition == "extended"):
+        relation = "reaches" if extended else "is shorter than"
+        raise InvalidParameter(
+            f"condition = {condition}, but the spall of {math.degrees(extent):.4g} degrees {relation} the ball spacing "
+            f"of {math.degrees(bearing.spacing):.4g} degrees",
+            "extent",
+        )
+
+
+def _require_apart(spalls: list[Spall]) -> None:
+    for one, other in combinations(spalls, 2):
+        if one.row == other.row:
+            distance = abs(math.remainder(one.angle - other.angle, TURN))
+            apart = distance >= (one.extent + other.extent) / 2.0
+            require(apart, f"two spalls on row {one.row} overlap: {math.degrees(distance):.4g} degrees apart", "angle")

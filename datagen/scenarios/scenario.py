@@ -1,0 +1,100 @@
+"""A scenario: one record with every number fixed. It alone remakes its record, in any company, on any machine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from datagen.records.background import Background
+from datagen.scenarios.redraw import Redraw
+from datagen.scenarios.streams import stream
+from labels.description import condition
+from physics.scene import Scene
+
+NO_BACKGROUND = Background()
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """What opens every random stream of a record (see `streams`): the recipe's seed, indices and attempts."""
+
+    recipe: int
+    record: int
+    record_attempt: int
+    machine: int
+    machine_attempt: int
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A physical scene with how it is recorded and where it belongs.
+
+    `rate` Hz; `envelope_band` Hz, lower and upper edge; `slip_deviation` and `slip_correlation_time` (s) are the
+    statistics that the slip was drawn from; `redraws` the impossible draws before this one.
+    """
+
+    scene: Scene
+    rate: float
+    seeds: Seeds
+    part: str
+    bearing_id: str
+    split: str
+    envelope_band: tuple[float, float]
+    slip_deviation: float = 0.0
+    slip_correlation_time: float = 0.0
+    background: Background = NO_BACKGROUND
+    redraws: tuple[Redraw, ...] = ()
+
+    @property
+    def record(self) -> int:
+        """Index of the record in the corpus, from 0."""
+        return self.seeds.record
+
+    @property
+    def duration(self) -> float:
+        """Length of the record, s."""
+        return self.scene.duration
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return round(self.rate * self.duration)
+
+    @property
+    def rig(self) -> str:
+        """Name of the rig."""
+        return self.scene.rig.name
+
+    @property
+    def bearing(self) -> str:
+        """Designation of the bearing."""
+        return self.scene.rig.bearing.name
+
+    @property
+    def condition(self) -> str:
+        """healthy, line or extended."""
+        return condition(self.scene)
+
+    @property
+    def location(self) -> str:
+        """The defective race: none, outer or inner."""
+        return self.scene.defective_race
+
+    def generator(self, purpose: str, item: int = 0) -> np.random.Generator:
+        """The stream of one purpose of this record, such as "white_noise"."""
+        seeds = self.seeds
+        return stream(seeds.recipe, "record", seeds.record, purpose, seeds.record_attempt, item)
+
+    def to_json(self) -> str:
+        """The scenario as JSON text, every float exact."""
+        from datagen.scenarios.scenario_text import to_json
+
+        return to_json(self)
+
+    @classmethod
+    def from_json(cls, text: str) -> Scenario:
+        """The scenario that gave this text; raises BadInput if none did."""
+        from datagen.scenarios.scenario_text import from_json
+
+        return from_json(text)

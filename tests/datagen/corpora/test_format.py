@@ -1,0 +1,165 @@
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+
+from datagen.corpora.conformity import violations
+from datagen.corpora.format import COMPRESSIONS, VARIABLE, content_hash, encoding, format_hash, profile_grid, to_dataset
+from datagen.errors import BadInput
+from datagen.records.record import Record
+from labels.schema import LABELS
+
+Maker = Callable[..., Record]
+
+
+def stored(dataset: xarray.Dataset, path: Path, compression: str = "zlib") -> Path:
+    path.write_bytes(dataset.to_netcdf(engine="netcdf4", format="NETCDF4", encoding=encoding(dataset, compression)))
+    return path
+
+
+@pytest.fixture
+def dataset(make_plain_record: Maker) -> xarray.Dataset:
+    return to_dataset([make_plain_record(4, full=True), make_plain_record(9, healthy=True, full=True)], {"title": "t"})
+
+
+def test_a_shard_opens_with_plain_xarray_to_the_arrays_that_were_put_in(
+    dataset: xarray.Dataset, tmp_path: Path
+) -> None:
+    with xarray.open_dataset(stored(dataset, tmp_path / "a.nc")) as opened:
+        assert content_hash(opened.load()) == content_hash(dataset)
+        assert opened.attrs["title"] == "t"
+
+
+def test_time_opens_as_floats_of_seconds_that_start_at_zero(dataset: xarray.Dataset, tmp_path: Path) -> None:
+    with xarray.open_dataset(stored(dataset, tmp_path / "a.nc")) as opened:
+        for name in ("time", "stiffness_time", "entry_time", "regain_time", "duration_s"):
+            assert opened[name].dtype == np.float64, name
+        assert opened["time"].values[0] == 0.0
+
+
+def test_texts_are_readable_with_plain_netcdf4(dataset: xarray.Dataset, tmp_path: Path) -> None:
+    with netCDF4.Dataset(stored(dataset, tmp_path / "a.nc")) as opened:
+        assert opened["scenario"][0] == '{"record": 4, "umlaut": "ü"}'
+        assert list(opened["condition"][:]) == ["line", "healthy"]
+        assert list(opened["component"][:]) == ["xx", "yy", "xy"]
+
+
+def test_every_label_and_variable_carries_its_unit_and_a_long_name(dataset: xarray.Dataset) -> None:
+    for name, variable in dataset.variables.items():
+        assert variable.attrs.get("units", "") == VARIABLE[str(name)].unit
+        assert variable.attrs["long_name"]
+    assert {label.name for label in LABELS} <= set(dataset.variables)
+
+
+def test_signals_are_stored_in_one_checksummed_chunk_per_record_and_component(
+    dataset: xarray.Dataset, tmp_path: Path
+) -> None:
+    chunks = {
+        "acceleration": [1, 200, 1],
+        "envelope": [1, 200],
+        "stiffness": [1, 1, 7],
+        "contact_force": [1, 200, 1, 1],
+        "profile_depth": [1, 1, 64],
+    }
+    with netCDF4.Dataset(stored(dataset, tmp_path / "a.nc")) as opened:
+        for name, expected in chunks.items():
+            assert opened[name].chunking() == expected
+            filters = opened[name].filters()
+            assert (filters["zlib"], filters["shuffle"], filters["fletcher32"], filters["complevel"]) == (True,) * 3 + (
+                1,
+            )
+
+
+@pytest.mark.parametrize("compression", COMPRESSIONS)
+def test_a_flipped_bit_in_a_signal_is_noticed_by_any_reader(
+    compression: str, dataset: xarray.Dataset, tmp_path: Path
+) -> None:
+    path = stored(dataset, tmp_path / "a.nc", compression)
+    content = bytearray(path.read_bytes())
+    if compression == "none":
+        start = content.index(dataset["cage_angle"].values[0].tobytes())
+    else:
+        starts = np.array([match.start() for match in re.finditer(b"\x78\x01", content)])  # heads of zlib streams
+        start = starts[np.argmax(np.diff(starts))]
+    content[start + 60] ^= 4
+    path.write_bytes(content)
+    with pytest.raises((OSError, RuntimeError)), xarray.open_dataset(path) as opened:
+        opened.load()
+
+
+def test_a_shard_of_healthy_records_has_empty_tables(make_plain_record: Maker, tmp_path: Path) -> None:
+    dataset = to_dataset([make_plain_record(0, healthy=True)], {})
+    with xarray.open_dataset(stored(dataset, tmp_path / "a.nc")) as opened:
+        assert opened.sizes["ball_pass"] == opened.sizes["defect"] == 0
+        assert content_hash(opened.load()) == content_hash(dataset)
+
+
+def test_the_content_hash_changes_with_any_value_name_or_type(make_plain_record: Maker) -> None:
+    record = make_plain_record(1)
+    first = content_hash(to_dataset([record], {}))
+    envelope = record.envelope.copy()
+    envelope[17] = np.nextafter(envelope[17], np.float32(9.0))
+    changed = [
+        replace(record, envelope=envelope),
+        replace(record, scenario=record.scenario + " "),
+        replace(record, labels=record.labels | {"bridged": True}),
+        replace(record, stiffness=record.stiffness.astype(np.float32) + 8.0),
+    ]
+    assert content_hash(to_dataset([replace(record)], {"title": "another"})) == first
+    assert len({first, *(content_hash(to_dataset([one], {})) for one in changed)}) == 5
+
+
+def test_a_dataset_made_by_the_format_breaks_none_of_its_rules(dataset: xarray.Dataset) -> None:
+    assert list(violations(dataset)) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "sentence"),
+    [
+        ("acceleration", np.nan, "acceleration has 1 values that are not finite"),
+        ("condition", "broken", 'condition has the value "broken"'),
+        ("condition", "extended", "condition and extent_spacing disagree"),
+        ("location", "none", "condition and location disagree"),
+        ("spalls", 2, "condition and spalls"),
+        ("pass_record", 77, "a ball pass belongs to no record"),
+        ("exit_time", 0.0, "not in the order entry, deepest point, exit"),
+        ("time", 0.5, "time is not 0"),
+    ],
+)
+def test_one_wrong_value_is_named(dataset: xarray.Dataset, name: str, value: object, sentence: str) -> None:
+    values = dataset[name].values.astype(object if isinstance(value, str) else dataset[name].dtype)
+    values.flat[0] = value
+    if name == "spalls":
+        values[:] = (0, 1)
+    changed = dataset.assign({name: (dataset[name].dims, values, dataset[name].attrs)})
+    assert any(sentence in found for found in violations(changed))
+
+
+def test_a_missing_variable_or_unit_is_named(dataset: xarray.Dataset) -> None:
+    assert "envelope is missing" in list(violations(dataset.drop_vars("envelope")))
+    dataset["stiffness"].attrs["units"] = "N/mm"
+    assert any('stiffness has the unit "N/mm"' in found for found in violations(dataset))
+
+
+def test_lz4_is_refused_with_its_reason(dataset: xarray.Dataset) -> None:
+    with pytest.raises(BadInput, match=r"lz4 filter fails.*zlib, none"):
+        encoding(dataset, "lz4")
+
+
+def test_the_profile_grid_runs_from_minus_pi_to_pi_without_its_end() -> None:
+    grid = profile_grid(8)
+    assert grid[0] == -np.pi
+    assert grid[4] == 0.0
+    assert np.allclose(np.diff(grid), np.pi / 4.0, rtol=1e-15)  # rounding of the products
+
+
+def test_the_format_hash_is_16_hexadecimal_digits() -> None:
+    assert len(format_hash()) == 16
+    assert int(format_hash(), 16) >= 0

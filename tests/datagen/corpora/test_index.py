@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+
+from datagen.corpora.format import Identity, to_dataset
+from datagen.corpora.index import LABEL_COLUMNS, index_path, read_index, write_index
+from datagen.corpora.shard import finished_shards, write_shard
+from datagen.errors import BadInput
+from datagen.records.record import Record
+from labels.schema import LABELS
+
+Maker = Callable[..., Record]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, make_plain_record: Maker) -> Path:
+    (tmp_path / "shards").mkdir()
+    for shard, indices in enumerate([(0, 3, 6), (1, 2, 8), (4, 5), (7,)]):
+        records = [make_plain_record(index, healthy=index == 3) for index in indices]
+        write_shard(tmp_path, shard, Identity("r", "m", "f", "p"), to_dataset(records, {}), (), "zlib", 1.0)
+    assert write_index(tmp_path, finished_shards(tmp_path)) == 9
+    return tmp_path
+
+
+def test_the_index_has_one_row_a_record_in_their_order_with_its_place(folder: Path) -> None:
+    plain = pandas.read_csv(index_path(folder))
+    assert list(plain["record"]) == list(range(9))
+    assert list(plain.columns) == [*LABEL_COLUMNS, "shard", "position"]
+    assert list(plain["shard"].str[-5:-3].astype(int)) == [0, 1, 1, 0, 2, 2, 0, 3, 1]
+    assert list(plain["position"]) == [0, 0, 1, 1, 0, 1, 2, 0, 2]
+
+
+def test_the_index_reads_back_with_the_types_of_the_schema(folder: Path) -> None:
+    table = read_index(folder)
+    kinds = {"str": "OUT", "float64": "f", "int64": "i", "bool": "b"}
+    for label in LABELS:
+        for column in label.columns:
+            dtype = table[column].to_numpy().dtype
+            assert dtype.kind in kinds[label.dtype], column
+    assert math.isnan(table["snr_db"][1])
+    assert table["location"][3] == "none"
+    assert table["validity"][0] == ""
+
+
+def test_every_digit_of_a_number_survives_the_index(tmp_path: Path, make_plain_record: Maker) -> None:
+    generator = np.random.default_rng(1)
+    records = [make_plain_record(k) for k in range(50)]
+    for record in records:
+        record.labels["extent_mm"] = float(np.exp(generator.normal(0.0, 20.0)))
+    (tmp_path / "shards").mkdir()
+    write_shard(tmp_path, 0, Identity("r", "m", "f", "p"), to_dataset(records, {}), (), "zlib", 1.0)
+    write_index(tmp_path, finished_shards(tmp_path))
+    assert list(read_index(tmp_path)["extent_mm"]) == [record.labels["extent_mm"] for record in records]
+
+
+def test_a_folder_without_index_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match=r"no index\.csv"):
+        read_index(tmp_path)
+
+
+def test_an_index_with_a_lost_column_is_refused(folder: Path) -> None:
+    read = pandas.read_csv(index_path(folder)).drop(columns="bridged")
+    read.to_csv(index_path(folder), index=False)
+    with pytest.raises(BadInput, match="not an index"):
+        read_index(folder)

@@ -1,0 +1,255 @@
+import math
+import struct
+
+import numpy as np
+import pytest
+
+from datagen.drawing.frequency_panels import cursors
+from datagen.drawing.path_panels import load_around, load_over_spall
+from datagen.drawing.portrait import Portrait
+from datagen.drawing.preview import draw_preview
+from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
+from datagen.drawing.style import house_style, plt
+from datagen.drawing.time_panels import _lanes, vertical_modes
+from datagen.errors import BadInput
+from datagen.plain import plain_json
+from datagen.recipes.recipe import load_recipe
+from datagen.runs.generate import generate
+from labels.description import label_values
+from labels.envelope import band_envelope, default_band
+from labels.truth import ball_passes
+from physics import catalog
+from physics.cage import CagePath
+from physics.imperfections import Imperfections, Waviness
+from physics.operation import Operation
+from physics.scene import Scene
+from physics.simulate import simulate
+from physics.spall import Spall
+from physics.stiffness import stiffness_trace
+
+RATE, DURATION = 32768.0, 0.25
+BOTTOM = math.radians(270.0)
+
+LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
+SCENES = {
+    "healthy": ("gearbox", [], ()),
+    "line, outer": ("gearbox", [LINE], ()),
+    "extended, outer": ("gearbox", [Spall("outer", 2, BOTTOM, math.radians(40.0), 4e-6)], ()),
+    "line, inner, deep gap": ("fan", [Spall("inner", 1, 1.0, math.radians(3.0), 1e-3, profile="ball_path")], ()),
+    "healthy but wavy": ("fan", [], (Waviness("outer", 9, 1e-6), Waviness("inner", 5, 2e-6))),
+}
+
+RECIPE = """
+name = "small"
+seed = 4
+[signal]
+rate_hz = 32768
+duration_s = 0.25
+[store]
+clean = true
+[[part]]
+name = "line"
+records = 2
+[part.machine]
+rig = "gearbox"
+[part.defect]
+condition = "line"
+extent_deg = 2.0
+depth_um = 12.0
+[part.background]
+white_rms_m_s2 = 0.02
+"""
+
+
+def portrait(name, clean=True, noise=0.05):
+    rig_name, spalls, waves = SCENES[name]
+    rig = catalog.rig(rig_name)
+    cage = CagePath(rig.bearing.cage_speed(rig.rated_speed), DURATION, 0.2)
+    scene = Scene(rig, Operation(rig.rated_speed, rig.rated_load), cage, tuple(spalls), Imperfections(waves))
+    trace = simulate(scene, RATE, estimate_error=False)
+    measured = trace.acceleration + noise * np.random.default_rng(1).standard_normal(trace.acceleration.shape)
+    band = default_band(rig, RATE)
+    time = np.linspace(0.0, DURATION, 2001)
+    labels = label_values(scene) | {"record": 5, "snr_db": 12.0, "error_estimate": 2e-4, "envelope_band": band}
+    return Portrait(
+        corpus="made by hand",
+        scene=scene,
+        labels=labels,
+        rate=RATE,
+        acceleration=measured,
+        clean=trace.acceleration if clean else None,
+        envelope=band_envelope(measured[:, 1], RATE, band),
+        stiffness_time=time,
+        stiffness=stiffness_trace(scene, time).T,
+        passes=ball_passes(scene, trace.changes, DURATION),
+    )
+
+
+@pytest.fixture
+def recipe_file(tmp_path):
+    path = tmp_path / "recipe.toml"
+    path.write_text(RECIPE)
+    return path
+
+
+def png_size(data):
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", data[16:24])
+
+
+@pytest.mark.parametrize("clean", [True, False], ids=["with clean signal", "without"])
+@pytest.mark.parametrize("name", SCENES)
+def test_a_record_of_every_kind_becomes_a_png_of_the_stated_size(name, clean):
+    assert png_size(sheet_png(portrait(name, clean))) == (WIDTH * DPI, HEIGHT * DPI)
+
+
+def test_every_panel_has_a_title_and_every_scale_a_unit():
+    with house_style():
+        figure = draw_sheet(portrait("line, outer"))
+        titles = [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
+        words = " ".join(axes.get_xlabel() + " " + axes.get_ylabel() for axes in figure.axes)
+        plt.close(figure)
+    for topic in (
+        "Acceleration",
+        "Close-up",
+        "stiffness",
+        "Spectrogram",
+        "Path of a ball",
+        "load",
+        "Amplitude",
+        "Squared",
+    ):
+        assert any(topic in title for title in titles), topic
+    for unit in (
+        "m/s²",
+        "time (s)",
+        "time (ms)",
+        "frequency (kHz)",
+        "kyy (MN/m)",
+        "kxx (MN/m)",
+        " kHz",
+        "(µm)",
+        "(N)",
+        "(°)",
+        "(Hz",
+    ):
+        assert unit in words, unit
+
+
+def test_the_close_up_marks_release_and_regain_of_every_pass_in_it():
+    drawn = portrait("line, outer")
+    with house_style():
+        figure = draw_sheet(drawn)
+        close_up = next(axes for axes in figure.axes if axes.get_title(loc="left") == "Close-up")
+        marks = sorted(line.get_xdata()[0] for line in close_up.lines if len(set(line.get_xdata())) == 1)
+        plt.close(figure)
+    start, stop = drawn.window
+    events = np.concatenate([drawn.passes.release_time, drawn.passes.regain_time])
+    assert np.allclose(marks, 1e3 * np.sort(events[(events >= start) & (events <= stop)]))
+    assert len(marks) == 6
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_close_up_holds_three_passes_and_lies_inside_the_record(name):
+    drawn = portrait(name)
+    start, stop = drawn.window
+    assert 0.0 <= start < stop <= DURATION
+    assert (stop - start) * drawn.frequencies[drawn.defect_frequency] == pytest.approx(3.0)
+    if drawn.shown_pass is not None:
+        assert drawn.passes.complete[drawn.shown_pass]
+        assert start <= drawn.passes.entry_time[drawn.shown_pass] <= stop
+
+
+def test_a_record_shorter_than_the_close_up_is_shown_whole():
+    drawn = portrait("line, outer")
+    samples = round(0.05 * RATE)
+    passes = ball_passes(drawn.scene, None, 0.05)
+    short = Portrait(**vars_of(drawn) | {"acceleration": drawn.acceleration[:samples], "clean": None, "passes": passes})
+    assert short.window == (0.0, samples / RATE)
+
+
+def vars_of(drawn):
+    return {name: getattr(drawn, name) for name in Portrait.__dataclass_fields__}
+
+
+def test_modes_along_y_of_the_healthy_gearbox_rig_are_the_check_values():
+    # 199.3, 2249.3 and 10548 Hz at cage angle 0; elsewhere the healthy kyy differs by 0.01 %, so they move by less.
+    assert vertical_modes(portrait("healthy")) == pytest.approx([199.3, 2249.3, 10548.0], rel=3e-4)
+
+
+def test_cursors_follow_the_defective_race():
+    outer = {name.split()[0]: targets for name, _, _, targets in cursors(portrait("line, outer"))}
+    assert outer["BPFO"] == pytest.approx([34.283 * k for k in range(1, 7)], rel=2e-5)  # last printed digit
+    families = cursors(portrait("line, inner, deep gap"))
+    assert families[0][0].startswith("BPFI")
+    # Fan rig: the two ball-pass frequencies, 76.74 Hz for the outer race, add up to 14 turns of the shaft at 800 rpm.
+    assert families[0][3][0] == pytest.approx(14.0 * 800.0 / 60.0 - 76.74, abs=0.005)  # last printed digit
+    assert "shaft 13.3 Hz" in families[1][0]
+
+
+def test_sidebands_that_a_short_record_cannot_resolve_are_not_marked():
+    # The cage of the gearbox rig turns 0.7 times in a quarter of a second; in one second 2.86 times.
+    drawn = portrait("line, outer")
+    assert [name.split()[0] for name, *_ in cursors(drawn)] == ["BPFO", "shaft"]
+    longer = Portrait(**vars_of(drawn) | {"acceleration": np.zeros((round(RATE), 2))})
+    assert [name.split()[0] for name, *_ in cursors(longer)] == ["BPFO", "±", "shaft"]
+
+
+def test_the_load_of_a_ball_on_a_full_turn_peaks_at_stribecks_value_below_the_shaft():
+    arc, load = load_around(portrait("healthy").scene)
+    assert abs(arc[np.argmax(load)]) < math.radians(0.5)  # a flat top on a grid of 0.3°
+    assert load.max() == pytest.approx(62.995, abs=0.05)  # check value at cage angle 0, which the grid holds
+    assert np.all(load[np.abs(arc) > math.pi / 2.0] == 0.0)
+
+
+@pytest.mark.parametrize("name", ["line, outer", "line, inner, deep gap", "extended, outer"])
+def test_the_load_over_the_spall_falls_between_its_edges_only(name):
+    drawn = portrait(name)
+    spall, k = drawn.scene.spalls[0], drawn.shown_pass
+    arc, load = load_over_spall(drawn, spall, k)
+    half = spall.extent / 2.0
+    assert np.all(np.diff(arc) > 0.0)
+    assert np.all(load[np.abs(arc) < 0.1 * half] < 0.4 * load[arc < -half][-1])
+    assert arc[0] < -half < half < arc[-1]
+
+
+def test_overlapping_passes_lie_in_different_lanes():
+    entry = np.array([0.0, 1.0, 2.0, 3.5, 3.6])
+    leave = np.array([2.5, 3.0, 4.0, 5.0, 6.0])
+    assert _lanes(entry, leave) == [0, 1, 2, 0, 1]
+
+
+def test_the_heading_says_what_is_drawn():
+    drawn = portrait("line, outer")
+    assert heading(drawn) == "made by hand, record 5: line spall, outer race"
+    assert heading(portrait("healthy")).endswith("healthy")
+    for part in ("gearbox rig", "koyo_1205", "420 rpm", "346 N", "SNR 12.0 dB", "0.02 %"):
+        assert part in summary(drawn)
+
+
+def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file, tmp_path):
+    folder = tmp_path / "corpus"
+    generate(load_recipe(recipe_file), folder)
+    drawn = draw_preview(recipe_file, 1, tmp_path / "recipe.png")
+    read = draw_preview(folder, 1, tmp_path / "corpus.png")
+    assert plain_json(drawn) == plain_json(read)
+    assert drawn["frequencies_hz"]["BPFO"] == pytest.approx(34.283, abs=5e-4)  # last printed digit
+    assert drawn["passes"] == pytest.approx(0.25 * 34.283, abs=1.5)  # a pass may be cut at each end
+    assert drawn["released"] >= drawn["passes"] - 2
+    for name in ("recipe.png", "corpus.png"):
+        assert png_size((tmp_path / name).read_bytes()) == (WIDTH * DPI, HEIGHT * DPI)
+
+
+@pytest.mark.parametrize(
+    ("source", "record", "out", "message"),
+    [
+        ("recipe.toml", 2, "a.png", "record = 2.*0 to 1"),
+        ("recipe.toml", 0, "a.jpg", r"--out.*\.png"),
+        ("recipe.toml", 0, "nowhere/a.png", "no such folder"),
+        ("missing.toml", 0, "a.png", "missing.toml"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_and_nothing_is_written(recipe_file, tmp_path, source, record, out, message):
+    with pytest.raises(BadInput, match=message):
+        draw_preview(tmp_path / source, record, tmp_path / out)
+    assert [path.name for path in tmp_path.iterdir()] == ["recipe.toml"]

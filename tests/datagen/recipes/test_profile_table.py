@@ -1,0 +1,51 @@
+"""Measured spalls from files."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from pydantic import ValidationError
+
+from datagen.recipes.profile_table import FOLDER, ProfileTable
+
+HEAD = "angle_deg,depth_um\n"
+
+
+def read(folder: Path, text: str) -> ProfileTable:
+    """The table of a file with this text."""
+    (folder / "pit.csv").write_text(text)
+    return ProfileTable.model_validate("pit.csv", context={FOLDER: folder})
+
+
+def test_a_table_is_centred_and_converted_to_si(tmp_path: Path) -> None:
+    table = read(tmp_path, HEAD + "10,0\n11,20\n\n14,5\n")
+    assert table.extent_deg == 4.0
+    assert table.centred_angles() == pytest.approx([math.radians(a) for a in (-2, -1, 2)], rel=1e-15)  # one rounding
+    assert table.depths() == (0.0, 2e-5, 5e-6)
+    assert table.name == "pit.csv"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "the first line must be angle_deg,depth_um"),
+        ("depth_um,angle_deg\n1,2\n2,3\n", "the first line must be angle_deg,depth_um"),
+        (HEAD + "1,2\n", "at least two"),
+        (HEAD + "1,2\n2,deep\n", "line 3: 2,deep is not two numbers"),
+        (HEAD + "1,2\n2\n", "line 3: 2 is not two numbers"),
+        (HEAD + "1,2\n1,3\n", "must rise"),
+        (HEAD + "1,2\n2,-3\n", "0 to 10000"),
+        (HEAD + "1,2\n2,nan\n", "finite"),
+        (HEAD + "0,2\n200,2\n", "at most 180"),
+    ],
+)
+def test_a_bad_table_is_refused_with_its_line_or_rule(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(ValidationError, match=message):
+        read(tmp_path, text)
+
+
+def test_a_missing_table_is_refused_by_its_path(tmp_path: Path) -> None:
+    with pytest.raises(ValidationError, match=r"none\.csv cannot be read"):
+        ProfileTable.model_validate("none.csv", context={FOLDER: tmp_path})

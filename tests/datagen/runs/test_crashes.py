@@ -1,0 +1,149 @@
+"""Runs that are killed, interrupted or lose a worker: nothing is left running, nothing is lost, nothing is wrong."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from datagen.corpora.check import check_corpus
+from datagen.recipes.recipe import Recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
+
+ROOT = Path(__file__).parents[3]
+MARK = "SPALLGEN_TEST_RUN"
+PATIENCE = 60.0
+Contents = Callable[[Path], dict[int, str]]
+
+
+class Process:
+    """`spallgen generate` in a session of its own, whose processes are known by a mark in their environment."""
+
+    def __init__(self, recipe: Path, out: Path, *options: str) -> None:
+        self.mark = uuid.uuid4().hex
+        self.shards = out / "shards"
+        command = [sys.executable, "-m", "datagen", "generate", str(recipe), "--out", str(out), *options]
+        environment = os.environ | {MARK: self.mark}
+        self.popen = subprocess.Popen(
+            command, cwd=ROOT, env=environment, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        )
+
+    def wait_for_shards(self, count: int) -> None:
+        """Return as soon as `count` shards are finished or the run has ended."""
+        deadline = time.monotonic() + PATIENCE
+        while len(list(self.shards.glob("*.json"))) < count and self.popen.poll() is None:
+            assert time.monotonic() < deadline
+            time.sleep(0.002)
+
+    def alive(self) -> list[int]:
+        """Ids of all running processes that carry the mark."""
+        found = []
+        for entry in Path("/proc").iterdir():
+            try:
+                environment = (entry / "environ").read_bytes() if entry.name.isdigit() else b""
+            except OSError:
+                continue
+            if f"{MARK}={self.mark}".encode() in environment:
+                found.append(int(entry.name))
+        return found
+
+    def workers(self) -> list[int]:
+        """Ids of the worker processes."""
+        own = [pid for pid in self.alive() if pid != self.popen.pid]
+        return [pid for pid in own if b"popen_loky" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+
+    def finish(self) -> tuple[int, str]:
+        """Exit code and everything printed, once the run has ended."""
+        out, err = self.popen.communicate(timeout=PATIENCE)
+        return self.popen.returncode, (out + err).decode()
+
+    def kill(self) -> None:
+        """kill -9 of the parent alone."""
+        self.popen.kill()
+        self.popen.communicate(timeout=PATIENCE)
+
+
+def wait_until(done: Callable[[], bool], seconds: float) -> bool:
+    deadline = time.monotonic() + seconds
+    while not done() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return done()
+
+
+@pytest.mark.parametrize("finished", [0, 1, 4])
+def test_a_killed_run_leaves_no_process_and_resumes_to_the_same_arrays(
+    finished: int, tiny: Recipe, tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    process = Process(tiny_recipe, tmp_path / "out", "--workers", "2")
+    if finished:
+        process.wait_for_shards(finished)
+    else:
+        assert wait_until(lambda: len(process.workers()) > 0, PATIENCE)
+    process.kill()
+    assert wait_until(lambda: not process.alive(), 3.0)
+    assert contents(tmp_path / "out").items() <= expected.items()
+    assert generate(tiny, tmp_path / "out", engine=Engine(workers=1)).complete
+    assert contents(tmp_path / "out") == expected
+    assert check_corpus(tmp_path / "out").problems == ()
+
+
+def test_a_run_that_loses_a_worker_says_so_and_makes_everything(
+    tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    process = Process(tiny_recipe, tmp_path / "out", "--workers", "2")
+    process.wait_for_shards(1)
+    os.kill(process.workers()[0], signal.SIGKILL)
+    code, printed = process.finish()
+    assert code == 0, printed
+    assert "a worker was lost" in printed
+    assert contents(tmp_path / "out") == expected
+
+
+def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
+    tiny: Recipe, tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    process = Process(tiny_recipe, tmp_path / "out", "--workers", "2")
+    process.wait_for_shards(1)
+    os.killpg(process.popen.pid, signal.SIGINT)
+    code, printed = process.finish()
+    assert code == 130, printed
+    assert "Traceback" not in printed
+    assert wait_until(lambda: not process.alive(), 3.0)
+    verdict = check_corpus(tmp_path / "out")
+    assert verdict.records >= 2
+    assert [problem for problem in verdict.problems if "asked for are missing" not in problem] == []
+    assert generate(tiny, tmp_path / "out", engine=Engine(workers=1)).complete
+    assert contents(tmp_path / "out") == expected
+
+
+@pytest.mark.slow
+def test_thirty_runs_killed_at_random_all_end_in_the_same_arrays(
+    tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    chance = random.Random(2026)
+    kills = 0
+    for corpus in range(100):
+        out = tmp_path / f"out{corpus}"
+        while len(contents(out)) < len(expected):
+            process = Process(tiny_recipe, out, "--workers", "2")
+            time.sleep(chance.uniform(0.5, 6.0))
+            assert process.popen.poll() in (None, 0)
+            kills += process.popen.poll() is None
+            process.kill()
+            assert wait_until(lambda: not process.alive(), 3.0)  # noqa: B023
+            assert contents(out).items() <= expected.items()
+        assert contents(out) == expected
+        assert Process(tiny_recipe, out).finish()[0] == 0
+        assert check_corpus(out).problems == ()
+        if kills >= 30:
+            return
+    pytest.fail(f"only {kills} kills")

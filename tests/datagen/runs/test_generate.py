@@ -1,0 +1,319 @@
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import joblib
+import pytest
+
+import datagen.corpora.index
+import datagen.corpora.manifest
+import datagen.corpora.shard
+import datagen.runs.run
+from datagen.corpora.atomic import write_atomically
+from datagen.corpora.index import read_index
+from datagen.corpora.manifest import read_manifest
+from datagen.corpora.shard import finished_shards, shard_path, sidecar_path
+from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.runs.generate import generate
+from datagen.runs.plan import plan_shards
+from datagen.runs.progress import Lines
+from datagen.runs.task import ShardRow, make_shard
+from datagen.runs.workers import Engine
+from physics.outcome import Outcome, SimulationFailed
+
+ALONE = Engine(workers=1)
+Contents = Callable[[Path], dict[int, str]]
+
+
+def test_a_corpus_holds_every_record_once_with_manifest_and_index(tiny_corpus: Path, tiny: Recipe) -> None:
+    manifest = read_manifest(tiny_corpus)
+    assert manifest.records == manifest.asked_records == tiny.count == 14
+    assert list(read_index(tiny_corpus)["record"]) == list(range(14))
+    assert sorted(record for sidecar in finished_shards(tiny_corpus) for record in sidecar.records) == list(range(14))
+    assert not (tiny_corpus / "failed.jsonl").exists()
+
+
+def test_two_workers_give_the_arrays_that_one_gives(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    assert generate(tiny, tmp_path / "two", engine=Engine(workers=2)).complete
+    assert contents(tmp_path / "two") == expected
+
+
+def test_the_dask_backend_gives_the_arrays_that_one_worker_gives(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    assert generate(tiny, tmp_path / "dask", engine=Engine(workers=2, backend="dask")).complete
+    assert contents(tmp_path / "dask") == expected
+
+
+def test_a_backend_set_by_the_caller_is_used(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
+) -> None:
+    threads: set[str] = set()
+
+    def noted(*arguments: Any) -> ShardRow:
+        threads.add(threading.current_thread().name)
+        return make_shard(*arguments)
+
+    monkeypatch.setattr(datagen.runs.run, "make_shard", noted)
+    with joblib.parallel_config(backend="threading", n_jobs=2):
+        assert generate(tiny, tmp_path / "threads").complete
+    assert contents(tmp_path / "threads") == expected
+    assert threads
+    assert threading.main_thread().name not in threads
+
+
+def test_a_limit_makes_the_first_records_and_a_later_run_completes_the_rest(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
+) -> None:
+    run = generate(tiny, tmp_path / "some", limit=5, engine=ALONE)
+    assert (run.asked, run.made, run.new) == (5, 5, 5)
+    assert list(read_index(tmp_path / "some")["record"]) == list(range(5))
+    run = generate(tiny, tmp_path / "some", engine=ALONE)
+    assert (run.asked, run.made, run.new) == (14, 14, 9)
+    assert contents(tmp_path / "some") == expected
+
+
+def test_listed_records_are_made_alone_and_equal_those_of_the_whole_corpus(
+    tiny: Recipe, tiny_corpus: Path, tmp_path: Path
+) -> None:
+    from datagen.corpus import Corpus
+
+    run = generate(tiny, tmp_path / "some", records=[9, 3], engine=ALONE)
+    assert (run.asked, run.made) == (2, 2)
+    some, whole = Corpus(tmp_path / "some"), Corpus(tiny_corpus)
+    assert list(some.labels["record"]) == [3, 9]
+    for record in (3, 9):
+        assert some.dataset(record).identical(whole.dataset(record))
+
+
+def test_records_asked_for_later_are_added_to_those_there(tiny: Recipe, tmp_path: Path) -> None:
+    generate(tiny, tmp_path / "some", records=[9], engine=ALONE)
+    run = generate(tiny, tmp_path / "some", limit=2, engine=ALONE)
+    assert (run.asked, run.made, run.new) == (2, 2, 2)
+    assert list(read_index(tmp_path / "some")["record"]) == [0, 1, 9]
+    assert read_manifest(tmp_path / "some").asked == ((0, 2), (9, 10))
+
+
+def test_a_record_of_a_shard_stays_when_another_of_the_same_shard_is_added(tiny: Recipe, tmp_path: Path) -> None:
+    first, second = next(shard.records for shard in plan_shards(tiny, 14) if len(shard.records) == 2)
+    generate(tiny, tmp_path / "some", records=[first], engine=ALONE)
+    generate(tiny, tmp_path / "some", records=[second], engine=ALONE)
+    assert [sidecar.records for sidecar in finished_shards(tmp_path / "some")] == [(first, second)]
+    assert list(read_index(tmp_path / "some")["record"]) == [first, second]
+
+
+def test_a_finished_corpus_is_left_alone(tiny: Recipe, copy: Path) -> None:
+    before = {path: path.stat().st_mtime_ns for path in (copy / "shards").iterdir()}
+    assert generate(tiny, copy, engine=ALONE).new == 0
+    assert {path: path.stat().st_mtime_ns for path in (copy / "shards").iterdir()} == before
+
+
+@pytest.mark.parametrize("damage", ["cut file", "no file", "no sidecar", "cut sidecar"])
+def test_a_damaged_shard_is_made_again(
+    tiny: Recipe, expected: dict[int, str], copy: Path, damage: str, contents: Contents
+) -> None:
+    victim = sidecar_path(copy, 1) if "sidecar" in damage else shard_path(copy, 1)
+    content = victim.read_bytes()
+    victim.unlink()
+    if damage.startswith("cut"):
+        victim.write_bytes(content[: len(content) // 2])
+    run = generate(tiny, copy, engine=ALONE)
+    assert (run.made, run.new) == (14, 2)
+    assert contents(copy) == expected
+
+
+def test_leftovers_of_killed_writers_are_swept(tiny: Recipe, copy: Path) -> None:
+    leftover = copy / "shards" / ".shard_000000.nc.elsewhere.1.part"
+    leftover.write_bytes(b"half")
+    generate(tiny, copy, engine=ALONE)
+    assert not leftover.exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"seed": 8}, "another version of the recipe"),
+        ({"title": "Another title"}, "another version of the recipe"),
+    ],
+)
+def test_a_corpus_of_another_recipe_is_refused_and_left_alone(
+    tiny: Recipe, copy: Path, change: dict[str, Any], sentence: str
+) -> None:
+    before = (copy / "manifest.json").read_bytes()
+    with pytest.raises(BadInput, match=sentence):
+        generate(Recipe.model_validate(tiny.model_dump(mode="json") | change), copy, engine=ALONE)
+    assert (copy / "manifest.json").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("name", "thing"),
+    [("model_hash", "the physics"), ("program_hash", "the program"), ("format_hash", "the file format")],
+)
+def test_a_corpus_of_another_version_is_refused(tiny: Recipe, copy: Path, name: str, thing: str) -> None:
+    content = json.loads((copy / "manifest.json").read_text())
+    content["identity"][name] = "0" * 16
+    (copy / "manifest.json").write_text(json.dumps(content))
+    with pytest.raises(BadInput, match=f"begun with another version of {thing}"):
+        generate(tiny, copy, engine=ALONE)
+
+
+def test_a_folder_with_other_things_is_refused(tiny: Recipe, tmp_path: Path) -> None:
+    (tmp_path / "thesis.tex").write_text("x")
+    with pytest.raises(BadInput, match=r"other things \(thesis.tex\)"):
+        generate(tiny, tmp_path, engine=ALONE)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_a_file_in_the_place_of_the_folder_is_refused(tiny: Recipe, tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("x")
+    with pytest.raises(BadInput, match="in the way"):
+        generate(tiny, tmp_path / "out", engine=ALONE)
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [{"limit": 0}, {"limit": -3}, {"records": [14]}, {"records": [-1]}, {"records": [1], "limit": 2}],
+)
+def test_impossible_requests_are_refused_and_nothing_is_written(
+    tiny: Recipe, tmp_path: Path, request_: dict[str, Any]
+) -> None:
+    with pytest.raises(BadInput):
+        generate(tiny, tmp_path / "out", engine=ALONE, **request_)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finished(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
+) -> None:
+    def filling(path: Path, data: bytes | memoryview) -> None:
+        if path.suffix == ".nc" and path >= shard_path(tmp_path / "out", 3):
+            raise OSError(errno.ENOSPC, "no space left on device")
+        write_atomically(path, data)
+
+    monkeypatch.setattr(datagen.corpora.shard, "write_atomically", filling)
+    run = generate(tiny, tmp_path / "out", engine=ALONE)
+    assert not run.complete
+    assert run.problem.startswith(f"the disk is full: {14 - run.made} records are not made")
+    assert list(read_index(tmp_path / "out")["record"]) == sorted(
+        record for sidecar in finished_shards(tmp_path / "out") for record in sidecar.records
+    )
+    assert 0 < run.made < 14
+    monkeypatch.undo()
+    assert generate(tiny, tmp_path / "out", engine=ALONE).complete
+    assert contents(tmp_path / "out") == expected
+
+
+def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, data: bytes | memoryview) -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    for module in (datagen.corpora.shard, datagen.corpora.manifest, datagen.corpora.index):
+        monkeypatch.setattr(module, "write_atomically", full)
+    run = generate(tiny, tmp_path / "out", engine=ALONE)
+    assert (run.made, run.asked) == (0, 14)
+    assert "the disk is full" in run.problem
+
+
+def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import datagen.runs.task
+    from datagen.records.record import make_record
+
+    def failing(scenario: Any, stored: tuple[str, ...]) -> Any:
+        if scenario.record == 3:
+            raise SimulationFailed(Outcome.NOT_FINITE, "the response stopped being finite")
+        return make_record(scenario, stored)
+
+    monkeypatch.setattr(datagen.runs.task, "make_record", failing)
+    for _ in range(2):  # the second run has nothing to do and says the same
+        run = generate(tiny, tmp_path / "out", engine=ALONE)
+        assert (run.asked, run.made) == (14, 13)
+        assert [failure.record for failure in run.failed] == [3]
+        assert "stopped being finite" in run.failed[0].reason
+    rows = [json.loads(line) for line in (tmp_path / "out" / "failed.jsonl").read_text().splitlines()]
+    assert [row["record"] for row in rows] == [3]
+
+
+def test_an_unforeseen_error_costs_its_shard_only_and_is_tried_again(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
+) -> None:
+    import datagen.runs.task
+    from datagen.records.record import make_record
+
+    def failing(scenario: Any, stored: tuple[str, ...]) -> Any:
+        if scenario.record == 3:
+            raise ZeroDivisionError("by chance")
+        return make_record(scenario, stored)
+
+    monkeypatch.setattr(datagen.runs.task, "make_record", failing)
+    run = generate(tiny, tmp_path / "out", engine=ALONE)
+    lost = [failure.record for failure in run.failed]
+    assert 3 in lost
+    assert len(lost) == 14 - run.made <= 2
+    assert "ZeroDivisionError: by chance" in run.failed[0].reason
+    monkeypatch.undo()
+    assert generate(tiny, tmp_path / "out", engine=ALONE).failed == ()
+    assert contents(tmp_path / "out") == expected
+    assert not (tmp_path / "out" / "failed.jsonl").exists()
+
+
+def test_a_shard_that_kills_its_worker_every_time_is_given_up_and_the_others_are_made(
+    tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
+) -> None:
+    def deadly(*arguments: Any) -> ShardRow:
+        if arguments[2].number == 2:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return make_shard(*arguments)
+
+    monkeypatch.setattr(datagen.runs.run, "make_shard", deadly)
+    run = generate(tiny, tmp_path / "out", engine=Engine(workers=2))
+    assert not run.complete
+    assert contents(tmp_path / "out") == {shard: content for shard, content in expected.items() if shard != 2}
+    assert "its worker was lost every time" in run.failed[0].reason
+    assert (tmp_path / "out" / "failed.jsonl").exists()
+
+
+def test_progress_lines_tell_rate_and_remaining_time(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = Lines(clock=iter([0.0, 4.0, 5.0, 10.0]).__next__)
+    for done in (0, 2, 3, 12):
+        lines.advance(done, 12)
+    assert capsys.readouterr().err.splitlines() == [
+        "0 of 12 records",
+        "2 of 12 records, 0.50 records/s, 20 s left",
+        "12 of 12 records, 1.20 records/s, 0 s left",
+    ]
+
+
+def test_a_run_says_beforehand_what_disk_it_needs(
+    tiny: Recipe, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    generate(tiny, tmp_path / "out", limit=1, engine=ALONE, reporter=Lines())
+    assert "1 records in 1 shards to make; they need about" in capsys.readouterr().err
+
+
+def test_a_dask_scheduler_that_does_not_answer_is_refused_before_anything_is_written(
+    tiny: Recipe, tmp_path: Path
+) -> None:
+    with pytest.raises(BadInput, match="no Dask scheduler answers there"):
+        generate(tiny, tmp_path / "out", engine=Engine(backend="dask", scheduler="nonsense://localhost:1"))
+    assert not (tmp_path / "out").exists()
+
+
+def test_lz4_is_refused_before_anything_is_written(tiny: Recipe, tmp_path: Path) -> None:
+    recipe = tiny.model_copy(update={"store": tiny.store.model_copy(update={"compression": "lz4"})})
+    with pytest.raises(BadInput, match="lz4"):
+        generate(recipe, tmp_path / "out", engine=ALONE)
+    assert not (tmp_path / "out").exists()

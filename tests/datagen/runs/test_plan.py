@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.records.record import PROFILE_POINTS
+from datagen.records.stiffness_axis import stiffness_axis
+from datagen.runs.plan import needed_bytes, plan_shards, selection, stored_bytes
+from datagen.scenarios.sampling import draw_scenario
+
+
+def test_every_record_is_planned_once_and_shards_are_filled_in_order(tiny: Recipe) -> None:
+    planned = plan_shards(tiny, tiny.count)
+    assert sorted(record for shard in planned for record in shard.records) == list(range(14))
+    assert [shard.number for shard in planned] == list(range(len(planned)))
+    assert all(1 <= len(shard.records) <= 2 for shard in planned)
+    assert [shard.records[0] for shard in planned] == sorted(shard.records[0] for shard in planned)
+
+
+def test_a_longer_plan_continues_a_shorter_one(tiny: Recipe) -> None:
+    whole = plan_shards(tiny, tiny.count)
+    for stop in range(1, tiny.count):
+        part = plan_shards(tiny, stop)
+        for shard in part:
+            assert shard.records == tuple(record for record in whole[shard.number].records if record < stop)
+
+
+def test_records_of_different_rigs_or_stored_signals_never_share_a_shard(tiny: Recipe) -> None:
+    for shard in plan_shards(tiny, tiny.count):
+        assert len({record < 8 for record in shard.records}) == 1
+    forces = [shard.records for shard in plan_shards(tiny, tiny.count) if "contact_force" in shard.stored]
+    assert sum(map(len, forces)) == 4  # gearbox healthy, line, extended; fan line
+
+
+def test_the_size_of_a_record_counts_every_stored_signal(tiny: Recipe) -> None:
+    samples, rows, balls = 1638, 2, 12  # 0.05 s at 32 768 Hz on the gearbox rig
+    scenario = next(one for one in (draw_scenario(tiny, record) for record in range(8)) if one.condition == "line")
+    always = samples * (2 * 4 + 4) + stiffness_axis(scenario).size * 3 * 4  # acceleration, envelope, stiffness
+    assert stored_bytes(scenario, (), "none") == always
+    everything = ("acceleration_clean", "cage_angle", "profile_depth", "contact_force")
+    optional = samples * (2 * 4 + 8 + rows * balls * 4) + rows * PROFILE_POINTS * 4
+    assert stored_bytes(scenario, everything, "none") == always + optional
+    assert 0.3 * always < stored_bytes(scenario, (), "zlib") < always
+
+
+def test_the_size_said_beforehand_is_near_that_of_the_corpus(tiny: Recipe, tiny_corpus: Path) -> None:
+    signals = needed_bytes(plan_shards(tiny, tiny.count))
+    # a shard of 1600 samples is half labels, tables and the library's 64 kB blocks
+    assert 0.2 < signals / sum(path.stat().st_size for path in (tiny_corpus / "shards").glob("*.nc")) < 1.2
+
+
+def test_a_selection_is_everything_a_prefix_or_a_list(tiny: Recipe) -> None:
+    assert selection(tiny, None, None) == ((0, 14),)
+    assert selection(tiny, 5, None) == ((0, 5),)
+    assert selection(tiny, 99, None) == ((0, 14),)
+    assert selection(tiny, None, [9, 3, 4, 9]) == ((3, 5), (9, 10))
+
+
+def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:
+    with pytest.raises(BadInput, match="--records"):
+        selection(tiny, None, [])

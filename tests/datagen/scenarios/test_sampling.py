@@ -1,0 +1,327 @@
+"""Drawn scenarios: pure, order-free, as the recipe says, redrawn where impossible, and never changed by accident."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from datagen.errors import BadInput
+from datagen.recipes.machine_settings import MachineSettings
+from datagen.recipes.recipe import Recipe, parse_recipe
+from datagen.scenarios.machine import BEARING_NUMBERS, RIG_NUMBERS
+from datagen.scenarios.redraw import MOST_ATTEMPTS
+from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario
+from physics import catalog
+from physics.bearing import Bearing
+from physics.hertz import contact_width
+from physics.rig import Rig
+from physics.roughness import draw_roughness
+
+# Our own past: a change here moves every corpus and belongs into datasets/CHANGELOG.md.
+PINNED = [
+    6.144146194085545e-06,
+    109.5902322956786,
+    99.19706406828523,
+    0.18736294634890868,
+    0.006679785774,
+    -6.705685407007667e-07,
+    0.44830910877247093,
+    0.5466750230497484,
+    6.49002833446187e-06,
+    2.271168762138318,
+]
+PINNED_WORDS = ("extended", "outer", "train")
+HEALTHY: dict[str, Any] = {"name": "p", "records": 40, "machine": {"rig": "gearbox"}}
+LINE = {"condition": "line", "extent_deg": 2, "depth_um": 12}
+EXTENDED = {"condition": "extended", "extent_deg": 40, "depth_um": 6}
+
+
+def recipe_of(*parts: dict[str, Any], seed: int = 5, **settings: Any) -> Recipe:
+    """A recipe of these parts, 65 536 Hz, 0.1 s."""
+    signal = {"rate_hz": 65536, "duration_s": 0.1}
+    content = {"name": "r", "seed": seed, "signal": signal, "part": list(parts)} | settings
+    return parse_recipe(content, Path("recipe.toml"))
+
+
+def draw(records: int = 1, **settings: Any) -> list[Scenario]:
+    """The first scenarios of a part with these settings."""
+    recipe = recipe_of(HEALTHY | settings)
+    return [draw_scenario(recipe, record) for record in range(records)]
+
+
+def test_a_scenario_depends_on_recipe_and_record_alone_not_on_order() -> None:
+    recipe = recipe_of(HEALTHY | {"defect": EXTENDED | {"roughness_um": 1}, "records_per_machine": 2})
+    forward = [draw_scenario(recipe, record) for record in range(6)]
+    again = recipe_of(HEALTHY | {"defect": EXTENDED | {"roughness_um": 1}, "records_per_machine": 2})
+    assert [draw_scenario(again, record) for record in reversed(range(6))][::-1] == forward
+
+
+def test_another_seed_gives_other_scenarios() -> None:
+    assert draw_scenario(recipe_of(HEALTHY, seed=1), 0).scene != draw_scenario(recipe_of(HEALTHY, seed=2), 0).scene
+
+
+def test_numbers_left_out_are_the_rigs_and_no_defect_is_healthy() -> None:
+    (scenario,) = draw()
+    rig = catalog.rig("gearbox")
+    assert scenario.scene.rig == rig
+    assert scenario.scene.operation.shaft_speed == rig.rated_speed
+    assert scenario.scene.operation.load == rig.rated_load
+    assert (scenario.condition, scenario.location, scenario.scene.spalls) == ("healthy", "none", ())
+    assert scenario.scene.contact_law == "paper"
+    assert scenario.background.white_rms == 0.0
+
+
+def test_a_fixed_spall_arrives_in_si_units() -> None:
+    tapers = {"entry_taper_deg": 0.3, "exit_taper_share": 0.1}
+    (scenario,) = draw(defect=LINE | tapers | {"race": "inner", "row": 2, "angle_deg": 630})
+    (spall,) = scenario.scene.spalls
+    assert (spall.race, spall.row, spall.profile) == ("inner", 2, "tukey")
+    assert spall.extent == math.radians(2)
+    assert spall.depth == 12e-6
+    assert spall.entry_taper == math.radians(0.3)
+    assert spall.exit_taper == pytest.approx(math.radians(0.2), rel=1e-15)  # one rounding
+    assert spall.angle == pytest.approx(math.radians(270), rel=1e-14)  # 630 degrees less a turn
+    assert (scenario.condition, scenario.location) == ("line", "inner")
+
+
+def test_the_size_may_be_an_arc_a_length_or_a_share_of_the_spacing() -> None:
+    bearing = catalog.bearing("koyo_1205")
+    base = {"condition": "line", "depth_um": 12}
+    sizes = {"extent_deg": 2.0, "extent_mm": math.radians(2) * bearing.raceway_radius("outer") * 1e3}
+    sizes["extent_spacing"] = math.radians(2) / bearing.spacing
+    extents = [draw(defect=base | {key: value})[0].scene.spalls[0].extent for key, value in sizes.items()]
+    assert extents == pytest.approx([math.radians(2)] * 3, rel=1e-14)  # a few roundings
+
+
+def test_a_spall_on_both_rows_is_the_same_on_each() -> None:
+    one, other = draw(defect=EXTENDED | {"row": "both", "roughness_um": 1})[0].scene.spalls
+    assert (one.row, other.row) == (1, 2)
+    assert (one.angle, one.extent, one.roughness_values) == (other.angle, other.extent, other.roughness_values)
+
+
+def test_several_spalls_keep_their_separation_and_draw_their_own_size() -> None:
+    defect = {"condition": "line", "extent_deg": {"uniform": [1, 3]}, "depth_um": 12, "count": 3, "separation_deg": 90}
+    spalls = draw(defect=defect)[0].scene.spalls
+    assert [math.degrees(spall.angle) for spall in spalls] == pytest.approx([270, 0, 90], abs=1e-9)  # sums of angles
+    assert len({spall.extent for spall in spalls}) == 3
+
+
+def test_overlapping_spalls_are_drawn_again() -> None:
+    scenarios = draw(20, defect=EXTENDED | {"count": 3})
+    assert any(redraw.field == "angle" for scenario in scenarios for redraw in scenario.redraws)
+    for scenario in scenarios:
+        angles = sorted(spall.angle for spall in scenario.scene.spalls)
+        gaps = [(b - a) % (2 * math.pi) for a, b in zip(angles, [*angles[1:], angles[0]], strict=True)]
+        assert min(gaps) >= math.radians(40)
+
+
+def test_a_measured_table_gives_its_own_extent_and_depth(tmp_path: Path) -> None:
+    (tmp_path / "pit.csv").write_text("angle_deg,depth_um\n0,0\n1,30\n3,0\n")
+    part = HEALTHY | {"defect": {"condition": "line", "profile": "table", "table": "pit.csv"}}
+    content = {"name": "r", "seed": 1, "signal": {"rate_hz": 1000, "duration_s": 1}, "part": [part]}
+    (spall,) = draw_scenario(parse_recipe(content, tmp_path / "recipe.toml"), 0).scene.spalls
+    assert (spall.profile, spall.extent, spall.depth) == ("table", math.radians(3), 3e-5)
+    assert spall.table_depth == (0.0, 3e-5, 0.0)
+
+
+def test_roughness_is_low_passed_at_the_contact_width_only_where_no_ball_is_rolled_over_it() -> None:
+    for profile in ("tukey", "ball_path"):
+        (scenario,) = draw(defect=EXTENDED | {"profile": profile, "roughness_um": 2})
+        (spall,) = scenario.scene.spalls
+        bearing = scenario.scene.rig.bearing
+        width = contact_width(bearing, "outer", bearing.stribeck_peak_load(346.0)) if profile == "tukey" else None
+        expected = draw_roughness(scenario.generator("roughness"), bearing, "outer", spall.extent, 2e-6, width)
+        assert spall.roughness_values == expected
+
+
+def test_records_of_one_machine_share_what_belongs_to_it_and_nothing_else() -> None:
+    scenarios = draw(
+        6,
+        records_per_machine=3,
+        machine={"rig": {"choice": ["gearbox", "fan"]}, "clearance_um": {"uniform": [0, 9]}},
+        background={"white_rms_m_s2": {"log_uniform": [0.01, 1]}},
+        imperfections={"ball_deviation_um": {"normal": [0, 0.5]}},
+        operation={"speed_of_rated": {"uniform": [0.5, 1.5]}},
+    )
+    shared = [(s.bearing_id, s.split, s.scene.rig, s.background, s.scene.imperfections) for s in scenarios]
+    assert shared[0] == shared[1] == shared[2]
+    assert shared[3] == shared[4] == shared[5]
+    assert all(a != b for a, b in zip(shared[0][2:], shared[3][2:], strict=True))
+    assert len({scenario.scene.operation.shaft_speed for scenario in scenarios}) == 6
+    assert len({scenario.scene.cage.knot_values for scenario in scenarios}) == 6
+
+
+def test_fixing_a_setting_that_was_drawn_moves_no_other() -> None:
+    load = {"load_of_rated": {"uniform": [0.5, 1.5]}}
+    drawn = draw(operation={"speed_of_rated": {"uniform": [0.5, 1.5]}, **load})[0].scene
+    fixed = draw(operation={"speed_of_rated": 1.25, **load})[0].scene
+    assert drawn.operation.load == fixed.operation.load
+    assert drawn.cage.start_angle == fixed.cage.start_angle
+    assert drawn.operation.shaft_speed != fixed.operation.shaft_speed
+
+
+def test_splits_are_drawn_by_machine_in_the_stated_shares() -> None:
+    part = HEALTHY | {"records": 2000, "operation": {"slip_deviation": 0}}
+    recipe = recipe_of(part, split={"train": 0.5, "validation": 0.3, "test": 0.2})
+    splits = [draw_scenario(recipe, record).split for record in range(2000)]
+    for name, share in (("train", 0.5), ("validation", 0.3), ("test", 0.2)):
+        # four standard deviations of a binomial share of 2000
+        assert splits.count(name) / 2000 == pytest.approx(share, abs=4 * math.sqrt(share * (1 - share) / 2000))
+
+
+def test_slip_is_off_at_zero_deviation_and_separate_cages_slip_apart() -> None:
+    assert draw(operation={"slip_deviation": 0, "cage_angle_deg": 0})[0].scene.cage.knot_values == ()
+    scene = draw(machine={"rig": "gearbox", "separate_cages": True})[0].scene
+    assert scene.second_cage is not None
+    assert scene.second_cage.knot_values != scene.cage.knot_values
+    assert scene.second_cage.start_angle != scene.cage.start_angle
+    assert draw(machine={"rig": "cwru", "separate_cages": True})[0].scene.second_cage is None
+
+
+def test_the_correlation_time_is_in_nominal_ball_passes() -> None:
+    (scenario,) = draw(operation={"slip_correlation_passes": 2})
+    bearing = scenario.scene.rig.bearing
+    passes_per_second = bearing.bpfo * scenario.scene.operation.shaft_speed / (2 * math.pi)
+    assert scenario.slip_correlation_time == pytest.approx(2 / passes_per_second, rel=1e-14)  # a few roundings
+
+
+def test_every_number_of_rig_and_bearing_can_be_set() -> None:
+    settable = {field for _, field, _ in (*BEARING_NUMBERS, *RIG_NUMBERS)} | {"balls", "rows", "bearing"}
+    numbers = {field.name for owner in (Bearing, Rig) for field in fields(owner)}
+    assert numbers - settable == {"name", "inner_conformity", "outer_conformity", "rated_speed", "rated_load"}
+    named = {setting for setting, _, _ in (*BEARING_NUMBERS, *RIG_NUMBERS)}
+    others = {"rig", "bearing", "balls", "rows", "separate_cages"}
+    assert named == set(MachineSettings.model_fields) - others
+
+
+OVERRIDES = {
+    "pitch_diameter_mm": (39.5, 0.0395),
+    "ball_diameter_mm": (7.0, 0.007),
+    "contact_angle_deg": (9.0, math.pi / 20),
+    "row_offset_deg": (9.0, math.pi / 20),
+    "load_deflection": (5.5e9, 5.5e9),
+    "exponent": (1.4, 1.4),
+    "clearance_um": (-2.5, -2.5e-6),
+    "inner_mass_kg": (0.7, 0.7),
+    "outer_mass_kg": (9.5, 9.5),
+    "resonator_mass_kg": (0.4, 0.4),
+    "support_stiffness_x_n_per_m": (1.1e7, 1.1e7),
+    "support_stiffness_y_n_per_m": (1.2e7, 1.2e7),
+    "resonator_stiffness_n_per_m": (1.9e9, 1.9e9),
+    "support_damping_x_n_s_per_m": (601.0, 601.0),
+    "support_damping_y_n_s_per_m": (602.0, 602.0),
+    "resonator_damping_n_s_per_m": (303.0, 303.0),
+    "film_damping_n_s_per_m": (90.0, 90.0),
+}
+
+
+@pytest.mark.parametrize(("setting", "field", "per_unit"), [*BEARING_NUMBERS, *RIG_NUMBERS])
+def test_an_override_lands_in_its_field_in_si_units(setting: str, field: str, per_unit: float) -> None:
+    given, expected = OVERRIDES[setting]
+    drawn = draw(machine={"rig": "gearbox", setting: given})[0].scene.rig
+    owner = drawn.bearing if (setting, field, per_unit) in BEARING_NUMBERS else drawn
+    assert getattr(owner, field) == pytest.approx(expected, rel=1e-15)  # one division
+
+
+def test_another_number_of_balls_takes_half_its_own_spacing_as_stagger() -> None:
+    bearing = draw(machine={"rig": "gearbox", "balls": 11})[0].scene.rig.bearing
+    assert bearing.stagger == math.pi / 11
+
+
+def test_waviness_falls_with_its_order() -> None:
+    wave = {"race": "inner", "orders": [2, 5], "amplitude_um": 0.4, "decay": 2}
+    waves = draw(imperfections={"waviness": [wave]})[0].scene.imperfections.waviness
+    assert [w.order for w in waves] == [2, 3, 4, 5]
+    assert [w.amplitude for w in waves] == pytest.approx([0.4e-6 * (2 / k) ** 2 for k in (2, 3, 4, 5)])
+    assert len({w.phase for w in waves}) == 4
+
+
+def test_impossible_draws_are_redrawn_and_counted_with_their_reason() -> None:
+    defect = {"condition": "line", "extent_deg": {"uniform": [20, 40]}, "depth_um": 12}
+    scenarios = draw(40, defect=defect)
+    redraws = [redraw for scenario in scenarios for redraw in scenario.redraws]
+    assert {redraw.field for redraw in redraws} == {"extent"}
+    assert "reaches the ball spacing of 30 degrees" in redraws[0].reason
+    assert 15 < len(redraws) < 80  # half of all draws are impossible: 40 ± 4 standard deviations of √80
+    for scenario in scenarios:
+        assert scenario.seeds.record_attempt == len(scenario.redraws)
+        assert scenario.condition == "line"
+
+
+def test_an_impossible_machine_is_redrawn_once_for_all_its_records() -> None:
+    machine = {"rig": "gearbox", "ball_diameter_mm": {"uniform": [8, 12]}}
+    scenarios = draw(20, machine=machine, records_per_machine=2)
+    assert {redraw.scope for scenario in scenarios for redraw in scenario.redraws} == {"machine"}
+    assert all(
+        a.scene.rig == b.scene.rig and a.redraws == b.redraws for a, b in zip(*[iter(scenarios)] * 2, strict=True)
+    )
+    assert all("do not fit" in redraw.reason for scenario in scenarios for redraw in scenario.redraws)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"machine": {"rig": "gearbox", "ball_diameter_mm": 20}}, "12 balls of 20.000 mm do not fit"),
+        ({"defect": EXTENDED | {"condition": "line"}}, "reaches the ball spacing"),
+        ({"defect": LINE | {"condition": "extended"}}, "is shorter than the ball spacing"),
+        ({"defect": {"condition": "line", "extent_mm": 1, "depth_um": 9, "entry_taper_deg": 20}}, "entry_taper"),
+        ({"defect": LINE | {"count": 2, "angle_deg": 359.5, "separation_deg": 1.5}}, "overlap: 1.5 degrees apart"),
+        ({"defect": LINE | {"row": 2}, "machine": {"rig": "cwru"}}, "spall on row 2"),
+        ({"operation": {"load_n": 1e7}, "machine": {"rig": "gearbox", "load_deflection": 1e4}}, "carries the load"),
+    ],
+)
+def test_what_can_never_be_drawn_is_given_up_with_the_reason(settings: dict[str, Any], words: str) -> None:
+    with pytest.raises(BadInput, match=rf"{MOST_ATTEMPTS} draws in a row were impossible") as caught:
+        draw(**settings)
+    assert words in str(caught.value)
+    assert 'part[1]: part "p"' in str(caught.value)
+
+
+def test_the_band_is_the_rigs_resonance_unless_the_recipe_says_otherwise() -> None:
+    low, high = draw()[0].envelope_band
+    assert low < 10548 < high  # the coupled resonator of the gearbox rig
+    signal = {"rate_hz": 65536, "duration_s": 0.1, "envelope_band_hz": [1000, 2000]}
+    assert draw_scenario(recipe_of(HEALTHY, signal=signal), 0).envelope_band == (1000.0, 2000.0)
+
+
+def test_the_duration_is_rounded_to_whole_samples() -> None:
+    scenario = draw_scenario(recipe_of(HEALTHY, signal={"rate_hz": 65536, "duration_s": 0.4}), 0)
+    assert scenario.samples == 26214
+    assert scenario.duration == 26214 / 65536
+
+
+def test_the_numbers_drawn_for_a_seed_never_change() -> None:
+    (scenario,) = draw(
+        machine={"rig": "fan", "clearance_um": {"uniform": [0, 9]}},
+        operation={"speed_of_rated": {"uniform": [0.5, 1.5]}, "load_of_rated": {"normal": [1, 0.2]}},
+        background={"white_rms_m_s2": {"log_uniform": [0.01, 1]}},
+        imperfections={"ball_deviation_um": {"normal": [0, 0.5]}},
+        defect={
+            "condition": {"choice": ["line", "extended"]},
+            "race": {"choice": ["outer", "inner"]},
+            "extent_spacing": {"uniform": [0.1, 0.3]},
+            "depth_um": {"uniform": [5, 10]},
+            "extended": {"extent_spacing": {"uniform": [1, 2]}},
+        },
+    )
+    scene = scenario.scene
+    (spall,) = scene.spalls
+    found = [
+        scene.rig.bearing.clearance,
+        scene.operation.shaft_speed,
+        scene.operation.load,
+        scene.cage.start_angle,
+        scene.cage.knot_values[7],
+        scene.imperfections.ball_deviation[1][3],
+        scenario.background.white_rms,
+        spall.extent,
+        spall.depth,
+        float(scenario.generator("white_noise").standard_normal()),
+    ]
+    assert found == pytest.approx(PINNED, rel=1e-12)  # elementary functions may differ in the last bits elsewhere
+    assert (scenario.condition, scenario.location, scenario.split) == PINNED_WORDS

@@ -1,0 +1,174 @@
+"""Scenarios as text: exact, complete, and in the words that other people's code reads."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe import load_recipe
+from datagen.records.background import Background
+from datagen.scenarios.redraw import Redraw
+from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario, Seeds
+from datagen.scenarios.streams import PURPOSES, SCOPES
+from physics.bearing import Bearing
+from physics.cage import CagePath
+from physics.imperfections import Imperfections, Waviness
+from physics.operation import Operation
+from physics.rig import Rig
+from physics.scene import Scene
+from physics.spall import Spall
+
+KEYS = (
+    "Nb rows Dp Db alpha K n c phi_c0 row_offset m_i m_o m_r k_ox k_oy c_ox c_oy k_r c_r c_d omega_s W "
+    "phi_f extent depth entry_taper exit_taper roughness "
+    "unbalance_force unbalance_phase load_fluctuation fluctuation_phase"
+)
+
+
+def full_scenario() -> Scenario:
+    """A scenario in which no number is zero, whole or a default."""
+    bearing = Bearing("b", 11, 2, 0.0391, 0.0073, 5.3e9, 1.51, 0.11, 3.3e-6, 0.21, 0.523, 0.527)
+    rig = Rig("r", bearing, 0.51, 10.3, 1.71e7, 1.72e7, 671.1, 672.2, 0.53, 2.1e9, 317.4, 101.3, 44.4, 347.1)
+    spalls = (
+        Spall("inner", 1, 0.3, 0.1, 1.3e-5, 0.01, 0.03, "tukey", 2e-6, (0.0, 1.1e-6, -2.3e-6, 0.0)),
+        Spall("inner", 2, 2.3, 0.2, 1.7e-5, profile="table", table_angle=(-0.1, 0.1), table_depth=(1e-6, 1.7e-5)),
+    )
+    deviation = tuple(tuple(1e-7 * (r + 0.1 * j) for j in range(11)) for r in range(2))
+    return Scenario(
+        scene=Scene(
+            rig=rig,
+            operation=Operation(43.21, 345.6, 3.3, 0.7, 0.11, 1.9),
+            cage=CagePath(17.3, 0.1, 0.41, 0.013, 0.06, -0.12, (0.001, -0.002, 0.003, 0.004, 0.1)),
+            spalls=spalls,
+            imperfections=Imperfections((Waviness("outer", 3, 1.7e-7, 0.9),), deviation),
+            contact_law="no_tension",
+            second_cage=CagePath(17.3, 0.1, 0.77, 0.013, 0.06, -0.12, (0.005, -0.003, 0.001, 0.002, 0.1)),
+        ),
+        rate=51200.0,
+        seeds=Seeds(20, 3, 1, 2, 4),
+        part="mixed",
+        bearing_id="x-00002",
+        split="validation",
+        envelope_band=(9000.1, 9999.9),
+        slip_deviation=0.0123,
+        slip_correlation_time=0.0345,
+        background=Background(0.0678),
+        redraws=(Redraw("record", 0, "extent", "too long"),),
+    )
+
+
+def leaves(value: Any, path: str = "") -> list[tuple[str, Any]]:
+    """Every plain value inside nested dataclasses and tuples, with its path."""
+    if dataclasses.is_dataclass(value):
+        return [leaf for f in dataclasses.fields(value) for leaf in leaves(getattr(value, f.name), f"{path}.{f.name}")]
+    if isinstance(value, tuple):
+        return [leaf for k, inner in enumerate(value) for leaf in leaves(inner, f"{path}[{k}]")]
+    return [(path, value)]
+
+
+def test_a_scenario_with_every_field_set_comes_back_equal() -> None:
+    scenario = full_scenario()
+    again = Scenario.from_json(scenario.to_json())
+    assert dict(leaves(again)) == dict(leaves(scenario))
+    assert again == scenario
+    assert again.to_json() == scenario.to_json()
+
+
+def test_no_field_of_the_full_scenario_is_left_at_its_default() -> None:
+    def unset(value: Any, path: str) -> list[str]:
+        found = [
+            f"{path}.{f.name}"
+            for f in dataclasses.fields(value)
+            if f.default is not dataclasses.MISSING and getattr(value, f.name) == f.default
+        ]
+        inner = [getattr(value, f.name) for f in dataclasses.fields(value)]
+        return found + [name for one in inner if dataclasses.is_dataclass(one) for name in unset(one, path + ".")]
+
+    assert unset(full_scenario(), "scenario") == []
+
+
+def test_a_missing_stagger_stays_missing_and_its_value_is_still_told() -> None:
+    scenario = full_scenario()
+    bearing = dataclasses.replace(scenario.scene.rig.bearing, row_offset=None)
+    rig = dataclasses.replace(scenario.scene.rig, bearing=bearing)
+    scenario = dataclasses.replace(scenario, scene=dataclasses.replace(scenario.scene, rig=rig, second_cage=None))
+    assert Scenario.from_json(scenario.to_json()) == scenario
+    assert json.loads(scenario.to_json())["parameters"]["row_offset"] == math.pi / 11
+
+
+def test_the_flat_parameters_carry_the_symbols_of_the_model_in_si_units() -> None:
+    data = json.loads(full_scenario().to_json())
+    parameters = data["parameters"]
+    assert set(parameters) == set(KEYS.split())
+    assert (parameters["K"], parameters["W"], parameters["omega_s"], parameters["Nb"]) == (5.3e9, 345.6, 43.21, 11)
+    assert (parameters["phi_c0"], parameters["c_d"], parameters["c"]) == (0.41, 101.3, 3.3e-6)
+
+
+def test_the_flat_parameters_describe_the_largest_spall() -> None:
+    parameters = json.loads(full_scenario().to_json())["parameters"]
+    assert (parameters["extent"], parameters["phi_f"], parameters["depth"]) == (0.2, 2.3, 1.7e-5)
+
+
+def test_the_parameters_of_a_healthy_scenario_have_a_defect_of_zeros() -> None:
+    scenario = full_scenario()
+    healthy = dataclasses.replace(scenario, scene=dataclasses.replace(scenario.scene, spalls=()))
+    data = json.loads(healthy.to_json())
+    names = ("phi_f", "extent", "depth", "entry_taper", "exit_taper", "roughness")
+    assert [data["parameters"][name] for name in names] == [0.0] * 6
+    assert (data["condition"], data["location"], data["defects"]) == ("healthy", "none", [])
+
+
+def test_the_text_tells_how_to_remake_the_record() -> None:
+    data = json.loads(full_scenario().to_json())
+    assert data["format"] == "spallgen scenario 1"
+    assert data["sampling"]["samples"] == 5120
+    assert "bc_type='natural'" in data["slip"]["interpolation"]
+    assert data["slip"]["knots"] == [0.001, -0.002, 0.003, 0.004, 0.1]
+    assert data["second_cage"]["start_angle"] == 0.77
+    assert ["cos(pi" in defect["rule"] for defect in data["defects"]] == [True, False]
+    assert ["table_depth" in defect["rule"] for defect in data["defects"]] == [False, True]
+    identity = {
+        "record": 3,
+        "part": "mixed",
+        "split": "validation",
+        "rig": "r",
+        "bearing": "b",
+        "bearing_id": "x-00002",
+    }
+    assert {key: data[key] for key in identity} == identity
+
+
+def test_the_seeds_in_the_text_open_the_records_noise_without_our_code() -> None:
+    scenario = full_scenario()
+    seeds = json.loads(scenario.to_json())["seeds"]
+    purpose = seeds["purposes"].index("white_noise")
+    key = (seeds["scopes"].index("record"), seeds["record"], purpose, seeds["record_attempt"], 0)
+    expected = np.random.default_rng(np.random.SeedSequence(seeds["recipe"], spawn_key=key)).standard_normal(4)
+    np.testing.assert_array_equal(scenario.generator("white_noise").standard_normal(4), expected)
+    assert (seeds["scopes"], seeds["purposes"]) == (list(SCOPES), list(PURPOSES))
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"format": "spallgen scenario 1"}', '{"format": "other"}'])
+def test_a_text_that_is_no_scenario_is_refused(text: str) -> None:
+    with pytest.raises(BadInput):
+        Scenario.from_json(text)
+
+
+def test_a_format_of_the_future_is_refused_by_name() -> None:
+    with pytest.raises(BadInput, match='format = "spallgen scenario 2"; allowed: spallgen scenario 1'):
+        Scenario.from_json(full_scenario().to_json().replace("scenario 1", "scenario 2"))
+
+
+@pytest.mark.parametrize("name", ["quickstart", "gearbox_rig", "fan_rig"])
+def test_drawn_scenarios_come_back_equal(name: str) -> None:
+    recipe = load_recipe(name)
+    for record in range(0, recipe.count, 7):
+        scenario = draw_scenario(recipe, record)
+        assert Scenario.from_json(scenario.to_json()) == scenario

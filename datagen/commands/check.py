@@ -1,0 +1,42 @@
+"""`spallgen check`: whether a corpus is what it says."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from datagen.commands.program import FAILED, CorpusFolder, JsonFile, command, complain, write_json
+
+if TYPE_CHECKING:
+    from datagen.corpora.check import Verdict
+
+
+@command("spallgen check out/quickstart")
+def check(
+    folder: CorpusFolder,
+    remake: Annotated[int, typer.Option(metavar="N", min=0, help="Simulate N records again and compare.")] = 1,
+    json_file: JsonFile = None,
+) -> None:
+    """Read a whole corpus and say everything that is wrong with it."""
+    from datagen.corpora.check import check_corpus
+
+    verdict = check_corpus(folder, remake)
+    write_json(json_file, verdict)
+    for sentence in verdict.problems:
+        complain(sentence)
+    _tell_verdict(verdict, remake)
+    if not verdict.sound:
+        raise typer.Exit(FAILED)
+
+
+def _tell_verdict(verdict: Verdict, remake: int) -> None:
+    state = "sound" if verdict.sound else f"NOT sound: {len(verdict.problems)} problems"
+    print(f"{verdict.folder}: {verdict.records} records in {verdict.shards} shards, {state}")
+    if not verdict.remade and verdict.sound and remake:
+        print("not simulated again: this program's physics are another version than the corpus's")
+    if verdict.remade:
+        names = ", ".join(map(str, verdict.remade))
+        print(
+            f"simulated again from its scenario: record {names}; differs by {verdict.largest_difference:.2g} of its RMS"
+        )

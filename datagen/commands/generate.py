@@ -1,0 +1,63 @@
+"""`spallgen generate`: a recipe made into a corpus."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from datagen.commands.program import FAILED, JsonFile, command, complain, write_json
+from datagen.errors import BadInput
+
+if TYPE_CHECKING:
+    from datagen.runs.run import Summary
+
+
+@command("spallgen generate datasets/quickstart --out out/quickstart")
+def generate(
+    recipe: Annotated[Path, typer.Argument(metavar="RECIPE", help="Recipe file, its folder, or name of a dataset.")],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the corpus.")],
+    limit: Annotated[int | None, typer.Option(metavar="N", help="Make the first N records only.")] = None,
+    records: Annotated[str | None, typer.Option(metavar="17,40", help="Make these records only.")] = None,
+    workers: Annotated[int | None, typer.Option(metavar="N", help="Processes; all processors if not given.")] = None,
+    backend: Annotated[str | None, typer.Option(metavar="loky|dask", help="Who runs the processes.")] = None,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDR", help="Address of a Dask scheduler.")] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Make the records of a recipe, or go on where an earlier run stopped."""
+    from datagen.recipes.recipe import load_recipe
+    from datagen.runs.generate import generate as make
+    from datagen.runs.progress import reporter
+    from datagen.runs.workers import Engine
+
+    chosen = None if records is None else _numbers("--records", records)
+    engine = Engine(workers=workers, backend=backend, scheduler=scheduler)
+    with reporter() as told:
+        run = make(load_recipe(recipe), out, limit=limit, records=chosen, engine=engine, reporter=told)
+    write_json(json_file, run)
+    _tell_run(run)
+    if not run.complete:
+        raise typer.Exit(FAILED)
+
+
+def _numbers(option: str, text: str) -> list[int]:
+    try:
+        return [int(part) for part in text.split(",")]
+    except ValueError:
+        raise BadInput(field=option, value=text, allowed="whole numbers with commas between, such as 17,40") from None
+
+
+def _tell_run(run: Summary) -> None:
+    from datagen.runs.progress import for_people
+
+    for failure in run.failed[:3]:
+        complain(f"record {failure.record} could not be made: {failure.reason.strip().splitlines()[-1]}")
+    if len(run.failed) > 3:
+        complain(f"and {len(run.failed) - 3} more; failed.jsonl in {run.folder} lists all")
+    if run.problem:
+        complain(run.problem)
+    print(
+        f"{run.made} of {run.asked} records are in {run.folder} ({run.new} new, {for_people(run.bytes)}, "
+        f"{run.seconds:.1f} s)"
+    )

@@ -1,0 +1,85 @@
+"""The program `spallgen`: how a command is added, ends, complains and writes its results."""
+
+from __future__ import annotations
+
+import functools
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from datagen.errors import BadInput
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+
+app = typer.Typer(
+    name="spallgen",
+    help="Simulated vibration of rolling bearings with raceway spalls, as labelled corpora.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write the results to this file too.")]
+CorpusFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a corpus.")]
+Command = Callable[..., None]
+
+
+def command(example: str) -> Callable[[Command], Command]:
+    """Add a command to the program: bad input and Ctrl-C end it with a sentence and their exit code."""
+
+    def register(function: Command) -> Command:
+        @functools.wraps(function)
+        def guarded(*args: Any, **options: Any) -> None:
+            try:
+                _check_json(options["json_file"])
+                function(*args, **options)
+            except BadInput as problem:
+                complain(f"error: {problem}")
+                raise typer.Exit(BAD_INPUT) from None
+            except KeyboardInterrupt:
+                complain("interrupted; nothing that was finished is lost")
+                raise typer.Exit(INTERRUPTED) from None
+
+        return app.command(epilog=f"Example: {example}")(guarded)
+
+    return register
+
+
+def show_tables(tables: list[Table]) -> None:
+    """Print tables as wide as the terminal."""
+    from rich.console import Console
+
+    console = Console(width=None if sys.stdout.isatty() else 140)
+    for table in tables:
+        console.print(table)
+
+
+def _check_json(path: Path | None) -> None:
+    """Refuse a file of results that cannot be written, before any work is done."""
+    if path is not None and not path.absolute().parent.is_dir():
+        raise BadInput("no such folder", field="--json", value=str(path), allowed="a file in an existing folder")
+
+
+def write_json(path: Path | None, result: Any) -> None:
+    """Write a dataclass or a mapping as JSON; NaN becomes null."""
+    if path is None:
+        return
+    from datagen.plain import plain_json
+
+    try:
+        path.write_text(plain_json(result))
+    except OSError as problem:
+        raise BadInput(f"cannot write this file: {problem.strerror}", str(path), "--json") from None
+
+
+def complain(sentence: str) -> None:
+    """Say a sentence on standard error."""
+    print(sentence, file=sys.stderr)

@@ -23,6 +23,7 @@ class Choice(Distribution):
     options: tuple[Value, ...]
     weights: tuple[float, ...] = ()
     keys: ClassVar[tuple[str, ...]] = ("choice", "weights")
+    weight_type: ClassVar[str] = "number"
 
     @classmethod
     def from_table(cls, table: Mapping[str, Any]) -> Distribution:
@@ -45,7 +46,7 @@ class Choice(Distribution):
 
     @classmethod
     def table_schema(cls, value: Mapping[str, Any]) -> dict[str, Any]:
-        weights = {"type": "array", "items": {"type": "number", "minimum": 0}}
+        weights = {"type": "array", "items": {"type": cls.weight_type, "minimum": 0}}
         options = {"type": "array", "items": dict(value), "minItems": 1}
         return object_schema({cls.keys[0]: options, "weights": weights}, [cls.keys[0]])
 
@@ -70,6 +71,7 @@ class Balanced(Choice):
     """
 
     keys: ClassVar[tuple[str, ...]] = ("balanced", "weights")
+    weight_type: ClassVar[str] = "integer"
 
     def __post_init__(self) -> None:
         if any(weight != round(weight) for weight in self.weights):

@@ -232,8 +232,3 @@ def parse_recipe(content: dict[str, Any], path: Path, text: str = "") -> Recipe:
         raise bad_recipe(error, Recipe, path, text) from None
     recipe._source = str(path)
     return recipe
-
-
-def recipe_schema() -> dict[str, Any]:
-    """JSON Schema of a recipe, for editors."""
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | Recipe.model_json_schema()

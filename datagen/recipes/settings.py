@@ -74,7 +74,7 @@ class _Setting:
         )
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return distribution_schema(self.value_schema())
+        return {"setting": self.allowed()} | distribution_schema(self.value_schema())
 
 
 @dataclass(frozen=True)

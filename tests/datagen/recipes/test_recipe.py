@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from datagen.errors import BadInput
-from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe, recipe_schema
+from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 
 GOOD = """name = "try"
 seed = 1
@@ -249,20 +249,3 @@ def test_a_normal_distribution_is_cut_off_at_what_is_allowed(tmp_path: Path) -> 
     assert defect.depth_um is not None
     assert defect.depth_um.quantile(0.0) >= 0.0
     assert defect.depth_um.to_toml() == {"normal": [1.0, 5.0], "low": 0.0, "high": 1e4}
-
-
-def test_the_json_schema_knows_every_key_its_unit_and_its_range() -> None:
-    schema = recipe_schema()
-    spall = schema["$defs"]["SpallSettings"]
-    assert spall["additionalProperties"] is False
-    depth = spall["properties"]["depth_um"]
-    assert "µm" in depth["description"]
-    assert {"type": "number", "minimum": 0.0, "maximum": 10000.0} in depth["anyOf"]
-    assert {"enum": ["outer", "inner"]} in schema["$defs"]["DefectSettings"]["properties"]["race"]["anyOf"]
-    undescribed = [
-        (name, key)
-        for name, table in schema["$defs"].items()
-        for key, value in table.get("properties", {}).items()
-        if "description" not in value and name != "ProfileTable"
-    ]
-    assert undescribed == []

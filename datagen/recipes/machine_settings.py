@@ -93,10 +93,3 @@ class ImperfectionSettings(Table):
     """Waviness of the races."""
     ball_deviation_um: Annotated[Distribution, Between(-1000.0, 1000.0)] = Fixed(0.0)
     """Diameter of each ball minus the nominal one, µm; drawn for each ball."""
-
-
-class BackgroundSettings(Table):
-    """Noise that belongs to the virtual machine, the same in all its records, in absolute units."""
-
-    white_rms_m_s2: NotNegative = Fixed(0.0)
-    """Standard deviation of white noise on each axis, from 0 to half the sampling rate, m/s²."""

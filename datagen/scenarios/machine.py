@@ -1,4 +1,4 @@
-"""Virtual machines: a drawn rig and bearing with their imperfections, noise floor, recorder and split."""
+"""Virtual machines: a drawn rig and bearing with their imperfections, measurement chain, background and split."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from datagen.recipes.distributions import Distribution
 from datagen.recipes.machine_settings import ImperfectionSettings, MachineSettings, WavinessSettings
 from datagen.recipes.recipe import FEWEST_SAMPLES, Part, Recipe, Signal, Split
 from datagen.records.background import Background
+from datagen.scenarios.backgrounds import draw_background
+from datagen.scenarios.chain import draw_chain
 from datagen.scenarios.picker import Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
 from datagen.scenarios.streams import stream
@@ -19,6 +23,7 @@ from physics.bearing import Bearing
 from physics.checks import InvalidParameter, require
 from physics.imperfections import Imperfections, Waviness
 from physics.rig import Rig
+from physics.sensor.chain import SensorChain
 
 DEGREES_PER_RADIAN = math.degrees(1.0)
 # (setting, field, how many of the setting's units make one SI unit). Append only: the order is that of the stream.
@@ -58,6 +63,7 @@ class Machine:
     rig: Rig
     separate_cages: bool
     imperfections: Imperfections
+    chain: SensorChain
     background: Background
     split: str
     rate: float
@@ -77,8 +83,11 @@ def draw_machine(recipe: Recipe, part: Part, number: int) -> Machine:
 
 
 def _draw(recipe: Recipe, part: Part, number: int, attempt: int, redraws: tuple[Redraw, ...]) -> Machine:
+    def open_stream(purpose: str, item: int = 0) -> np.random.Generator:
+        return stream(recipe.seed, "machine", number, purpose, attempt, item)
+
     def picker(purpose: str) -> Picker:
-        return Picker.of(stream(recipe.seed, "machine", number, purpose, attempt))
+        return Picker.of(open_stream(purpose))
 
     rig, separate_cages = _draw_rig(part.machine, picker("machine"))
     rate, samples = _draw_signal(recipe.signal, picker("signal"))
@@ -89,7 +98,8 @@ def _draw(recipe: Recipe, part: Part, number: int, attempt: int, redraws: tuple[
         rig=rig,
         separate_cages=separate_cages,
         imperfections=_draw_imperfections(part.imperfections, rig.bearing, picker("imperfections")),
-        background=Background(white_rms=picker("background").number(part.background.white_rms_m_s2)),
+        chain=draw_chain(recipe.chain_of(part), rate, open_stream),
+        background=draw_background(recipe.background_of(part), rate, open_stream),
         split=_split(recipe.split, float(stream(recipe.seed, "machine", number, "split").random())),
         rate=rate,
         samples=samples,

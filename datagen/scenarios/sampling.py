@@ -11,6 +11,7 @@ import numpy as np
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Part, Recipe
+from datagen.scenarios.backgrounds import draw_noise_target, draw_stretch
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.feasibility import require_equilibrium
 from datagen.scenarios.machine import DEGREES_PER_RADIAN, Machine, draw_machine
@@ -67,6 +68,8 @@ def _draw(
         else None,
     )
     require_equilibrium(scene)
+    background = recipe.background_of(part)
+    envelope_band = recipe.signal.envelope_band_hz or _default_band(rig, machine.rate)
     return Scenario(
         scene=scene,
         rate=machine.rate,
@@ -74,10 +77,14 @@ def _draw(
         part=part.name,
         bearing_id=machine.bearing_id,
         split=machine.split,
-        envelope_band=recipe.signal.envelope_band_hz or _default_band(rig, machine.rate),
+        envelope_band=envelope_band,
         slip_deviation=slip.deviation,
         slip_correlation_time=slip.correlation_time,
+        chain=machine.chain,
         background=machine.background,
+        stretch=draw_stretch(background.recording, machine.samples, open_stream("recording")),
+        noise_target=draw_noise_target(background, open_stream("noise_target")),
+        snr_band=background.snr_band_hz or envelope_band,
         redraws=redraws,
     )
 

@@ -22,6 +22,15 @@ PURPOSES = (
     "slip",
     "roughness",
     "white_noise",
+    "chain",
+    "sensor_modes",
+    "pink_noise",
+    "shaft_harmonics",
+    "gear_mesh",
+    "mains_hum",
+    "impulses",
+    "recording",
+    "noise_target",
 )
 RULE = "numpy.random.default_rng(SeedSequence(seed, spawn_key=(scope, index, purpose, attempt, item)))"
 LARGEST_INDEX = 2**32 - 1

@@ -33,7 +33,7 @@ def test_the_stream_is_the_documented_seed_sequence() -> None:
 
 def test_scopes_and_purposes_only_ever_grow_at_their_end() -> None:
     assert SCOPES[:2] == ("record", "machine")
-    assert PURPOSES[:11] == (
+    assert PURPOSES[:20] == (
         "machine",
         "signal",
         "imperfections",
@@ -45,6 +45,15 @@ def test_scopes_and_purposes_only_ever_grow_at_their_end() -> None:
         "slip",
         "roughness",
         "white_noise",
+        "chain",
+        "sensor_modes",
+        "pink_noise",
+        "shaft_harmonics",
+        "gear_mesh",
+        "mains_hum",
+        "impulses",
+        "recording",
+        "noise_target",
     )
 
 

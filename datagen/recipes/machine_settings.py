@@ -176,10 +176,3 @@ class MachineSettings(Table):
         for group in groups:
             if all(getattr(self, name) is None for name in group):
                 raise refuse(f"{what} needs this setting", group[-1], f"one of {', '.join(group)}" if group[1:] else "")
-
-
-class BackgroundSettings(Table):
-    """Noise that belongs to the virtual machine, the same in all its records, in absolute units."""
-
-    white_rms_m_s2: NotNegative = Fixed(0.0)
-    """Standard deviation of white noise on each axis, from 0 to half the sampling rate, m/s²."""

@@ -14,14 +14,17 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from datagen.errors import BadInput
+from datagen.recipes.background_settings import BackgroundSettings
+from datagen.recipes.chain_settings import ChainSettings
 from datagen.recipes.defect_settings import DefectSettings
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.imperfection_settings import ImperfectionSettings
-from datagen.recipes.machine_settings import BackgroundSettings, MachineSettings
+from datagen.recipes.machine_settings import MachineSettings
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.recipe_files import find_recipe
+from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.recipes.settings import Between, OneOf, Table, refuse
 from physics.scene import CONTACT_LAWS
 
@@ -68,6 +71,10 @@ class Store(Table):
     """Most records in one shard."""
     clean: bool = False
     """Store the acceleration without sensor path and background too."""
+    sensor: bool = False
+    """Store the acceleration after sensor path and mounting, without background, too."""
+    background: bool = False
+    """Store every layer of the background too."""
     cage_angle: bool = False
     """Store the cage angle too."""
     profile: bool = False
@@ -115,8 +122,10 @@ class Part(Table):
     """Their state of health; healthy if not given."""
     imperfections: ImperfectionSettings = ImperfectionSettings()
     """What their bearings lack."""
-    background: BackgroundSettings = BackgroundSettings()
-    """Their noise."""
+    chain: ChainSettings | None = None
+    """Their measurement chain; the recipe's if not given."""
+    background: BackgroundSettings | None = None
+    """Their noise and other layers; the recipe's if not given."""
 
     @model_validator(mode="after")
     def _leaves_room_for_damage(self) -> Part:
@@ -160,6 +169,10 @@ class Recipe(Table):
     """Seed of every random number."""
     signal: Signal
     """How records are sampled."""
+    chain: ChainSettings = ChainSettings()
+    """Measurement chain of every part that says nothing of its own."""
+    background: BackgroundSettings = BackgroundSettings()
+    """Background of every part that says nothing of its own."""
     store: Store = Store()
     """What is written."""
     split: Split = Split()
@@ -176,6 +189,14 @@ class Recipe(Table):
         if twice is not None:
             raise refuse(f'two parts are called "{twice}"', "part", "a different name for each part")
         return self
+
+    def chain_of(self, part: Part) -> ChainSettings:
+        """Measurement chain of one of its parts."""
+        return part.chain or self.chain
+
+    def background_of(self, part: Part) -> BackgroundSettings:
+        """Background of one of its parts."""
+        return part.background or self.background
 
     @property
     def source(self) -> str:
@@ -231,4 +252,5 @@ def parse_recipe(content: dict[str, Any], path: Path, text: str = "") -> Recipe:
     except ValidationError as error:
         raise bad_recipe(error, Recipe, path, text) from None
     recipe._source = str(path)
+    require_sampled_fast_enough(recipe, path, text)
     return recipe

@@ -42,7 +42,7 @@ def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path, text:
     return BadInput(
         _problem(first, location, model),
         f"{path}, line {line}" if line else str(path),
-        _dotted(location),
+        dotted(location),
         _value(first, location, context.get("field", "")),
         context.get("allowed") or EXPECTED.get(first["type"], "").format(**context),
     )
@@ -85,7 +85,8 @@ def _table_type(annotation: Any) -> type[BaseModel] | None:
     return next((found for inner in get_args(annotation) if (found := _table_type(inner))), None)
 
 
-def _dotted(location: Location) -> str:
+def dotted(location: Location) -> str:
+    """The setting at `location` as a message names it: part[2].defect.depth_um."""
     text = ""
     for step in location:
         text += f"[{step + 1}]" if isinstance(step, int) else f".{step}" if text else step

@@ -31,7 +31,16 @@ DIMENSIONS = (
     ("signal", 0, 4),
     ("split", 0, 1),
     ("imperfections", 1, 2),
-    ("background", 0, 40),
+    ("background", 0, 4),
+    ("chain", 0, 8),
+    ("sensor_modes", 0, 24),
+    ("pink_noise", 0, 4),
+    ("shaft_harmonics", 0, 8),
+    ("gear_mesh", 0, 16),
+    ("mains_hum", 0, 8),
+    ("impulses", 0, 10),
+    ("recording", 0, 1),
+    ("noise_target", 0, 1),
 )
 TOTAL = sum(count for _, _, count in DIMENSIONS)
 BLOCK = 1024

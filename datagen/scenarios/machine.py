@@ -1,4 +1,4 @@
-"""Virtual machines: a drawn rig and bearing with their imperfections, noise floor, recorder and split."""
+"""Virtual machines: a drawn rig and bearing with their imperfections, measurement chain, background and split."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from functools import lru_cache
 
 from datagen.recipes.recipe import FEWEST_SAMPLES, Recipe, Signal, Split
 from datagen.records.background import Background
+from datagen.scenarios.backgrounds import draw_background
+from datagen.scenarios.chain import draw_chain
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.drawn_rig import draw_rig
@@ -19,6 +21,7 @@ from labels.schema import SPLITS
 from physics.checks import InvalidParameter, require
 from physics.imperfections import Imperfections
 from physics.rig import Rig
+from physics.sensor.chain import SensorChain
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,7 @@ class Machine:
     rig: Rig
     separate_cages: bool
     imperfections: Imperfections
+    chain: SensorChain
     background: Background
     split: str
     rate: float
@@ -68,7 +72,8 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
         imperfections=draw_imperfections(
             part.imperfections, rig.bearing, picker("imperfections"), picker("imperfections", 1)
         ),
-        background=Background(white_rms=picker("background").number(part.background.white_rms_m_s2)),
+        chain=draw_chain(recipe.chain_of(part), rate, draw),
+        background=draw_background(recipe.background_of(part), rate, draw),
         split=_split(recipe.split, replace(draw, attempt=0).picker("split").share()),
         rate=rate,
         samples=samples,

@@ -9,6 +9,7 @@ import numpy as np
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Place, Recipe
+from datagen.scenarios.backgrounds import draw_noise_target, draw_stretch
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.drawn_rig import RPM
@@ -60,6 +61,7 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
         else None,
     )
     require_equilibrium(scene)
+    background = recipe.background_of(part)
     return Scenario(
         scene=scene,
         rate=machine.rate,
@@ -70,7 +72,11 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
         envelope_band=machine.envelope_band,
         slip_deviation=slip.deviation,
         slip_correlation_time=slip.correlation_time,
+        chain=machine.chain,
         background=machine.background,
+        stretch=draw_stretch(background.recording, machine.samples, draw.stream("recording")),
+        noise_target=draw_noise_target(background, draw.picker("noise_target")),
+        snr_band=background.snr_band_hz or machine.envelope_band,
         redraws=redraws,
     )
 

@@ -12,6 +12,7 @@ from datagen.corpora.atomic import write_atomically
 from datagen.corpora.format import FORMAT, Identity
 from datagen.corpora.shard import Failure, Sidecar, shard_path
 from datagen.errors import BadInput
+from datagen.scenarios.redraw import Refused, add_refused
 
 Span = tuple[int, int]
 
@@ -33,8 +34,8 @@ class ShardEntry:
 class Manifest:
     """What a corpus is. `asked` are the spans [start, stop) of records that runs were asked for, over all runs.
 
-    `recipe` is the whole recipe as data; `shards`, `failed`, `bytes` and `seconds` (of work, summed over workers) are
-    what the sidecars of the shards say.
+    `recipe` is the whole recipe as data; `shards`, `failed`, `bytes`, `seconds` (of work, summed over workers) and
+    `refused` (impossible draws, by parameter) are what the sidecars of the shards say.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Manifest:
     failed: tuple[Failure, ...] = ()
     bytes: int = 0
     seconds: float = 0.0
+    refused: dict[str, Refused] = field(default_factory=dict)
 
     @property
     def records(self) -> int:
@@ -67,6 +69,7 @@ class Manifest:
             failed=tuple(failure for sidecar in found for failure in sidecar.failed),
             bytes=sum(sidecar.bytes for sidecar in found),
             seconds=round(sum(sidecar.seconds for sidecar in found), 3),
+            refused=add_refused(sidecar.refused for sidecar in found),
         )
 
 
@@ -97,6 +100,7 @@ def read_manifest(folder: Path) -> Manifest:
             failed=tuple(Failure(**failure) for failure in found["failed"]),
             bytes=int(found["bytes"]),
             seconds=float(found["seconds"]),
+            refused={str(what): Refused(**counted) for what, counted in found["refused"].items()},
         )
     except FileNotFoundError:
         raise BadInput("this folder has no manifest.json, so it is no corpus", str(folder)) from None

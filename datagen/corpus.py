@@ -141,12 +141,13 @@ class Corpus:
 
         shard, position = self._place(record)
         with xarray.open_dataset(self.folder / shard, engine="netcdf4") as opened:
+            tables = {"ball_pass": "pass_record", "defect": "defect_record"}
             own = {
-                "record": position,
-                "ball_pass": np.flatnonzero(opened["pass_record"].values == record),
-                "defect": np.flatnonzero(opened["defect_record"].values == record),
+                table: np.flatnonzero(opened[column].values == record)
+                for table, column in tables.items()
+                if column in opened
             }
-            return opened.isel(own).load()
+            return opened.isel(own | {"record": position}).load()
 
     def scenario(self, record: int) -> dict[str, Any]:
         """The scenario of one record: every number that is needed to simulate it again."""

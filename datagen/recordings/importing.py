@@ -22,6 +22,7 @@ from datagen.recordings.listing import Listing, Request, list_requests
 from datagen.recordings.recorded import Key, Recorded, read_recording
 from datagen.recordings.source import remembered_files, source_hash
 from datagen.recordings.spec import Spec
+from datagen.recordings.spec_files import shipped_specs
 from datagen.records.versions import program_hash, program_versions
 from labels.schema import UNKNOWN
 
@@ -60,7 +61,13 @@ def import_recordings(spec: Spec, folder: Path, root: Path | None = None) -> Imp
     files, before `folder` is touched.
     """
     with remembered_files():
-        return _import(spec, folder, root or spec.source.parent / spec.root)
+        return _import(spec, folder, root or _own_root(spec))
+
+
+def _own_root(spec: Spec) -> Path:
+    if spec.source in shipped_specs().values():
+        raise BadInput("this SPEC comes without its recordings", field="--root", allowed="the folder that holds them")
+    return spec.source.parent / spec.root
 
 
 def _import(spec: Spec, folder: Path, root: Path) -> Imported:

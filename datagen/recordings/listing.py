@@ -56,9 +56,9 @@ class _Finder:
         for number, recording in enumerate(self.spec.recording, start=1):
             place = f"{self.spec.source}: recording[{number}] ({recording.name})"
             found = [one for file in self._files(recording, place) for one in self._requests(recording, place, *file)]
-            if not found:
-                raise BadInput(f"none of its files is below {self.root}", place)
             requests += found
+        if not requests:
+            raise BadInput(f"none of its files is below {self.root}", str(self.spec.source), "root", str(self.root))
         return Listing(tuple(requests), tuple(self.tables), tuple(self.absent))
 
     @cached_property
@@ -100,7 +100,9 @@ class _Finder:
         paths: dict[Path, None] = {}
         for pattern in recording.patterns:
             fitting = [path for path in sorted(self.root.glob(pattern)) if path.is_file()]
-            if not fitting:
+            if not fitting and recording.absent_files == "skip":
+                self.absent.append(pattern)
+            elif not fitting:
                 raise BadInput(f"no file below {self.root} fits", place, "files", pattern)
             paths |= dict.fromkeys(fitting)
         return list(paths)

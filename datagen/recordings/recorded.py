@@ -137,13 +137,13 @@ def _pieces(source: Source, rate: float, size: int) -> list[tuple[int, int]]:
 
 def _provenance(source: Source, factor: float, start: int, stop: int) -> str:
     request = source.request
-    variables = {axis: name for axis in AXES if (name := getattr(request.channel, axis)) is not None}
-    read = {name: said.variable for name, said in request.settings.items() if isinstance(said, FromVariable)}
+    wishes = {axis: wish for axis in AXES if (wish := getattr(request.channel, axis)) is not None}
+    wishes |= {name: said.variable for name, said in request.settings.items() if isinstance(said, FromVariable)}
     return json.dumps(
         {
             "file": request.name,
             "sha256": source_hash(request.path),
-            "variables": variables | read,
+            "variables": {field: name for field, wish in wishes.items() if (name := source.variable(wish, field))},
             "first_sample": start,
             "samples": stop - start,
             "m_s2_per_number": factor,

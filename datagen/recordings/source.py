@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from datagen.corpora.shard import file_hash
 from datagen.errors import BadInput
 from datagen.recipes.recipe import FEWEST_SAMPLES
-from datagen.recordings.formats.arrays import Arrays, NoVariable, choose
+from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import CsvLayout
@@ -63,6 +63,14 @@ class Source:
                 str(self.path), field, wish,
             )  # fmt: skip
         return values
+
+    def variable(self, wish: str, field: str) -> str:
+        """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""
+        try:
+            name, places = chosen(self.arrays, wish, self.path, field)
+        except NoVariable:
+            return ""
+        return name if places is None else f"{name}[{places}]"
 
     def number(self, name: str) -> float | None:
         """A number that is stated or that the file holds; None if the SPEC says nothing of it.

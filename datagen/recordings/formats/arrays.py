@@ -24,7 +24,20 @@ class NoVariable(BadInput):
 
 
 def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
-    """The array that `wish` names, without dimensions of length 1; raises BadInput.
+    """The array that `wish` names (see `chosen`), without dimensions of length 1; raises BadInput."""
+    name, places = chosen(arrays, wish, path, field)
+    found = np.asarray(arrays[name])
+    if places is None:
+        return found.squeeze()
+    try:
+        return np.asarray(found[tuple(_place(part) for part in places.split(","))])
+    except (IndexError, ValueError):
+        shape = "x".join(map(str, found.shape))
+        raise BadInput(f"{name} is an array of {shape} numbers", str(path), field, wish) from None
+
+
+def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
+    """Name of the array that `wish` means, and the places to take of it if it says so; raises BadInput.
 
     Names with | between them are tried in order; * and ? stand for any text and must fit one name only; `{stem}` and
     `{number}` are the file's name without its ending and the first whole number in it; "NAME[:,2]" takes one column of
@@ -49,22 +62,13 @@ def _filled(wish: str, path: Path, field: str) -> str:
         raise BadInput(problem, str(path), field, wish, "{stem} and {number}, as in X{number:03}_DE_time") from None
 
 
-def _named(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any] | None:
+def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:
     indexed = None if wish in arrays else INDEXED.fullmatch(wish)
     name = indexed["name"] if indexed else wish
     known = [name] if name in arrays else [one for one in arrays if fnmatchcase(one, name)] if _is_pattern(name) else []
     if len(known) > 1:
         raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
-    if not known:
-        return None
-    found = np.asarray(arrays[known[0]])
-    if not indexed:
-        return found.squeeze()
-    try:
-        return np.asarray(found[tuple(_place(part) for part in indexed["places"].split(","))])
-    except (IndexError, ValueError):
-        shape = "x".join(map(str, found.shape))
-        raise BadInput(f"{known[0]} is an array of {shape} numbers", str(path), field, wish) from None
+    return (known[0], indexed["places"] if indexed else None) if known else None
 
 
 def _is_pattern(name: str) -> bool:

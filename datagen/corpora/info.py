@@ -68,7 +68,7 @@ def corpus_info(folder: Path) -> Info:
     signal_seconds = float(table["duration_s"].sum())
     return Info(
         name=manifest.name,
-        title=str(manifest.recipe.get("title") or ""),
+        title=manifest.title,
         records=len(table),
         asked=manifest.asked_records,
         recipe_records=manifest.recipe_records,

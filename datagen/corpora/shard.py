@@ -109,9 +109,12 @@ def serialise(dataset: xarray.Dataset, compression: str) -> memoryview:
 
 
 def label_columns(dataset: xarray.Dataset) -> dict[str, list[Any]]:
-    """The labels of a shard's `dataset` as a flat table: a list of plain values per column."""
+    """The labels of a shard's `dataset` as a flat table: a list of plain values per column, None where unknown."""
     columns: dict[str, list[Any]] = {}
     for label in LABELS:
+        if label.name not in dataset.variables:
+            columns |= {column: [None] * dataset.sizes["record"] for column in label.columns}
+            continue
         values = dataset[label.name].values
         for place, column in enumerate(label.columns):
             chosen = (values[:, place] if label.components else values).tolist()

@@ -32,7 +32,7 @@ EXPECTED = {
 }
 
 
-def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path, text: str) -> BadInput:
+def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
     errors = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
     first: dict[str, Any] = dict(errors[0])

@@ -122,7 +122,7 @@ class BackgroundSettings(Table):
     snr_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
     """Scales the whole background of each record to this ratio over 0 to half the sampling rate, dB."""
     snr_band_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
-    """The same over snr_band_hz."""
+    """The same over snr_band_hz, dB."""
 
     @model_validator(mode="after")
     def _consistent(self) -> BackgroundSettings:

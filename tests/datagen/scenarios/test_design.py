@@ -55,6 +55,12 @@ def test_a_latin_hypercube_is_exact_for_a_number_of_records_that_is_no_power_of_
         assert sorted(np.floor(column * 45).astype(int)) == list(range(45))
 
 
+def test_the_strata_of_different_settings_are_shuffled_apart() -> None:
+    numbers = unit_cube(draw_all(recipe_of("latin_hypercube", 64)))
+    correlation = np.corrcoef(numbers.T)[np.triu_indices(3, 1)]
+    assert np.all(np.abs(correlation) < 0.5)  # four standard deviations, 1/√63 each
+
+
 def test_machines_and_records_are_stratified_each_among_themselves() -> None:
     scenarios = draw_all(recipe_of("sobol", 128, records_per_machine=4))
     numbers = unit_cube(scenarios)

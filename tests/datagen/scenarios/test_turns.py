@@ -100,7 +100,9 @@ def test_all_records_of_a_machine_may_share_its_spall_at_their_own_speeds_and_lo
 
 def test_spalls_of_machines_are_balanced_within_each_balanced_rig() -> None:
     rigs = {"rig": {"balanced": ["gearbox", "fan"]}}
-    scenarios = draw_all(recipe_of(40, machine=rigs, defect=DEFECT | {"drawn_for": "machine"}))
+    often_refused = DEFECT | {"line": {"extent_spacing": {"uniform": [0.5, 1.5]}}, "drawn_for": "machine"}
+    scenarios = draw_all(recipe_of(40, machine=rigs, defect=often_refused))
+    assert {redraw.scope for scenario in scenarios for redraw in scenario.redraws} == {"machine"}
     for rig in ("gearbox", "fan"):
         conditions = [scenario.condition for scenario in scenarios if scenario.rig == rig]
         assert blocks(conditions, 5) == [Counter(healthy=1, line=2, extended=2)] * 4

@@ -160,3 +160,8 @@ def test_drawn_balls_that_do_not_fit_are_redrawn_and_counted() -> None:
     assert {redraw.field for redraw in redraws} == {"ball_diameter"}
     assert "do not fit" in redraws[0].reason
     assert {scenario.scene.rig.bearing.balls for scenario in scenarios} == {10, 14, 18}
+
+
+def test_a_drawn_machine_comes_back_from_the_text_of_its_scenario() -> None:
+    (scenario,) = draw(1, **BEARING, **RIG)
+    assert Scenario.from_json(scenario.to_json()) == scenario

@@ -28,7 +28,7 @@ from datagen.recipes.settings import Between, OneOf, Table, refuse
 from physics.scene import CONTACT_LAWS
 
 FEWEST_SAMPLES = 16
-LARGEST_HYPERCUBE = 100_000
+LARGEST_HYPERCUBE = 50_000
 Count = Annotated[int, Field(ge=1, le=10_000_000)]
 
 

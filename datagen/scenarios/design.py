@@ -84,7 +84,7 @@ def _sobol_block(seed: int, part: int, block: int) -> NDArray[np.float64]:
     return np.asarray(engine.random(BLOCK))
 
 
-@lru_cache(maxsize=4 * TOTAL)
+@lru_cache(maxsize=2 * TOTAL)
 def _latin_cells(seed: int, part: int, points: int, dimension: int) -> NDArray[np.int32]:
     """The stratum (points,) of each point along one dimension."""
     generator = stream(seed, "part", part, "design", item=1 + dimension)

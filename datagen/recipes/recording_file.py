@@ -91,15 +91,18 @@ def _numbers(path: Path, found: NDArray[np.generic]) -> NDArray[np.float64]:
 def _chosen(path: Path, table: NDArray[np.float64], columns: tuple[int, ...] | None) -> NDArray[np.float32]:
     width = table.shape[1]
     if columns is None and width > MOST_COLUMNS:
-        raise BadInput(f"{path.name} has {width} columns", field="columns", allowed="one or two of them")
+        raise BadInput(f"{path.name} has {width} columns", field="columns", allowed="one or two of them, such as [2]")
     if columns is not None and max(columns) > width:
-        raise BadInput(f"{path.name} has {width} columns", field="columns", allowed=f"1 to {width}")
+        raise BadInput(f"{path.name} has no column {max(columns)}", field="columns", allowed=f"1 to {width}")
     chosen = table if columns is None else table[:, [column - 1 for column in columns]]
     with np.errstate(over="ignore"):
         rounded = chosen.astype(np.float32)
     bad = ~np.isfinite(rounded)
     if bad.any():
         first = int(np.flatnonzero(bad.any(axis=1))[0])
-        problem = f"{path.name} holds {int(bad.sum())} numbers that are not finite, the first at sample {first}"
-        raise BadInput(problem, field="file")
+        found = "NaN" if np.isnan(chosen[first]).any() else "a number that is not finite"
+        problem = (
+            f"{path.name} holds {found} at sample {first} ({int(bad.any(axis=1).sum())} such of {len(bad)} samples)"
+        )
+        raise BadInput(problem, field="file", allowed="finite numbers")
     return rounded

@@ -58,9 +58,14 @@ class RecordingSettings(Table):
             return value
         return _learnt(value, path)
 
+    @property
+    def at_hand(self) -> bool:
+        """True if the file itself can be read, and not only what was learnt of it."""
+        return bool(self.path) and Path(self.path).is_file()
+
     def load(self) -> NDArray[np.float32]:
         """The recording (N, C) in units of the file; BadInput if the file is gone or another than was described."""
-        if not self.path or not Path(self.path).is_file():
+        if not self.at_hand:
             raise BadInput(f"the recording (SHA-256 {self.sha256}) is not at hand", file=self.path or self.file)
         samples, sha256 = _loaded(self.path, self.variable, self.columns)
         if sha256 != self.sha256:
@@ -74,7 +79,7 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
     try:
         read = read_recording(path, value.get("variable"), columns)
     except BadInput as problem:
-        raise _refused(problem.problem or str(problem), problem.field or "file") from None
+        raise _refused(problem.problem or str(problem), problem.field or "file", problem.allowed) from None
     stated = value.get("rate_hz", read.rate)
     if stated is None:
         raise _refused(f"{path.name} does not state its sampling rate", "rate_hz", "a number of Hz")
@@ -84,7 +89,13 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
     if value.get("sha256", sha256) != sha256:
         raise _refused(f"{path.name} is another file: its SHA-256 is {sha256}", "sha256")
     samples, channels = read.samples.shape
-    known = {"rate_hz": float(stated), "sha256": sha256, "samples": samples, "channels": channels, "path": str(path)}
+    known = {
+        "rate_hz": float(stated) if type(stated) is int else stated,
+        "sha256": sha256,
+        "samples": samples,
+        "channels": channels,
+        "path": str(path),
+    }
     return value | known
 
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics.assembly import assemble
 from physics.contact import ContactModel
-from physics.integrators.exponential_rk4 import march_exponential_rk4
+from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, UNLOCATED, Grid, Output
+from physics.integrators.methods import MARCHES
 from physics.integrators.propagator import power_series
 from physics.kinks import known_kinks
 from physics.motion import motion_model, resonator_acceleration
@@ -22,7 +22,6 @@ from physics.trace import ContactChanges, Trace
 Array = NDArray[np.float64]
 
 MODEL = "nonlinear 6-DOF"
-MARCHES: Mapping[str, Callable[..., int]] = {"exponential_rk4": march_exponential_rk4}
 FIRST_CHANGE_LOG = 4096
 LARGEST_CHANGE_LOG = 2_097_152
 
@@ -57,6 +56,10 @@ def respond(
         capacity *= 8
     if status == NOT_FINITE:
         raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps of {grid.step:.3g} s")
+    if status == OUT_OF_STEPS:
+        raise SimulationFailed(
+            Outcome.TOO_MANY_STEPS, f"the method {method} used up its steps within {scene.duration:g} s"
+        )
     return _trace(scene, contact, grid, output, method)
 
 

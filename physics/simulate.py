@@ -12,12 +12,13 @@ from physics._jit import discard_cache
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
+from physics.integrators.methods import METHODS, REFERENCE
 from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.resampling import decimate
-from physics.response import MARCHES, respond, respond_by_reference
+from physics.response import respond, respond_by_reference
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics import equilibrium
@@ -25,8 +26,6 @@ from physics.trace import Trace
 
 Array = NDArray[np.float64]
 
-REFERENCE = "reference"
-METHODS = (*MARCHES, REFERENCE)
 STEPS_PER_FAST_PERIOD = 6.2
 SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0

@@ -11,6 +11,7 @@ from datagen.errors import BadInput
 from datagen.recipes.spelling import suggestion
 from datagen.recipes.toml_lines import Location, line_of
 
+MOST_LISTED = 16
 EXPECTED = {
     "string_type": "a text in quotes",
     "int_type": "a whole number",
@@ -31,7 +32,7 @@ EXPECTED = {
 }
 
 
-def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path, text: str) -> BadInput:
+def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
     errors = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
     first: dict[str, Any] = dict(errors[0])
@@ -53,7 +54,9 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
         return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
     if kind == "extra_forbidden":
         known = _keys_beside(location, model)
-        return f"unknown key{suggestion(str(location[-1]), known)} (known here: {', '.join(known)})"
+        hint = suggestion(str(location[-1]), known)
+        listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
+        return f"unknown key{hint}{listed}"
     problem = first.get("ctx", {}).get("problem")
     return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
 

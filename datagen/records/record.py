@@ -29,6 +29,7 @@ from physics.stiffness import stiffness_trace
 from physics.trace import Trace
 
 Rounded = NDArray[np.float32]
+RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
 # Read by linear interpolation this moves the acceleration of every reference scene by less than 1e-3 (measured: 1.7e-3
 # with 65 536 points and 5e-4 with 131 072 on the outer race, 2.1e-3 with 131 072 on the inner one, 6e-4 with these).
 PROFILE_POINTS = 262_144
@@ -119,6 +120,8 @@ def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[st
     return label_values(scenario.scene) | {
         "record": scenario.record,
         "part": scenario.part,
+        **dict.fromkeys(RECORDING_LABELS, ""),
+        "speed_basis": "set",
         "split": scenario.split,
         "bearing_id": scenario.bearing_id,
         "rate_hz": scenario.rate,

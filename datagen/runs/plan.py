@@ -98,7 +98,7 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
     }
     total = 0.0
     for signal in SIGNALS:
-        if signal.stored == "always" or signal.name in stored:
+        if signal.required(imported=False) or signal.name in stored:
             raw = math.prod(sizes[dim] for dim in signal.dims) * np.dtype(signal.dtype).itemsize
             total += raw * (ZLIB_SHARE[signal.name] if compression == "zlib" else 1.0)
     return total

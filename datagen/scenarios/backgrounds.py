@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from datagen.optional import if_given
@@ -18,6 +16,7 @@ from datagen.recipes.background_settings import (
 from datagen.recipes.distributions import Distribution
 from datagen.recipes.recording_settings import RecordingSettings
 from datagen.records.background import Background, NoiseTarget, Stretch
+from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import Picker
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance
@@ -27,18 +26,13 @@ from physics.backgrounds.recording import draw_starts
 from physics.backgrounds.shaft_harmonics import ShaftHarmonics
 from physics.sensor.mode import require_below_nyquist
 
-Streams = Callable[[str, int], np.random.Generator]
 
-
-def draw_background(settings: BackgroundSettings, rate: float, streams: Streams) -> Background:
-    """Levels of the layers of one machine sampled at `rate` (Hz); `streams` opens its stream of a purpose and item.
+def draw_background(settings: BackgroundSettings, rate: float, draw: Draw) -> Background:
+    """Levels of the layers of one machine sampled at `rate` (Hz).
 
     Raises InvalidParameter if a frequency that was drawn does not lie below half the rate.
     """
-
-    def pick(purpose: str) -> Picker:
-        return Picker.of(streams(purpose, 0))
-
+    pick = draw.picker
     return Background(
         white_rms=pick("background").number(settings.white_rms_m_s2),
         pink=if_given(settings.pink, lambda one: _draw_pink(one, rate, pick("pink_noise"))),
@@ -65,9 +59,8 @@ def draw_stretch(settings: RecordingSettings | None, samples: int, generator: np
     return Stretch(settings.file, settings.sha256, starts, content)
 
 
-def draw_noise_target(settings: BackgroundSettings, generator: np.random.Generator) -> NoiseTarget | None:
+def draw_noise_target(settings: BackgroundSettings, pick: Picker) -> NoiseTarget | None:
     """The signal-to-noise ratio that a record is scaled to; None if its background keeps its absolute level."""
-    pick = Picker.of(generator)
     setting = settings.snr_db or settings.snr_band_db
     return None if setting is None else NoiseTarget(pick.number(setting), settings.snr_db is not None)
 

@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
-
 from datagen.recipes.chain_settings import ChainSettings, ModeSettings
+from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import Picker
 from physics.sensor.chain import SensorChain
 from physics.sensor.mode import SensorMode, require_below_nyquist
 from physics.sensor.mounting import Mounting
 from physics.sensor.recorder import Recorder
 
-Streams = Callable[[str, int], np.random.Generator]
 
-
-def draw_chain(settings: ChainSettings, rate: float, streams: Streams) -> SensorChain:
-    """The chain of one machine sampled at `rate` (Hz); `streams` opens the machine's stream of a purpose and item.
+def draw_chain(settings: ChainSettings, rate: float, draw: Draw) -> SensorChain:
+    """The chain of one machine sampled at `rate` (Hz).
 
     Raises InvalidParameter if a frequency that was drawn does not lie below half the rate.
     """
-    pick = Picker.of(streams("chain", 0))
+    pick = draw.picker("chain")
     gain = pick.number(settings.resonator_gain)
     cutoff, order = pick.optional(settings.mounting_cutoff_hz), pick.whole(settings.mounting_order)
     full_scale, bits = pick.optional(settings.recorder_range_m_s2), pick.whole(settings.recorder_bits)
-    groups = [_draw_modes(group, Picker.of(streams("sensor_modes", k))) for k, group in enumerate(settings.modes)]
+    groups = [_draw_modes(group, draw.picker("sensor_modes", k)) for k, group in enumerate(settings.modes)]
     modes = tuple(mode for group in groups for mode in group)
     for frequency in (*(mode.frequency for mode in modes), *(() if cutoff is None else (cutoff,))):
         require_below_nyquist(frequency, rate)

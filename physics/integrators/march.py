@@ -130,7 +130,7 @@ def record(
             output.outer[sample, 2 + axis] = state[8 + axis]
             output.outer[sample, 4 + axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
     if output.state.shape[0] > 0:
-        output.state[sample] = state
+        output.state[sample] = state[:12]
     if output.force.shape[0] > 0:
         for ball in range(output.force.shape[1]):
             output.force[sample, ball] = of_ball(balls, FORCE, ball)
@@ -264,8 +264,11 @@ def _march(
     start_state: Array,
     output: Output,
 ) -> int:
-    """Fill `output` from the state (12,) at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
-    now, then = start_state.copy(), np.empty(12)
+    """Fill `output` from the state at t = 0, (12,) or longer by what the method carries along.
+
+    Returns DONE, NOT_FINITE or LOG_FULL.
+    """
+    now, then = start_state.copy(), np.empty(start_state.size)
     weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
     set_step(series, weights, 1.0)
     set_time(balls, frames, track, 0.0)

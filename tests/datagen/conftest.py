@@ -111,6 +111,7 @@ def plain_labels(index: int, spall: Spall | None) -> dict[str, Any]:
         "location": spall.race if spall else "none",
         "profile": "tukey" if spall else "none",
         "contact_law": "paper",
+        "speed_basis": "set",
         "spalls": 1 if spall else 0,
         "extent": spall.extent if spall else 0.0,
         "extent_spacing": 0.3 if spall else 0.0,

@@ -54,7 +54,7 @@ def test_a_label_whose_name_ends_in_a_unit_has_that_unit(label):
         assert label.unit == units[ending]
     else:
         assert label.unit in ("", "1", "rad", "m", "N", "Hz", "s", "m s-2")
-    assert label.source in ("scene", "run", "record")
+    assert label.source in ("scene", "run", "record", "recording")
 
 
 def test_no_time_is_in_seconds_by_name_which_readers_turn_into_durations():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.io import wavfile
+from scipy.io import savemat, wavfile
 from typer.testing import CliRunner
 
 from datagen.cli import app
@@ -41,14 +41,16 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     np.save(folder / "huge.npy", np.append(ramp, 1e300))
     np.save(folder / "wide.npy", np.tile(ramp[:, None], 3))
     np.save(folder / "words.npy", np.array(["a", "b"]))
+    np.savez(folder / "uneven.npz", a=ramp, b=ramp[1:])
     np.savez(folder / "two.npz", a=ramp, b=ramp, rate_hz=32768)
     wavfile.write(folder / "good.wav", 32768, np.round(ramp * 2**15).astype(np.int16))
     wavfile.write(folder / "other.wav", 44100, np.zeros(SAMPLES, np.int16))
     lines = ["time,a", *(f"{k},{value!r}" for k, value in enumerate(ramp.tolist()))]
+    savemat(folder / "good.mat", {"DE_time": ramp[:, None], "RPM": 1797})
     (folder / "good.csv").write_text("\n".join(lines))
     (folder / "bad.csv").write_text("a,b\n1,2\n3,x\n")
     (folder / "cut.npz").write_bytes((folder / "two.npz").read_bytes()[:500])
-    (folder / "x.mat").write_bytes(b"")
+    (folder / "x.abc").write_bytes(b"")
     return folder
 
 
@@ -106,17 +108,13 @@ BAD = [
     ("[part.background]\nwhite_rms_m_s2 = 1\nsnr_db = 3\nsnr_band_db = 4", "say the same thing twice"),
 ]
 BAD_RECORDINGS = [
-    ("gone.npy", "rate_hz = 32768", "gone.npy cannot be read (No such file or directory)"),
-    ("x.mat", "", "not a kind of file that can be read; allowed: .npy, .npz, .csv, .wav"),
-    ("bad.csv", "rate_hz = 32768", "bad.csv cannot be read (could not convert string 'x'"),
-    ("cut.npz", "", "cut.npz cannot be read"),
-    ("words.npy", "rate_hz = 32768", "words.npy is no table of numbers"),
-    (
-        "nan.npy",
-        "rate_hz = 32768",
-        "nan.npy holds NaN at sample 5000 (1 such of 5001 samples); allowed: finite numbers",
-    ),
-    ("huge.npy", "rate_hz = 32768", "huge.npy holds a number that is not finite at sample 5000"),
+    ("gone.npy", "rate_hz = 32768", "gone.npy: no such file"),
+    ("x.abc", "", "x.abc: the file's ending says no known format; allowed: mat, npz, npy, csv, wav, nc"),
+    ("bad.csv", 'rate_hz = 32768\nchannels = ["b"]', "bad.csv: it holds NaN at sample 1 (1 such of 2 samples)"),
+    ("cut.npz", "", "cut.npz: cannot be read as an .npz file"),
+    ("words.npy", "rate_hz = 32768", "words.npy: no table of numbers"),
+    ("nan.npy", "rate_hz = 32768", "nan.npy: it holds NaN at sample 5000 (1 such of 5001 samples); allowed: finite"),
+    ("huge.npy", "rate_hz = 32768", "huge.npy: it holds a number that is not finite at sample 5000"),
     ("good.npy", "", "recording.rate_hz: good.npy does not state its sampling rate; allowed: a number of Hz"),
     (
         "good.npy",
@@ -124,13 +122,17 @@ BAD_RECORDINGS = [
         "line 12: part[1].background.recording.rate_hz = 48000.0: good.npy is not sampled at the records' rate, and "
         "recordings are not resampled; allowed: 32768 (signal.rate_hz)",
     ),
+    ("good.npy", 'rate_hz = "x"', 'recording.rate_hz = "x"; allowed: a number'),
     ("other.wav", "", "rate_hz = 44100.0: other.wav is not sampled at the records' rate"),
     ("other.wav", "rate_hz = 32768", "rate_hz = 32768: other.wav says 44100 Hz; allowed: 44100"),
     ("short.npy", "rate_hz = 32768", "short.npy is 0.00305176 s long, a record 0.1 s, and recordings are not repeated"),
-    ("wide.npy", "rate_hz = 32768", "recording.columns: wide.npy has 3 columns; allowed: one or two of them"),
-    ("wide.npy", "rate_hz = 32768\ncolumns = [4]", "columns = [4]: wide.npy has no column 4; allowed: 1 to 3"),
-    ("two.npz", "", "recording.variable: two.npz holds several arrays; allowed: a, b"),
-    ("two.npz", 'variable = "c"', 'variable = "c": two.npz has no such array; allowed: a, b'),
+    ("wide.npy", "rate_hz = 32768", "recording.channels: wide.npy: it has 3 columns; allowed: one or two: "),
+    ("wide.npy", 'rate_hz = 32768\nchannels = ["data[:,3]"]', "wide.npy: data is an array of 5000x3 numbers"),
+    ("two.npz", "", "recording.channels: two.npz: it has 2 variables; allowed: one or two of ['a', 'b']"),
+    ("two.npz", 'channels = ["c"]', "two.npz: the file has no such variable"),
+    ("uneven.npz", 'channels = ["a", "b"]\nrate_hz = 32768', "uneven.npz: the two channels are not equally long"),
+    ("two.npz", 'channels = ["a", "b", "a"]', "two.npz: it has 3 columns; allowed: one or two"),
+    ("good.csv", 'rate_hz = 32768\ncsv.delimiter = ",,"', 'recording.csv.delimiter = ",,"; allowed: at most 1'),
     ("good.npy", "rate_hz = 32768\ngain_m_s2 = -1", "recording.gain_m_s2 = -1; allowed: a number from 0"),
     ("good.npy", f'rate_hz = 32768\nsha256 = "{"0" * 64}"', "good.npy is another file: its SHA-256 is"),
 ]
@@ -170,14 +172,15 @@ def test_the_command_ends_with_2_and_writes_nothing(text: str, folder: Path, tmp
     [
         ("good.npy", "rate_hz = 32768"),
         ("good.wav", ""),
-        ("good.csv", "rate_hz = 32768\ncolumns = [2]"),
-        ("two.npz", 'variable = "b"'),
-        ("wide.npy", "rate_hz = 32768\ncolumns = [3]"),
+        ("good.csv", 'rate_hz = 32768\nchannels = ["a"]'),
+        ("two.npz", 'channels = ["b"]'),
+        ("wide.npy", 'rate_hz = 32768\nchannels = ["data[:,2]"]'),
+        ("good.mat", 'rate_hz = 32768\nchannels = ["*_time"]'),
     ],
 )
 def test_every_kind_of_file_gives_the_same_recording(file: str, more: str, folder: Path) -> None:
     recording = load(folder, RECORDING.format(file=file) + more).part[0].background.recording
-    assert (recording.rate_hz, recording.samples, recording.channels) == (32768.0, SAMPLES, 1)
+    assert (recording.rate_hz, recording.samples) == (32768.0, SAMPLES)
     # float32, and steps of 2^-15 in the .wav
     assert recording.load()[:, 0] == pytest.approx(np.linspace(-0.5, 0.5, SAMPLES), abs=2e-5)
 

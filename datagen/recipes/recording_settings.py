@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationError, ValidationInfo, model_validator
+from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
 from datagen.errors import BadInput
@@ -36,14 +37,14 @@ class RecordingSettings(Table):
     channels: tuple[Channel, ...] | None = Field(default=None, min_length=1, max_length=2, strict=False)
     """Variable of the one channel, or of x and y, written as in the SPEC of an import; the only one if not given."""
     csv: CsvLayout = CsvLayout()
-    """How a text table is laid out."""
+    """Layout of a text table."""
     gain_m_s2: Annotated[Distribution, Between(0.0)] = Fixed(1.0)
     """Acceleration for one unit of the file, m/s²; of whole numbers in .wav, for the full scale."""
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] = ""
     """SHA-256 of the file, found on reading; a recipe that states it accepts no other file."""
     samples: Annotated[int, Field(ge=1)] = 0
     """Samples of the recording, found on reading."""
-    path: str = Field(default="", exclude=True)
+    path: SkipJsonSchema[str] = Field(default="", exclude=True)
     """Where the file was found, not part of the recipe; empty where only what was learnt of it is at hand."""
 
     @model_validator(mode="before")

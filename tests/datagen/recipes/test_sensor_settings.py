@@ -126,7 +126,7 @@ BAD_RECORDINGS = [
     ("other.wav", "", "rate_hz = 44100.0: other.wav is not sampled at the records' rate"),
     ("other.wav", "rate_hz = 32768", "rate_hz = 32768: other.wav says 44100 Hz; allowed: 44100"),
     ("short.npy", "rate_hz = 32768", "short.npy is 0.00305176 s long, a record 0.1 s, and recordings are not repeated"),
-    ("wide.npy", "rate_hz = 32768", "recording.channels: wide.npy: it has 3 columns; allowed: one or two: "),
+    ("wide.npy", "rate_hz = 32768", "recording.channels: wide.npy: it has 3 columns; allowed: one or two, as in"),
     ("wide.npy", 'rate_hz = 32768\nchannels = ["data[:,3]"]', "wide.npy: data is an array of 5000x3 numbers"),
     ("two.npz", "", "recording.channels: two.npz: it has 2 variables; allowed: one or two of ['a', 'b']"),
     ("two.npz", 'channels = ["c"]', "two.npz: the file has no such variable"),

@@ -213,3 +213,15 @@ def test_a_part_without_a_table_of_its_own_takes_the_recipes(tmp_path: Path) -> 
     recipe = load_recipe(tmp_path / "recipe.toml")
     assert [recipe.chain_of(part).resonator_gain for part in recipe.part] == [Fixed(4.0), Fixed(2.0)]
     assert [recipe.background_of(part).white_rms_m_s2 for part in recipe.part] == [Fixed(3.0), Fixed(3.0)]
+
+
+def test_the_example_on_the_datasets_page_is_a_recipe(folder: Path) -> None:
+    page = (Path(__file__).parents[3] / "datasets" / "README.md").read_text(encoding="utf-8")
+    example = page.split("### Chain and background")[1].split("```toml")[1].split("```")[0]
+    shutil.copy(folder / "good.wav", folder / "healthy.wav")
+    text = BASE.replace("[[part]]", example.replace("20000]", "15000]") + "[[part]]")  # the page is for 65 536 Hz
+    (folder / "recipe.toml").write_text(text)
+    recipe = load_recipe(folder / "recipe.toml")
+    assert recipe.background.recording is not None
+    assert recipe.background.recording.samples == SAMPLES
+    assert recipe.background.snr_band_hz == (1000.0, 5000.0)

@@ -190,6 +190,12 @@ class Recipe(Table):
         return part.background or self.background
 
     @property
+    def drawable(self) -> bool:
+        """True if every recording that its scenarios take stretches of is at hand: a manifest only describes them."""
+        tables = [self.background, *(part.background for part in self.part)]
+        return all(table is None or table.recording is None or table.recording.at_hand for table in tables)
+
+    @property
     def source(self) -> str:
         """The file it was read from, for messages."""
         return self._source

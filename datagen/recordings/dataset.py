@@ -10,7 +10,7 @@ import numpy as np
 from datagen.corpora.format import IMPORTED, from_columns, global_attributes
 from datagen.recordings.recorded import Recorded
 from labels.envelope import band_envelope
-from labels.schema import BAND_EDGES, LABELS
+from labels.schema import BAND_EDGES, LABELS, LAYERS
 
 if TYPE_CHECKING:
     import xarray
@@ -32,6 +32,7 @@ def imported_dataset(indices: Sequence[int], records: Sequence[Recorded], attrib
         "time": np.arange(first.acceleration.shape[0]) / first.rate,
         "axis": first.axes,
         "band_edge": BAND_EDGES,
+        "layer": LAYERS,
     }
     if "y" in first.axes:
         columns["envelope"] = np.stack([_envelope(record) for record in records])

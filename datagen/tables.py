@@ -28,7 +28,7 @@ def _summary(info: Info) -> Table:
         "shards": f"{info.shards}, together {for_people(info.bytes)}, {size / 1e6:.2f} MB a record",
         "length": f"{info.signal_seconds:.1f} s of signal",
         "cost": f"{info.worker_seconds:.1f} s of one worker, {info.made_per_second:.1f} times real time",
-        "recipe, model, format, program": ", ".join(info.identity.values()),
+        "recipe, model, format, program": ", ".join(value or "(none)" for value in info.identity.values()),
         "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),
     }
     for name, text in rows.items():

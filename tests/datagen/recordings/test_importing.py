@@ -194,3 +194,11 @@ def test_a_changed_file_of_an_imported_corpus_is_found(bring: Bring, mat: Mat, t
     assert check_corpus(tmp_path / "corpus").problems == (
         "manifest.json: its SPEC and files are not those whose hash it states",
     )
+
+
+def test_the_name_of_the_channel_alone_does_not_replace_its_variable(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    samples = mat("a.mat")
+    (tmp_path / "t.csv").write_text("file,channel_name\na.mat,DE\n")
+    corpus = bring('[[recording]]\nname = "all"\nunit = "m/s2"\nrate_hz = 1000\ny = "sig"\ntable = "t.csv"\n')
+    assert corpus.labels["recording"].tolist() == ["a DE"]
+    assert np.array_equal(corpus.signal(0), as_stored(samples, 1.0))

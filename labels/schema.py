@@ -16,6 +16,7 @@ SPEED_BASES = ("set", "measured", "tach", "nominal")
 UNKNOWN = "unknown"
 MEASURED = "measured"
 BAND_EDGES = ("low", "high")
+LAYERS = ("white", "pink", "shaft_harmonics", "gear_mesh", "mains_hum", "impulses", "recording")
 
 
 @dataclass(frozen=True)
@@ -133,9 +134,37 @@ LABELS: tuple[Label, ...] = (
         "snr_db",
         "dB",
         "record",
-        "Power of the clean acceleration over that of the background, y axis, 0 to half the sampling rate.",
+        "Power of the sensor's signal over that of the background, y axis, 0 to half the sampling rate.",
         "the record has no background",
     ),
+    _number(
+        "snr_band_db",
+        "dB",
+        "record",
+        "Power of the sensor's signal over that of the background, y axis, over snr_band.",
+        "the record has no background in that band",
+    ),
+    _number("snr_band", "Hz", "record", "Lower and upper edge of the band of snr_band_db.", components=BAND_EDGES),
+    _text("background_layers", "record", "Names of the background's layers, joined by ', '; empty without background."),
+    _number(
+        "background_rms",
+        "m s-2",
+        "record",
+        "RMS of each layer of the background, y axis; 0 where the layer is absent.",
+        components=LAYERS,
+    ),
+    _count("sensor_modes", "record", "Resonances between outer ring and sensor, besides the resonator."),
+    _number(
+        "mounting_cutoff_hz", "Hz", "record", "Half-power frequency of the sensor's mounting.", "it passes everything"
+    ),
+    _number(
+        "recorder_step",
+        "m s-2",
+        "record",
+        "Distance between two values that the recorder holds.",
+        "the recorder does not round",
+    ),
+    _number("clipped_share", "1", "record", "Share of samples, both axes, beyond the recorder's range."),
     _number(
         "envelope_band",
         "Hz",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-from labels.schema import BAND_EDGES, LOCATIONS
+from labels.schema import BAND_EDGES, LAYERS, LOCATIONS
 
 AXES = ("x", "y")
 COMPONENTS = ("xx", "yy", "xy")
@@ -58,6 +58,7 @@ COORDINATES: tuple[Variable, ...] = (
         "Angle fixed to the defective race and equal to the angle in space at t = 0; from -pi to pi, end excluded.",
     ),
     Variable("band_edge", ("band_edge",), "str", "", "band edge", "Edge of a frequency band.", values=BAND_EDGES),
+    Variable("layer", ("layer",), "str", "", "layer", "Layer of the background.", values=LAYERS),
 )
 
 SIGNALS: tuple[Variable, ...] = (
@@ -95,6 +96,24 @@ SIGNALS: tuple[Variable, ...] = (
         "clean acceleration",
         "Acceleration of the resonator's mass before any sensor path, filter or background.",
         stored="clean",
+    ),
+    Variable(
+        "acceleration_sensor",
+        ("record", "time", "axis"),
+        "float32",
+        "m s-2",
+        "acceleration at the sensor",
+        "Acceleration after sensor paths and mounting, before background and recorder.",
+        stored="sensor",
+    ),
+    Variable(
+        "background",
+        ("record", "layer", "time", "axis"),
+        "float32",
+        "m s-2",
+        "background",
+        "Layers of the background; their sum plus acceleration_sensor is what the recorder is given.",
+        stored="background",
     ),
     Variable(
         "cage_angle",

@@ -12,7 +12,7 @@ import numpy as np
 
 from datagen.errors import BadInput
 from datagen.records.versions import program_versions
-from labels.schema import BAND_EDGES, LABELS, Label
+from labels.schema import BAND_EDGES, LABELS, LAYERS, Label
 from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 FORMAT = "spallgen corpus 1"
 SIMULATED, IMPORTED = "simulated", "imported"
 COMPRESSIONS = ("zlib", "none")
+COMPONENT_DIMENSIONS = {BAND_EDGES: ("band_edge",), LAYERS: ("layer",)}
 LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
 SIMULATED_ATTRIBUTES = {
     "summary": "Simulated vibration of rolling bearings, healthy or with a raceway spall, with exact labels.",
@@ -36,6 +37,8 @@ ROUNDED = "Rounded from float64 to float32: relative error of each value at most
 ZLIB_SHARE = {
     "acceleration": 0.85,
     "acceleration_clean": 0.85,
+    "acceleration_sensor": 0.85,
+    "background": 0.25,
     "envelope": 0.75,
     "stiffness": 0.5,
     "cage_angle": 0.6,
@@ -75,7 +78,7 @@ def data_hash(data: dict[str, Any]) -> str:
 
 def label_variable(label: Label) -> Variable:
     """The variable that holds a label: one value a record, or one a record and component."""
-    dims = ("record", "band_edge") if label.components else ("record",)
+    dims = ("record", *COMPONENT_DIMENSIONS.get(label.components, ()))
     return Variable(
         label.name, dims, label.dtype, label.unit, label.name.replace("_", " "), label.sentence,
         values=label.values, missing=label.missing,
@@ -130,7 +133,7 @@ def _array(variable: Variable, values: Any) -> tuple[tuple[str, ...], np.ndarray
 
 def _coordinates(first: Record, columns: dict[str, Any]) -> dict[str, Any]:
     known = {"time": first.time, "axis": AXES, "component": COMPONENTS, "stiffness_time": first.stiffness_time,
-             "band_edge": BAND_EDGES}  # fmt: skip
+             "band_edge": BAND_EDGES, "layer": LAYERS}  # fmt: skip
     for dim in ("row", "ball", "profile_angle"):
         owner = next((v for v in SIGNALS if dim in v.dims and v.name in columns), None)
         if owner is not None:

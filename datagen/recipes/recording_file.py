@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.recordings.formats.arrays import ONLY_NAME
+from datagen.recordings.formats.wav_file import RATE_NAME, read_wav
 
 SUFFIXES = (".npy", ".npz", ".csv", ".wav")
 MOST_COLUMNS = 2
@@ -48,13 +50,8 @@ def _read(path: Path, variable: str | None) -> tuple[NDArray[np.float64], float 
 
 
 def _read_wav(path: Path) -> tuple[NDArray[np.float64], float]:
-    from scipy.io import wavfile
-
-    rate, found = wavfile.read(path)
-    if found.dtype == np.uint8:
-        return _numbers(path, (found.astype(np.float64) - 128.0) / 128.0), float(rate)
-    full_scale = 1.0 if found.dtype.kind == "f" else float(-np.iinfo(found.dtype).min)
-    return _numbers(path, found / full_scale), float(rate)
+    arrays = read_wav(path)
+    return _numbers(path, arrays[ONLY_NAME]), float(arrays[RATE_NAME])
 
 
 def _read_npz(path: Path, variable: str | None) -> tuple[NDArray[np.float64], float | None]:

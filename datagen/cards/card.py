@@ -106,6 +106,10 @@ def _making(facts: Facts, source: str) -> Iterable[str]:
         outside = f"{info.outside_validity} of {info.records} records are outside the model's range"
         yield f"{outside}{':' if facts.validity else '.'}\n"
         yield from (f"- {count}: {reason}" for reason, count in facts.validity.items())
+        if info.refused:
+            yield "\nImpossible draws, which were drawn again:\n"
+            rows = [(what, refused.count, refused.example) for what, refused in info.refused.items()]
+            yield from _table(("parameter", "refused", "one of the reasons"), rows)
         yield f"\nCost: {info.worker_seconds:.1f} s of one worker, {info.made_per_second:.2g} times real time.\n"
     hashes = [(name.replace("_", " "), f"`{value}`") for name, value in info.identity.items() if value]
     yield from _table(("identity", "hash"), hashes)

@@ -40,6 +40,8 @@ def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
         (("rate_hz = 1000", "rate_hz = -5"), "recording[1].rate_hz = -5; allowed: a number above 0"),
         (('unit = "g"\n', ""), "recording[1] (all): unit: the unit of the samples is not given; allowed: m/s2, g"),
         (('unit = "g"', 'unit = "G"'), 'line 5: recording[1].unit = "G"; allowed: m/s2, g'),
+        (('"*.mat"', '"/*.mat"'), 'recording[1] (all): files = "/*.mat"; allowed: as in "folder/*.mat"'),
+        (('"*.mat"', '""'), 'recording[1] (all): files = ""; allowed: as in'),
         (('"*.mat"', '"*.tam"'), 'recording[1] (all): files = "*.tam": no file below'),
     ],
 )  # fmt: skip

@@ -218,3 +218,14 @@ def test_a_tach_beside_the_vibration_of_a_wave_file_is_timed_by_the_files_rate(b
     )
     assert corpus.labels["rate_hz"][0] == 4000.0
     assert corpus.labels["speed_rpm"][0] == pytest.approx(60.0 * 4000.0 / 80.0, rel=1e-12)
+
+
+def test_a_table_may_name_a_file_outside_the_root(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    samples = mat("elsewhere/a.mat")
+    (tmp_path / "inside").mkdir()
+    (tmp_path / "t.csv").write_text(f"file\n{tmp_path}/elsewhere/a.mat\n")
+    corpus = bring(
+        'root = "inside"\n[[recording]]\nname = "all"\nunit = "m/s2"\nrate_hz = 1000\ny = "sig"\ntable = "t.csv"\n'
+    )
+    assert corpus.labels["source_file"][0] == f"{tmp_path}/elsewhere/a.mat"
+    assert np.array_equal(corpus.signal(0), as_stored(samples, 1.0))

@@ -154,6 +154,10 @@ class Recipe(Table):
     """One line for people."""
     summary: str = ""
     """A few sentences for people."""
+    licence: str = ""
+    """Terms of use of the corpus."""
+    citation: str = ""
+    """How its makers want to be cited."""
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)]
     """Seed of every random number."""
     signal: Signal

@@ -102,3 +102,14 @@ def test_the_numbers_in_the_documentation_are_those_computed_now(key, chapter):
     for now, then in zip(one.rows, held, strict=True):
         assert now.agrees == then["agrees"]
         assert now.ours == pytest.approx(then["ours"], rel=1e-3, abs=1e-6)  # other machines round otherwise
+
+
+@pytest.mark.slow
+def test_the_whole_command_writes_every_chapter_and_agrees_with_the_documentation(tmp_path):
+    code, _, told = run("--out", tmp_path / "out")
+    assert code == 0, told
+    now = json.loads((tmp_path / "out" / "paper.json").read_text(encoding="utf-8"))
+    then = json.loads((DOCS / "paper.json").read_text(encoding="utf-8"))
+    assert list(now) == list(then)
+    for name, chapter in now.items():
+        assert [row["agrees"] for row in chapter["rows"]] == [row["agrees"] for row in then[name]["rows"]], name

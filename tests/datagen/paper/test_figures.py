@@ -8,9 +8,10 @@ from datagen.paper.figure05_load_distribution import distribution
 from datagen.paper.figure06_stiffness import STEPS, period, stiffness
 from datagen.paper.figure07_contact_forces import forces
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, harmonics
-from datagen.paper.figure11_fan_rig import vertical_modes
+from datagen.paper.figure11_fan_rig import Recording, vertical_modes
 from datagen.paper.recordings import recordings
-from datagen.paper.scenes import SEEDS, SHOWN_SEED, gap_line_spall, line_spall, scene
+from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, gap_line_spall, line_spall, scene
+from labels.truth import PassTable
 from physics.stiffness import stiffness_trace
 
 
@@ -98,7 +99,7 @@ def test_modes_and_events_of_figure_11_are_the_paper_s(ours, refused):
     assert {"upper mode along y", "resonator on the outer ring"} <= refused("11")
 
 
-@pytest.mark.parametrize("key", ["5", "6", "7", "11"])
+@pytest.mark.parametrize("key", ["5", "6", "7", "8", "9", "10", "11"])
 def test_every_row_says_where_the_paper_says_it_and_every_panel_is_named(key, chapter):
     one = chapter(key)
     assert all(row.where for row in one.rows if row.agrees is not None)
@@ -108,3 +109,17 @@ def test_every_row_says_where_the_paper_says_it_and_every_panel_is_named(key, ch
     named = [axes for axes in figure.axes if axes.get_title(loc="left")]
     assert len(named) >= 4
     plt.close(figure)
+
+
+def test_entry_over_exit_is_the_ratio_of_two_bursts():
+    """A burst of 2 m/s² a fifth into a pass of 10 ms and one of 1 m/s² a fifth after it, in both of two passes."""
+    time = np.arange(round(0.5 * RATE)) / RATE
+    entry = np.array([0.1, 0.3])
+    bursts = [(start + shift, size) for start in entry for shift, size in ((0.002, 2.0), (0.012, 1.0))]
+    signal = sum(size * np.exp(-(((time - at) / 3e-4) ** 2)) * np.cos(6e4 * (time - at)) for at, size in bursts)
+    nothing, ball = np.full(2, np.nan), np.ones(2, np.int16)
+    table = PassTable(
+        ball, ball, ball, entry, entry, entry + 0.01, entry + 0.002, nothing, np.ones(2, bool), np.ones(2, bool)
+    )
+    found = Recording(signal, table, np.arange(2))
+    assert found.entry_over_exit((8500.0, 11300.0)) == pytest.approx(2.0, rel=0.02)  # a sample off the crest

@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from datagen.drawing.style import house_style, plt
+from datagen.paper import question1_extended_profiles, question2_unequal_balls, question3_slip
 from datagen.paper.profile_search import Outcome, Profile, outcome, rough_profiles
 from datagen.paper.question1_extended_profiles import answer, chosen_title
 from datagen.paper.question2_unequal_balls import machine_state, measure, unequal
@@ -111,6 +113,51 @@ def test_a_line_on_its_frequency_has_its_amplitude():
 def test_the_first_faded_harmonic_is_the_first_10_db_down():
     assert faded(np.array([0.0, -9.9, -10.0, -30.0])) == 3
     assert math.isnan(faded(np.array([0.0, -1.0])))
+
+
+def made_up_numbers():
+    """Numbers in the shapes that the three questions' figures draw, not simulated."""
+    generator = np.random.default_rng(0)
+    profiles = [*rough_profiles((1.0, 2.0), (4.0, 8.0), (4.0,)), Profile("reference", "reference profile G2r", ())]
+    outcomes = [
+        Outcome(one, generator.normal(2.0, 3.0, (10, 13)), np.full(10, 6), generator.uniform(0.5, 9.0, 10))
+        for one in profiles
+    ]
+    shape = (len(question2_unequal_balls.DEVIATIONS_UM), 5, 13)
+    sidebands = {
+        name: question2_unequal_balls.Sidebands(
+            generator.normal(-30.0, 9.0, shape), generator.normal(-14.0, 1.0, shape)
+        )
+        for name in ("line", "extended")
+    }
+    slip = [
+        question3_slip.Smearing(rig, {slip: np.exp(-slip * np.arange(20.0)) for slip in question3_slip.SLIPS})
+        for rig in question3_slip.RIGS
+    ]
+    return outcomes, sidebands, slip
+
+
+def test_the_figures_of_the_questions_have_their_panels():
+    outcomes, sidebands, slip = made_up_numbers()
+    with house_style():
+        figures = (
+            question1_extended_profiles.draw(outcomes),
+            question2_unequal_balls.draw(sidebands, sidebands),
+            question3_slip.draw(slip),
+        )
+    assert [len([a for a in one.axes if a.get_title(loc="left")]) for one in figures] == [5, 3, 4]
+    for one in figures:
+        plt.close(one)
+
+
+def test_the_tables_of_the_questions_have_a_row_for_every_case():
+    outcomes, sidebands, slip = made_up_numbers()
+    first = question1_extended_profiles.rows(outcomes)
+    assert len([row for row in first if row.quantity.startswith("harmonics 3 to 13 over the line spall's: ")]) == 5
+    second = question2_unequal_balls.rows(sidebands, sidebands)
+    assert len([row for row in second if row.where]) == 2 * len(question2_unequal_balls.DEVIATIONS_UM)
+    third = question3_slip.rows(slip)
+    assert len(third) == 2 * 3 * (len(question3_slip.TABLED) + 1)
 
 
 @pytest.mark.slow

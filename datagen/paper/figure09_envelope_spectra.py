@@ -69,8 +69,8 @@ def rows(lines: dict[str, Array], pole: dict[str, Array]) -> list[Row]:
     return [
         only_ours("BPFO line, line spall", top["line"], "(m/s²)²", f"axis of the paper to 0.2; {unit}"),
         only_ours("BPFO line, line spall on the path of the ball's centre (G1p)", top["gap"], "(m/s²)²"),
-        only_ours("BPFO line, extended", top["extended"], "(m/s²)²", spread(lines["extended"] * 1e4) + " 1e-4"),
-        only_ours("BPFO line, extended G2r", top["reference"], "(m/s²)²", spread(lines["reference"] * 1e4) + " 1e-4"),
+        only_ours("BPFO line, extended", top["extended"], "(m/s²)²", _range(lines["extended"])),
+        only_ours("BPFO line, extended G2r", top["reference"], "(m/s²)²", _range(lines["reference"])),
         only_ours("BPFO line, healthy", top["healthy"], "(m/s²)²", "nothing but rounding; no background is modelled"),
         *_ratio_rows("in 10.2 to 10.4 kHz", lines),
         *_ratio_rows("around the pole", pole, axes=False),
@@ -83,6 +83,10 @@ def rows(lines: dict[str, Array], pole: dict[str, Array]) -> list[Row]:
             unit="1",
         ),
     ]
+
+
+def _range(values: Array) -> str:
+    return f"median of {values.size}; {values.min():.2g} to {values.max():.2g}"
 
 
 def _ratio_rows(where: str, lines: dict[str, Array], axes: bool = True) -> list[Row]:

@@ -27,7 +27,14 @@ LARGEST_CHANGE_LOG = 2_097_152
 
 
 def respond(
-    scene: Scene, start: Array, grid: Grid, method: str, *, keep_state: bool = False, keep_force: bool = False
+    scene: Scene,
+    start: Array,
+    grid: Grid,
+    method: str,
+    *,
+    keep_state: bool = False,
+    keep_force: bool = False,
+    keep_outer: bool = False,
 ) -> Trace:
     """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, without an error estimate.
 
@@ -42,7 +49,7 @@ def respond(
             raise SimulationFailed(
                 Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
             )
-        output = _empty_output(contact, grid.samples, capacity, keep_state, keep_force)
+        output = _empty_output(contact, grid.samples, capacity, keep_state, keep_force, keep_outer)
         status = MARCHES[method](
             contact.balls, contact.frames, contact.law, contact.track, motion, series, grid, stops, start, output
         )
@@ -85,12 +92,15 @@ def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, 
     )
 
 
-def _empty_output(contact: ContactModel, samples: int, capacity: int, keep_state: bool, keep_force: bool) -> Output:
+def _empty_output(
+    contact: ContactModel, samples: int, capacity: int, keep_state: bool, keep_force: bool, keep_outer: bool
+) -> Output:
     balls = contact.ball.size
     return Output(
         acceleration=np.zeros((samples, 2)),
         state=np.zeros((samples if keep_state else 0, 12)),
         force=np.zeros((samples if keep_force else 0, balls)),
+        outer=np.zeros((samples if keep_outer else 0, 6)),
         change_time=np.zeros(capacity),
         change_ball=np.zeros(capacity, dtype=np.int64),
         change_made=np.zeros(capacity, dtype=np.bool_),
@@ -129,4 +139,7 @@ def _trace(scene: Scene, contact: ContactModel, grid: Grid, output: Output, meth
         unlocated_changes=int(output.tally[UNLOCATED]),
         state=output.state if output.state.shape[0] else None,
         contact_force=force,
+        outer_displacement=output.outer[:, 0:2] if output.outer.shape[0] else None,
+        outer_velocity=output.outer[:, 2:4] if output.outer.shape[0] else None,
+        outer_acceleration=output.outer[:, 4:6] if output.outer.shape[0] else None,
     )

@@ -52,6 +52,7 @@ def simulate(
     accuracy: float = 1e-3,
     keep_state: bool = False,
     keep_force: bool = False,
+    keep_outer: bool = False,
     estimate_error: bool = True,
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
@@ -59,11 +60,12 @@ def simulate(
     `substeps` is the number of steps a sample. None starts from the fewest that resolve the fastest mode and doubles
     them until a pilot of a few ball passes differs from one at half the step by no more than the relative RMS
     `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate too low to hold
-    the resonator is simulated at a multiple of it and decimated without aliasing (states and forces stay samples). The
-    reference method has no estimate. A simpler `model` (physics.ladder) has neither steps nor an estimate, and keeps
-    states and forces as far as it knows them. Raises SimulationFailed with a typed outcome.
+    the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer ring's motion kept by
+    `keep_outer` (states and forces stay samples). The reference method has no estimate. A simpler `model`
+    (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them. Raises
+    SimulationFailed with a typed outcome.
     """
-    _check_request(scene, rate, method, model, substeps, keep_force)
+    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer)
     if model != MODEL:
         return SIMPLER_MODELS[model].respond(scene, rate)
     rest = _starting_rest(scene)
@@ -82,7 +84,7 @@ def simulate(
         most = steps if substeps else max(MOST_SUBSTEPS, steps)
         steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
     grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
-    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force)
+    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force, keep_outer=keep_outer)
     return replace(_lowered(trace, rate, factor), error_estimate=error)
 
 
@@ -132,7 +134,7 @@ def warm_up() -> None:
         simulate(scene, 65536.0)
 
 
-def _check_request(scene: Scene, rate: float, method: str, model: str, substeps: int | None, keep_force: bool) -> None:
+def _check_request(scene: Scene, rate: float, method: str, model: str, substeps: int | None, keeps: bool) -> None:
     problem = ""
     if method not in METHODS:
         problem = f'method = "{method}"; allowed: {", ".join(METHODS)}'
@@ -144,8 +146,8 @@ def _check_request(scene: Scene, rate: float, method: str, model: str, substeps:
         problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
     elif substeps is not None and (substeps != int(substeps) or substeps < 1):
         problem = f"substeps = {substeps!r}; it must be a whole number, 1 or more"
-    elif method == REFERENCE and keep_force:
-        problem = "keep_force = True; the reference method keeps no forces"
+    elif method == REFERENCE and keeps:
+        problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
@@ -202,4 +204,11 @@ def _lowered(trace: Trace, rate: float, factor: int) -> Trace:
         acceleration=decimate(trace.acceleration, factor),
         state=None if trace.state is None else trace.state[::factor],
         contact_force=None if trace.contact_force is None else trace.contact_force[::factor],
+        outer_displacement=_decimated(trace.outer_displacement, factor),
+        outer_velocity=_decimated(trace.outer_velocity, factor),
+        outer_acceleration=_decimated(trace.outer_acceleration, factor),
     )
+
+
+def _decimated(signal: Array | None, factor: int) -> Array | None:
+    return None if signal is None else decimate(signal, factor)

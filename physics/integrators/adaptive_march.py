@@ -87,8 +87,8 @@ def _sample(
     while sample < output.acceleration.shape[0] and sample * period <= time + step:
         dense_output(work.rates, step, now, (sample * period - time) / step, work.between)
         set_time(balls, frames, track, sample * period)
-        press_state(balls, frames, law, work.between)
-        if not record(balls, motion, work.between, sample, output):
+        force = press_state(balls, frames, law, work.between)
+        if not record(balls, motion, work.between, force, sample, output):
             return -1
         sample += 1
     return sample
@@ -191,7 +191,7 @@ def march_dormand_prince(
     finish, fastest = (grid.samples - 1) * period, series.reach / series.step
     force = _prepare(balls, frames, law, track, motion, now, work.rates, output)
     _widen(work, start_state, now, fastest)
-    if not record(balls, motion, now, 0, output):
+    if not record(balls, motion, now, force, 0, output):
         return NOT_FINITE
     time, step, place, sample, tried, rejected = 0.0, FIRST_STEP_SHARE * period, 0, 1, 0, False
     steps_left = MOST_STEPS_PER_SAMPLE * grid.substeps * grid.samples + SPARE_STEPS

@@ -114,7 +114,8 @@ def _ring(time: Array, size: Array, frequency: float, damping: float, samples: i
 def impulse_response(scene: Scene, rate: float) -> Trace:
     """Response of `scene` at the instants k / rate (Hz) to the steps of force at the edges of its spalls.
 
-    A healthy scene gives zero. Contact changes are the middles of those edges at which the ball loses all its load.
+    A healthy scene gives zero. Contact changes are the middles of those edges at which the ball loses all its load;
+    otherwise balls count as touching, also outside the load zone.
     """
     samples, rig = round(scene.duration * rate), scene.rig
     position, stiffness, film = _healthy(scene)
@@ -134,7 +135,7 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
         rate=rate,
         time=np.arange(samples) / rate,
         acceleration=acceleration,
-        changes=_changes(scene, edges, position),
+        changes=_changes(scene, edges),
         model=IMPULSE_TRAIN.name,
         method="modes",
         step=1.0 / rate,
@@ -143,17 +144,14 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
     )
 
 
-def _changes(scene: Scene, edges: Edges, position: Array) -> ContactChanges:
+def _changes(scene: Scene, edges: Edges) -> ContactChanges:
     bearing = scene.rig.bearing
-    row, ball = np.meshgrid(np.arange(1, bearing.rows + 1), np.arange(1, bearing.balls + 1), indexing="ij")
-    angle = scene.cage.start_angle + bearing.spacing * (ball - 1) + bearing.stagger * (row - 1)
-    compression = position[0] * np.cos(angle) + position[1] * np.sin(angle) - bearing.clearance
     return ContactChanges(
         time=edges.time[edges.all],
         row=edges.row[edges.all],
         ball=edges.ball[edges.all],
         made=edges.change[edges.all] > 0.0,
-        initial=compression > 0.0,
+        initial=np.ones((bearing.rows, bearing.balls), dtype=np.bool_),
     )
 
 

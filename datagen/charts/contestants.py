@@ -37,7 +37,7 @@ SUBSTEPS: Mapping[str, tuple[int, ...]] = {
 USUAL_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8)
 ACCURACIES: tuple[float, ...] = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 TOLERANCES: tuple[float, ...] = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
-SCIPY_TOLERANCES: tuple[float, ...] = (1e-4, 1e-6, 1e-8)
+SCIPY_TOLERANCES: tuple[float, ...] = (1e-5, 1e-7)
 SCIPY_SOLVERS = ("RK45", "DOP853", "LSODA", "Radau")
 QUICK = 2
 

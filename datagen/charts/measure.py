@@ -28,7 +28,7 @@ from physics.statics import equilibrium
 WARM_UP = 0.004
 QUICK_DURATION, QUICK_STEPS = 0.2, 32
 PART, PART_PASSES = 0.05, 1.1
-SLOW_SECONDS = 2.0
+SLOW_SECONDS = 0.5
 TARGET = 1e-3
 
 

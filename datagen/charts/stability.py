@@ -26,7 +26,7 @@ from physics.statics import equilibrium
 
 Array = NDArray[np.float64]
 
-RATE, DURATION = 65536.0, 0.06
+RATE, DURATION = 65536.0, 0.04
 # Steps of 8 samples to 1/16 of one: samples a step above one, steps a sample below.
 SAMPLES_A_STEP = (8, 4, 2)
 STEPS_A_SAMPLE = (1, 2, 4, 8, 16)

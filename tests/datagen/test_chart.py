@@ -141,7 +141,7 @@ def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(p
     found = of_states(scene, RATE, states)
     size = np.sqrt(np.mean(exact.acceleration**2))
     assert np.sqrt(np.mean((found.acceleration - exact.acceleration) ** 2)) < 1e-3 * size  # steps over jumps of force
-    assert evaluations > 10 * samples
+    assert evaluations > 8 * samples  # a dozen stages for a step of about a sample
     loose, fewer = integrate_compiled(scene, pair, kind_of_slope, start, RATE, samples, 1e-4)
     assert fewer < evaluations
     assert not np.array_equal(loose, states)

@@ -4,8 +4,8 @@ Order 2, stable at any step for linear motion; modes far faster than the step lo
 amplitude a step, so it is for scenes whose stiffest parts need not be resolved. About five contact sums a step. With
 ρ∞ = 1 it is the trapezoidal rule. Not to be confused with Newmark's method with γ > 1/2, whose damping costs an order.
 
-The state is longer by six: how far the method's own acceleration, which lags the equation's by a share of a step, is
-ahead of it. A change of contact shifts both alike.
+The state is longer by seven: how far the method's own acceleration, which lags the equation's by a share of a step, is
+ahead of it, and the length of that step. After a step of another length the method starts afresh from the equation's.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ MOST_ITERATIONS = 40
 MOST_SHORTENINGS = 12
 # Newton's method squares the error: a move this small (share of the displacement) leaves round-off.
 SMALL_MOVE = 1e-8
+SAME_STEP = 1e-6
 
 
 class Free(NamedTuple):
@@ -146,15 +147,16 @@ def step_generalised_alpha(
     end: Array,
     stage: Array,
 ) -> int:
-    """One step of length `step` from `start` (18,), where the net contact force is `force`, into `end` (18,).
+    """One step of length `step` from `start` (19,), where the net contact force is `force`, into `end` (19,).
 
     The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set at the
     α-point, near the middle of the step.
     """
     lead = np.empty(6)
     accelerations(motion, time, start, force, lead)
-    for i in range(6):
-        lead[i] += start[12 + i]
+    if abs(start[18] - step) <= SAME_STEP * step:
+        for i in range(6):
+            lead[i] += start[12 + i]
     middle = time + (1.0 - ALPHA_F) * step
     load = outer_load(motion, middle)
     x, y = (
@@ -178,6 +180,7 @@ def step_generalised_alpha(
     accelerations(motion, time + step, end, press_state(balls, frames, law, end), lead)
     for i in range(6):
         end[12 + i] -= lead[i]
+    end[18] = step
     return contradicted
 
 
@@ -197,5 +200,5 @@ def march_generalised_alpha(
     output: Output,
 ) -> int:
     """The march from the state (12,) at t = 0, whose accelerations are those of the equations of motion."""
-    start = np.concatenate([start_state, np.zeros(6)])
+    start = np.concatenate([start_state, np.zeros(7)])
     return int(_march(balls, frames, law, track, motion, series, grid, stops, start, output))

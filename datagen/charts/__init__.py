@@ -1,0 +1,1 @@
+"""Speed against accuracy: methods, models and general-purpose solvers run on one scene and measured."""

@@ -1,0 +1,135 @@
+"""Everything that is run on a scene: this package's methods and models, and the general-purpose solvers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.charts.response import Response, of_states, of_trace
+from physics.integrators.general_purpose import (
+    BALL_BY_BALL,
+    CONTACT_KERNEL,
+    PAIRS,
+    absolute_tolerance,
+    integrate_compiled,
+    right_hand_side,
+)
+from physics.integrators.methods import MARCHES, METHODS, REFERENCE
+from physics.ladder.models import SIMPLER_MODELS
+from physics.motion import motion_model, starting_state
+from physics.scene import Scene
+from physics.simulate import simulate
+from physics.statics import equilibrium
+
+Array = NDArray[np.float64]
+Raw = object
+
+METHOD, MODEL, COMPILED, SCIPY = "method", "model", "compiled solver", "SciPy solver"
+SUBSTEPS: Mapping[str, tuple[int, ...]] = {
+    "exponential_rk4": (1, 2, 4, 8),
+    "runge_kutta4": (1, 2, 4, 8, 16),
+    "generalised_alpha": (2, 4, 8, 16, 32),
+    "dormand_prince": (1, 2, 3, 4, 6),
+}
+USUAL_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8)
+ACCURACIES: tuple[float, ...] = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
+TOLERANCES: tuple[float, ...] = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+SCIPY_TOLERANCES: tuple[float, ...] = (1e-5, 1e-7)
+SCIPY_SOLVERS = ("RK45", "DOP853", "LSODA", "Radau")
+QUICK = 2
+
+
+@dataclass(frozen=True)
+class Contestant:
+    """One solver at one `setting`: `run(scene, rate)` is timed, `read(scene, rate, result)` afterwards is not.
+
+    `part`: it is run on the first part of the scene only, being slow.
+    """
+
+    group: str
+    name: str
+    setting: str
+    run: Callable[[Scene, float], Raw]
+    read: Callable[[Scene, float, Raw], Response]
+    part: bool = False
+
+
+def contestants(quick: bool) -> list[Contestant]:
+    """All of them, or with `quick` two settings of each."""
+    kept = slice(QUICK if quick else None)
+    found = []
+    for name in METHODS:
+        if name in MARCHES:
+            found += [_march(name, steps) for steps in SUBSTEPS.get(name, USUAL_SUBSTEPS)[kept]]
+        elif name != REFERENCE:
+            found += [_choosing(name, accuracy) for accuracy in ACCURACIES[kept]]
+    found += [_model(name) for name in SIMPLER_MODELS]
+    for kind in (BALL_BY_BALL, CONTACT_KERNEL):
+        found += [_compiled(pair, kind, tolerance) for pair in PAIRS for tolerance in TOLERANCES[kept]]
+        solvers = SCIPY_SOLVERS[:2] if quick else SCIPY_SOLVERS
+        found += [_scipy(solver, kind, tolerance) for solver in solvers for tolerance in SCIPY_TOLERANCES[kept]]
+    return found
+
+
+def start_of(scene: Scene) -> Array:
+    """State (12,) at rest in the quasi-static position at t = 0."""
+    return starting_state(motion_model(scene), equilibrium(scene, np.zeros(1)).displacement[0])
+
+
+def _march(name: str, steps: int) -> Contestant:
+    def run(scene: Scene, rate: float) -> Raw:
+        return simulate(scene, rate, method=name, substeps=steps, estimate_error=False, keep_state=True)
+
+    return Contestant(METHOD, name, f"{steps} steps a sample", run, _of_trace)
+
+
+def _choosing(name: str, accuracy: float) -> Contestant:
+    def run(scene: Scene, rate: float) -> Raw:
+        return simulate(scene, rate, method=name, accuracy=accuracy)
+
+    return Contestant(METHOD, name, f"accuracy {accuracy:g}", run, _of_trace)
+
+
+def _model(name: str) -> Contestant:
+    return Contestant(MODEL, name, "", lambda scene, rate: simulate(scene, rate, model=name), _of_trace)
+
+
+def _of_trace(scene: Scene, rate: float, result: Raw) -> Response:
+    return of_trace(result)  # type: ignore[arg-type]
+
+
+def _of_states(scene: Scene, rate: float, result: Raw) -> Response:
+    return of_states(scene, rate, np.asarray(result))
+
+
+def _compiled(pair: str, kind: str, tolerance: float) -> Contestant:
+    def run(scene: Scene, rate: float) -> Raw:
+        samples = round(scene.duration * rate)
+        return integrate_compiled(scene, pair, kind, start_of(scene), rate, samples, tolerance)[0]
+
+    return Contestant(COMPILED, f"compiled {pair}, {kind}", f"tolerance {tolerance:g}", run, _of_states)
+
+
+def _scipy(solver: str, kind: str, tolerance: float) -> Contestant:
+    from scipy.integrate import solve_ivp
+
+    def run(scene: Scene, rate: float) -> Raw:
+        slope, model = right_hand_side(scene, kind)
+        start, time = start_of(scene), np.arange(round(scene.duration * rate)) / rate
+        solution = solve_ivp(
+            lambda t, deviation: slope(model, t, start + deviation),
+            (0.0, time[-1]),
+            np.zeros(12),
+            method=solver,
+            t_eval=time,
+            rtol=max(tolerance, 1e-12),
+            atol=absolute_tolerance(scene, tolerance),
+        )
+        states = np.full((time.size, 12), np.nan)
+        states[: solution.y.shape[1]] = start + solution.y.T
+        return states
+
+    return Contestant(SCIPY, f"SciPy {solver}, {kind}", f"tolerance {tolerance:g}", run, _of_states, part=True)

@@ -1,0 +1,161 @@
+"""The measurement behind a chart: every contestant run, timed and scored against the reference on one scene."""
+
+from __future__ import annotations
+
+import math
+import platform
+import statistics
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from importlib.util import find_spec
+
+import numpy as np
+
+from datagen.charts.contestants import METHOD, Contestant, contestants
+from datagen.charts.response import Response, of_trace
+from datagen.charts.scenes import Subject
+from datagen.charts.scores import SCORED_FROM, Score, score
+from physics.integrators.method import NO_MODES
+from physics.integrators.methods import METHODS, REFERENCE
+from physics.outcome import SimulationFailed
+from physics.scene import Scene
+from physics.simulate import simulate
+from physics.stability import longest_stable_step
+from physics.statics import equilibrium
+
+WARM_UP = 0.004
+QUICK_DURATION, QUICK_STEPS = 0.2, 32
+PART, PART_PASSES = 0.05, 1.1
+SLOW_SECONDS = 0.5
+TARGET = 1e-3
+
+
+@dataclass(frozen=True)
+class Run:
+    """One contestant at one setting: `seconds` of processor for `duration` (s) of signal, median of the rounds.
+
+    `real_time` is duration over seconds; `failure` the sentence with which it gave up, or empty.
+    """
+
+    group: str
+    name: str
+    setting: str
+    duration: float
+    seconds: float
+    real_time: float
+    score: Score | None
+    failure: str
+
+
+@dataclass(frozen=True)
+class Chart:
+    """All runs on one scene, where each method stops being stable, and with what it was measured.
+
+    `edges`: times real time at which a fixed-step method would be at its longest stable step, by name.
+    `best`: times real time at an acceleration error of 1e-3, by group and name, interpolated; null if not reached.
+    """
+
+    subject: str
+    title: str
+    rate: float
+    duration: float
+    reference: str
+    rounds: int
+    runs: tuple[Run, ...]
+    edges: dict[str, float]
+    best: dict[str, float | None]
+    made_with: dict[str, str]
+
+
+def measure(subject: Subject, quick: bool, rounds: int, told: Callable[[str], None]) -> Chart:
+    """Run everything on `subject`; `told` hears of every contestant before it is run."""
+    scene = subject.lasting(min(subject.scene.duration, QUICK_DURATION)) if quick else subject.scene
+    told("reference")
+    reference = of_trace(
+        simulate(
+            scene, subject.rate, method="exponential_rk4", substeps=QUICK_STEPS, estimate_error=False, keep_state=True
+        )
+        if quick
+        else simulate(scene, subject.rate, method=REFERENCE, keep_state=True)
+    )
+    runs = []
+    for contestant in contestants(quick):
+        told(f"{contestant.name} {contestant.setting}")
+        runs.append(_run(contestant, subject, scene, reference, rounds))
+    return Chart(
+        subject=subject.name,
+        title=subject.title,
+        rate=subject.rate,
+        duration=scene.duration,
+        reference=f"exponential_rk4, {QUICK_STEPS} steps a sample" if quick else METHODS[REFERENCE].title,
+        rounds=rounds,
+        runs=tuple(runs),
+        edges=_edges(scene, subject.rate, runs),
+        best={name: at_error(runs, name, TARGET) for name in dict.fromkeys(run.name for run in runs)},
+        made_with=made_with(),
+    )
+
+
+def made_with() -> dict[str, str]:
+    """Processor and versions, for the record of a measurement."""
+    numbers = {name: version(name) for name in ("numpy", "scipy", "numba")}
+    rival = version("numbalsoda") if find_spec("numbalsoda") else "not installed"
+    return {"machine": platform.machine(), "python": platform.python_version(), **numbers, "numbalsoda": rival}
+
+
+def at_error(runs: Sequence[Run], name: str, error: float) -> float | None:
+    """Times real time of a contestant at this acceleration error, interpolated on the logarithms; None if not reached.
+
+    Where even its coarsest run is better, that run counts.
+    """
+    own = [run for run in runs if run.name == name and run.score is not None and math.isfinite(run.score.acceleration)]
+    points = sorted((run.score.acceleration, run.real_time) for run in own if run.score is not None)
+    reached = [point for point in points if point[0] <= error]
+    if not reached:
+        return None
+    best = max(speed for _, speed in reached)
+    beyond = [point for point in points if point[0] > error]
+    if not beyond:
+        return best
+    inside, outside = reached[-1], beyond[0]
+    share = math.log(error / inside[0]) / math.log(outside[0] / inside[0])
+    between = math.exp(math.log(inside[1]) + share * math.log(outside[1] / inside[1]))
+    return max(best, between)
+
+
+def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Response, rounds: int) -> Run:
+    if contestant.part:
+        passes = PART_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
+        scene = subject.lasting(min(scene.duration, SCORED_FROM + max(PART, passes)))
+    try:
+        contestant.run(subject.lasting(WARM_UP), subject.rate)
+        seconds, result = _timed(contestant, scene, subject.rate, rounds)
+    except SimulationFailed as failure:
+        return Run(contestant.group, contestant.name, contestant.setting, 0.0, math.nan, math.nan, None, str(failure))
+    found = score(scene, subject.rate, contestant.read(scene, subject.rate, result), reference)
+    speed = scene.duration / seconds
+    return Run(contestant.group, contestant.name, contestant.setting, scene.duration, seconds, speed, found, "")
+
+
+def _timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tuple[float, object]:
+    """Median processor time (s), and the result; what takes long is run once."""
+    seconds: list[float] = []
+    while len(seconds) < rounds and sum(seconds) < SLOW_SECONDS:
+        begin = time.process_time()
+        result = contestant.run(scene, rate)
+        seconds.append(time.process_time() - begin)
+    return statistics.median(seconds), result
+
+
+def _edges(scene: Scene, rate: float, runs: list[Run]) -> dict[str, float]:
+    rest = equilibrium(scene, np.zeros(1))
+    edges = {}
+    for name, method in METHODS.items():
+        coarsest = next((run for run in runs if run.name == name and run.group == METHOD and not run.failure), None)
+        if method.limits != NO_MODES and coarsest is not None:
+            longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
+            steps = int(coarsest.setting.split()[0])
+            edges[name] = coarsest.real_time * longest * rate * steps
+    return edges

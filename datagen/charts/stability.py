@@ -1,0 +1,188 @@
+"""Where each method loses its order, goes unstable or fails: one quantity of a scene varied against the step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.charts.contestants import start_of
+from datagen.charts.measure import made_with
+from physics.bearing import Bearing
+from physics.checks import InvalidParameter
+from physics.integrators.march import Grid
+from physics.integrators.method import NO_MODES
+from physics.integrators.methods import MARCHES, METHODS
+from physics.outcome import SimulationFailed
+from physics.reference_scenes import reference_scene
+from physics.response import respond
+from physics.scene import Scene
+from physics.simulate import stable_substeps
+from physics.stability import longest_stable_step
+from physics.statics import equilibrium
+
+Array = NDArray[np.float64]
+
+RATE, DURATION = 65536.0, 0.04
+# Steps of 8 samples to 1/16 of one: samples a step above one, steps a sample below.
+SAMPLES_A_STEP = (8, 4, 2)
+STEPS_A_SAMPLE = (1, 2, 4, 8, 16)
+STEPS = tuple(float(n) for n in SAMPLES_A_STEP) + tuple(1.0 / n for n in STEPS_A_SAMPLE)
+FINEST = 64
+CONVERGED = 1e-3
+NO_ANSWER, CHAOTIC = math.inf, math.nan
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """One quantity of the gearbox rig's line spall, with its `unit`, the `values` it takes and how it is set."""
+
+    name: str
+    unit: str
+    values: tuple[float, ...]
+    apply: Callable[[Scene, float], Scene]
+
+
+@dataclass(frozen=True)
+class Map:
+    """Errors of one method over one sweep.
+
+    `error` (V, S), for each value and each of `STEPS`: RMS error of the acceleration over its RMS; infinite where the
+    program ends with a typed outcome, NaN where no step converges. `limit` (V,) is the longest stable step in samples
+    by the linearised scene, infinite if there is none.
+    """
+
+    method: str
+    sweep: str
+    unit: str
+    values: tuple[float, ...]
+    error: tuple[tuple[float, ...], ...]
+    limit: tuple[float, ...]
+
+
+def _bearing(scene: Scene, bearing: Bearing) -> Scene:
+    return replace(scene, rig=replace(scene.rig, bearing=bearing))
+
+
+def _speed(scene: Scene, times: float) -> Scene:
+    return reference_scene("G1", scene.duration, speed_factor=times)
+
+
+def _length(scene: Scene, degrees: float) -> Scene:
+    extent = math.radians(degrees)
+    taper = min(scene.spalls[0].entry_taper, 0.2 * extent)
+    return replace(scene, spalls=(replace(scene.spalls[0], extent=extent, entry_taper=taper, exit_taper=taper),))
+
+
+def _stiffness(scene: Scene, times: float) -> Scene:
+    bearing = scene.rig.bearing
+    return _bearing(scene, replace(bearing, load_deflection=times * bearing.load_deflection))
+
+
+SWEEPS = (
+    Sweep("contact stiffness K", "times the rig's", (1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6), _stiffness),
+    Sweep(
+        "resonator stiffness",
+        "times the rig's",
+        (0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 10.0),
+        lambda s, times: replace(s, rig=replace(s.rig, resonator_stiffness=times * s.rig.resonator_stiffness)),
+    ),
+    Sweep(
+        "film damping",
+        "N s/m",
+        (1.0, 10.0, 100.0, 1e3, 1e4, 3e4, 1e5),
+        lambda s, value: replace(s, rig=replace(s.rig, film_damping=value)),
+    ),
+    Sweep(
+        "load",
+        "times the rig's",
+        (0.01, 0.03, 0.1, 1.0, 10.0, 30.0, 100.0),
+        lambda s, times: replace(s, operation=replace(s.operation, load=times * s.operation.load)),
+    ),
+    Sweep(
+        "clearance",
+        "µm",
+        (-20.0, -5.0, 0.0, 5.0, 20.0, 50.0, 100.0),
+        lambda s, um: _bearing(s, replace(s.rig.bearing, clearance=um * 1e-6)),
+    ),
+    Sweep("speed", "times the rig's", (0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 30.0), _speed),
+    Sweep("spall length", "degrees", (0.01, 0.1, 0.5, 2.0, 10.0, 40.0, 120.0), _length),
+    Sweep(
+        "spall depth",
+        "µm",
+        (0.5, 2.0, 6.0, 12.0, 30.0, 100.0, 300.0),
+        lambda s, um: replace(s, spalls=(replace(s.spalls[0], depth=um * 1e-6),)),
+    ),
+)
+
+
+def stability_maps(told: Callable[[str], None]) -> list[Map]:
+    """Every method over every sweep; `told` hears of each sweep."""
+    maps = []
+    for sweep in SWEEPS:
+        told(sweep.name)
+        scenes = [sweep.apply(reference_scene("G1", DURATION), value) for value in sweep.values]
+        exact = [_exact(scene) for scene in scenes]
+        for name in MARCHES:
+            error = tuple(
+                tuple(_error(scene, name, step, found) for step in STEPS)
+                for scene, found in zip(scenes, exact, strict=True)
+            )
+            limit = tuple(_limit(scene, name) for scene in scenes)
+            maps.append(Map(name, sweep.name, sweep.unit, sweep.values, error, limit))
+    return maps
+
+
+def facts(maps: list[Map]) -> dict[str, object]:
+    """What goes into the JSON file beside the picture."""
+    return {
+        "scene": f"G1, {DURATION} s at {RATE:g} Hz",
+        "steps_in_samples": STEPS,
+        "maps": maps,
+        "made_with": made_with(),
+    }
+
+
+def _exact(scene: Scene) -> Array | None:
+    """Acceleration (T, 2) with steps so short that half of them give the same, or None if there are none."""
+    steps = FINEST
+    if METHODS["exponential_rk4"].limits != NO_MODES:
+        steps = max(
+            steps, 4 * stable_substeps(scene, METHODS["exponential_rk4"], equilibrium(scene, np.zeros(1)), RATE)
+        )
+    try:
+        fine, finer = (_response(scene, "exponential_rk4", 1.0 / n) for n in (steps, 2 * steps))
+    except (SimulationFailed, InvalidParameter):
+        return None
+    return finer if _misfit(fine, finer) < CONVERGED else None
+
+
+def _response(scene: Scene, method: str, step: float) -> Array:
+    """Acceleration at the ends of steps of `step` samples, or at the samples if steps are shorter."""
+    rate = RATE / max(1.0, step)
+    substeps = max(1, round(1.0 / step))
+    grid = Grid(round(scene.duration * rate), substeps, 1.0 / (rate * substeps))
+    return respond(scene, start_of(scene), grid, method).acceleration
+
+
+def _misfit(found: Array, exact: Array) -> float:
+    size = float(np.sqrt(np.mean(exact**2)))
+    return float(np.sqrt(np.mean((found - exact) ** 2))) / size if size > 0.0 else 0.0
+
+
+def _error(scene: Scene, method: str, step: float, exact: Array | None) -> float:
+    if exact is None:
+        return CHAOTIC
+    try:
+        found = _response(scene, method, step)
+    except SimulationFailed:
+        return NO_ANSWER
+    return _misfit(found, exact[:: max(1, round(step))][: found.shape[0]])
+
+
+def _limit(scene: Scene, method: str) -> float:
+    rest = equilibrium(scene, np.zeros(1))
+    return longest_stable_step(scene.rig, METHODS[method], rest.stiffness[0], rest.damping[0]) * RATE

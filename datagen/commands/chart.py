@@ -1,0 +1,67 @@
+"""`spallgen chart`: speed against accuracy, measured and drawn."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from datagen.commands.program import JsonFile, command, write_json
+from datagen.errors import BadInput
+
+
+@command("spallgen chart G1 --out out/charts")
+def chart(
+    source: Annotated[
+        str,
+        typer.Argument(metavar="RECIPE|SCENE", help="Recipe, or reference scene G0 to F2r (G1@3: three times faster)."),
+    ] = "",
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON.")] = None,
+    record: Annotated[int, typer.Option(metavar="N", help="Which record of a recipe.")] = 0,
+    quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s, no slow reference.")] = False,
+    rounds: Annotated[int, typer.Option(metavar="N", help="Times each run is repeated; the median counts.")] = 5,
+    stability: Annotated[bool, typer.Option("--stability", help="Map where methods fail instead; no scene.")] = False,
+    json_file: JsonFile = None,
+) -> None:
+    """Measure methods, models and general-purpose solvers on one scene and draw error against speed."""
+    if out is None:
+        raise BadInput("where to write is missing", field="--out", allowed="a folder")
+    if rounds < 1:
+        raise BadInput(field="--rounds", value=rounds, allowed="1 or more")
+    if bool(source) == stability:
+        raise BadInput("give a scene or recipe, or --stability", field="RECIPE|SCENE", value=source)
+    written, result = _stability(out) if stability else _work_precision(source, record, quick, rounds, out)
+    write_json(json_file, result)
+    print("written: " + ", ".join(str(path) for path in written))
+
+
+def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Path) -> tuple[list[Path], object]:
+    from datagen.charts.files import chart_folder, chart_table, write_files
+    from datagen.charts.measure import measure
+    from datagen.charts.scenes import find_subject
+
+    subject = find_subject(source, record)
+    folder = chart_folder(out)
+    measured = measure(subject, quick, rounds, _tell)
+    from datagen.drawing.work_precision import work_precision_png
+
+    return write_files(folder, subject.name, work_precision_png(measured), measured, chart_table(measured)), measured
+
+
+def _stability(out: Path) -> tuple[list[Path], object]:
+    from datagen.charts.files import chart_folder, write_files
+    from datagen.charts.stability import facts, stability_maps
+    from datagen.drawing.stability_map import stability_png
+
+    folder = chart_folder(out)
+    maps = stability_maps(_tell)
+    found = facts(maps)
+    return write_files(folder, "stability_maps", stability_png(maps), found), found
+
+
+def _tell(what: str) -> None:
+    """One line of progress on a terminal, nothing when piped."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{what}", end="", file=sys.stderr, flush=True)

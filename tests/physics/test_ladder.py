@@ -1,0 +1,161 @@
+"""The simpler models: each near the nonlinear one where it says so, and silent about what it cannot know."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from physics.imperfections import Imperfections
+from physics.ladder.impulse_train import impulse_response
+from physics.ladder.linear_time_varying import repeats_with_the_balls
+from physics.ladder.models import SIMPLER_MODELS
+from physics.modes import coupled_resonator_frequency, rated_matrices
+from physics.outcome import Outcome, SimulationFailed
+from physics.passages import passages
+from physics.simulate import simulate
+from physics.stiffness import stiffness_at, stiffness_trace
+
+RATE = 65536.0
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def nonlinear(scene, **choices):
+    return simulate(scene, RATE, method="exponential_rk4", substeps=2, estimate_error=False, **choices)
+
+
+@pytest.mark.parametrize("name", SIMPLER_MODELS)
+def test_every_model_gives_a_trace_of_the_same_shape_and_says_which_it_is(name, reference_scene):
+    trace = simulate(reference_scene("G1", 0.05), RATE, model=name)
+    assert trace.model == name
+    assert trace.acceleration.shape == (round(0.05 * RATE), 2)
+    assert np.all(np.isfinite(trace.acceleration))
+    assert math.isnan(trace.error_estimate)
+    assert trace.changes.initial.shape == (2, 12)
+
+
+def test_an_unknown_model_is_refused_with_the_known_ones(reference_scene):
+    with pytest.raises(
+        SimulationFailed, match="impulse train, quasi-static, linear time-varying, nonlinear"
+    ) as failure:
+        simulate(reference_scene("G1", 0.05), RATE, model="spice")
+    assert failure.value.outcome is Outcome.BAD_REQUEST
+
+
+# Contact forces stay near the static ones: the range that the model states. Larger on the fan rig's line spall.
+@pytest.mark.parametrize(("name", "tolerance"), [("G0", 0.03), ("G2", 0.01), ("G1s", 0.1), ("G1", 0.15)])
+def test_the_linear_model_is_near_the_nonlinear_one_where_forces_stay_near_the_static_ones(
+    name, tolerance, reference_scene
+):
+    scene = reference_scene(name, 0.15, slip_seed=3)
+    linear, full = simulate(scene, RATE, model="linear time-varying").acceleration, nonlinear(scene).acceleration
+    later = slice(round(0.05 * RATE), None)
+    assert rms(linear[later] - full[later]) < tolerance * rms(full[later])
+
+
+def test_the_linear_model_in_time_is_the_one_over_cage_angle(reference_scene):
+    scene = reference_scene("G1s", 0.06)
+    equal = Imperfections(ball_deviation=((0.0,) * 12, (0.0,) * 12))
+    in_time = dataclasses.replace(scene, imperfections=equal)
+    assert repeats_with_the_balls(scene)
+    assert not repeats_with_the_balls(in_time)
+    one, other = (simulate(each, RATE, model="linear time-varying") for each in (scene, in_time))
+    assert rms(one.acceleration - other.acceleration) < 0.05 * rms(
+        one.acceleration
+    )  # kinks of the stiffness lie between other nodes
+    assert np.array_equal(one.changes.ball, other.changes.ball)
+    assert np.abs(one.changes.time - other.changes.time).max() <= 1.0 / RATE
+
+
+@pytest.mark.parametrize("operation", [{"unbalance_force": 50.0}, {"load_fluctuation": 0.3}])
+def test_the_linear_model_follows_loads_that_turn_with_the_shaft(operation, reference_scene):
+    scene = reference_scene("G0", 0.15)
+    scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, **operation))
+    assert not repeats_with_the_balls(scene)
+    linear, full = (simulate(scene, RATE, model="linear time-varying"), nonlinear(scene, keep_state=True))
+    later = slice(round(0.05 * RATE), None)
+    moved = full.state[later, 0:4] - full.state[0, 0:4]
+    assert rms(linear.state[later, 0:4] - full.state[later, 0:4]) < 0.02 * rms(moved)  # hardening of the contacts
+
+
+def test_the_quasi_static_model_has_the_stiffness_and_loads_of_statics_and_no_vibration(reference_scene):
+    scene = reference_scene("G1", 0.05)
+    trace = simulate(scene, RATE, model="quasi-static")
+    assert np.all(trace.acceleration == 0.0)
+    displacement = trace.state[:, 0:2] - trace.state[:, 2:4]
+    stiffness = stiffness_at(scene, trace.time, displacement)
+    assert np.allclose(stiffness, stiffness_trace(scene, trace.time), rtol=1e-9)  # the same positions
+    vertical = -(trace.contact_force * np.sin(ball_angles(scene, trace.time))).sum(axis=(1, 2))
+    assert vertical == pytest.approx(scene.operation.load, rel=1e-6)  # the solver's tolerance
+
+
+def ball_angles(scene, time):
+    """Angles (T, rows, balls) of all balls on staggered rows, rad."""
+    bearing = scene.rig.bearing
+    row, ball = np.arange(bearing.rows)[:, None], np.arange(bearing.balls)
+    return scene.cage.angle(time)[:, None, None] + 2.0 * np.pi * ball / bearing.balls + row * np.pi / bearing.balls
+
+
+def test_the_quasi_static_support_follows_an_unbalance(reference_scene):
+    scene = reference_scene("G0", 0.1)
+    force, speed = 100.0, scene.operation.shaft_speed
+    scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, unbalance_force=force))
+    trace = simulate(scene, RATE, model="quasi-static")
+    expected = -(speed**2) * force / scene.rig.support_stiffness_x * np.cos(speed * trace.time)
+    assert trace.acceleration[:, 0] == pytest.approx(expected, rel=1e-9)
+
+
+def test_quasi_static_contact_changes_are_those_of_motion_to_a_sample_where_nothing_rings(reference_scene):
+    scene = reference_scene("G0", 0.15)
+    found, exact = simulate(scene, RATE, model="quasi-static").changes, nonlinear(scene).changes
+    found, exact = ([(c.ball[k], c.row[k], c.time[k]) for k in np.flatnonzero(c.time > 0.05)] for c in (found, exact))
+    found, exact = np.array(sorted(found)), np.array(sorted(exact))
+    assert np.array_equal(found[:, :2], exact[:, :2])
+    assert np.abs(found[:, 2] - exact[:, 2]).max() < 2e-5  # s; a sample lasts 15 µs
+
+
+def test_a_healthy_bearing_makes_no_impulses(reference_scene):
+    assert np.all(simulate(reference_scene("G0", 0.05), RATE, model="impulse train").acceleration == 0.0)
+
+
+def test_impulses_start_when_the_cage_says_slip_included(reference_scene):
+    scene = reference_scene("F1", 0.3, slip_seed=5)
+    trace = simulate(scene, RATE, model="impulse train")
+    arc = -(scene.spalls[0].extent - scene.spalls[0].entry_taper) / 2.0
+    expected = passages(scene, 0, arc, 0.0, scene.duration).time
+    assert trace.changes.time[~trace.changes.made] == pytest.approx(expected, abs=1e-12)
+    first = round(expected[0] * RATE)
+    assert np.all(trace.acceleration[: first - 1] == 0.0)
+    assert np.abs(trace.acceleration[first + 1 : first + 40]).max() > 1e-3
+
+
+def test_impulses_ring_at_the_coupled_resonator_and_decay(reference_scene):
+    scene = reference_scene("F1p", 0.3)  # without tapers, which blunt the steps
+    trace = simulate(scene, RATE, model="impulse train")
+    spectrum = np.abs(np.fft.rfft(trace.acceleration[:, 1] * np.hanning(trace.time.size)))
+    frequency = np.fft.rfftfreq(trace.time.size, 1.0 / RATE)
+    above = frequency > 5000.0
+    expected = coupled_resonator_frequency(scene.rig, rated_matrices(scene.rig)[0])
+    # The steps of entry and exit, 1.3 ms apart, interfere: a comb of 770 Hz lies over the mode.
+    assert frequency[above][spectrum[above].argmax()] == pytest.approx(expected, abs=385.0)
+
+
+def test_the_impulse_train_has_the_size_of_the_nonlinear_response_on_line_spalls(reference_scene):
+    for name in ("G1", "G1s", "F1", "F1s"):
+        scene = reference_scene(name, 0.15)
+        ratio = rms(simulate(scene, RATE, model="impulse train").acceleration) / rms(nonlinear(scene).acceleration)
+        assert 0.5 < ratio < 2.0  # within 6 dB, as the model states
+
+
+def test_impulses_of_an_inner_spall_are_modulated_by_the_load_zone(reference_scene):
+    scene = reference_scene("G1", 0.5)
+    inner = dataclasses.replace(scene, spalls=(dataclasses.replace(scene.spalls[0], race="inner"),))
+    trace = impulse_response(inner, RATE)
+    envelope = np.abs(trace.acceleration[:, 1]).reshape(-1, 256).max(axis=1)
+    turn = 2.0 * np.pi / scene.operation.shaft_speed
+    phase = (np.arange(envelope.size) * 256 / RATE) % turn / turn
+    down, up = np.abs(phase - 0.5) > 0.3, np.abs(phase - 0.5) < 0.2
+    assert envelope[down].max() > 5.0 * envelope[up].max()  # the spall is at the bottom at t = 0

@@ -1,0 +1,214 @@
+"""The corners where methods fail: each ends with a trace that a finer run confirms, or with a typed outcome."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from physics.integrators.march import Grid
+from physics.integrators.methods import MARCHES, METHODS
+from physics.motion import motion_model, starting_state
+from physics.outcome import Outcome, SimulationFailed
+from physics.response import respond
+from physics.simulate import simulate, stable_substeps
+from physics.stability import fastest_rate, longest_stable_step
+from physics.statics import equilibrium
+
+RATE = 65536.0
+# Steps a sample at which each method is within its tolerance below on ordinary scenes.
+STEPS = {"exponential_rk4": 1, "runge_kutta4": 4, "dormand_prince": 4, "generalised_alpha": 24}
+TOLERANCE = {"exponential_rk4": 3e-3, "runge_kutta4": 3e-3, "dormand_prince": 3e-3, "generalised_alpha": 3e-2}
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def changed(scene, *, bearing=None, rig=None, operation=None, spall=None, **fields):
+    """`scene` with fields of its bearing, rig, operation and spalls changed, then its own."""
+    machine = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, **(bearing or {})))
+    machine = dataclasses.replace(machine, **(rig or {}))
+    run = dataclasses.replace(scene.operation, **(operation or {}))
+    spalls = tuple(dataclasses.replace(one, **(spall or {})) for one in scene.spalls)
+    return dataclasses.replace(scene, rig=machine, operation=run, spalls=spalls, **fields)
+
+
+def tiny_fast_spall(scene):
+    extent = math.radians(0.05)
+    fast = scene("F1", 0.03, speed_factor=10.0)
+    return changed(fast, spall={"extent": extent, "entry_taper": 0.2 * extent, "exit_taper": 0.2 * extent})
+
+
+CORNERS = {
+    "every loaded ball inside an extended spall": lambda scene: changed(
+        scene("F1", 0.03), spall={"extent": math.pi, "depth": 20e-6}
+    ),
+    "clearance with one ball loaded": lambda scene: changed(scene("F1", 0.03), bearing={"clearance": 200e-6}),
+    "reversed load, the spall opposite": lambda scene: changed(
+        scene("F1", 0.03), operation={"load": -100.0}, spall={"angle": math.pi / 2.0}
+    ),
+    "a spall shorter than one step at high speed": tiny_fast_spall,
+    "edges that are almost rectangular": lambda scene: changed(
+        scene("F1", 0.03), spall={"entry_taper": 1e-7, "exit_taper": 1e-7}
+    ),
+    "rollers": lambda scene: changed(scene("F1", 0.03), bearing={"exponent": 10.0 / 9.0, "load_deflection": 1e8}),
+    "ten times the rated speed": lambda scene: scene("F1", 0.03, speed_factor=10.0),
+    "a soft resonator": lambda scene: changed(scene("F1", 0.03), rig={"resonator_stiffness": 3.7e4}),
+}
+
+
+@pytest.mark.parametrize("corner", CORNERS)
+@pytest.mark.parametrize("method", MARCHES)
+def test_in_every_corner_every_method_agrees_with_a_finer_run(method, corner, reference_scene):
+    scene = CORNERS[corner](reference_scene)
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False).acceleration
+    trace = simulate(scene, RATE, method=method, substeps=STEPS[method], estimate_error=False)
+    assert trace.unlocated_changes == 0
+    # Coarser than the goal of rated speed: edges here last a fraction of a step.
+    assert rms(trace.acceleration - exact) < TOLERANCE[method] * rms(exact)
+
+
+@pytest.mark.parametrize("method", MARCHES)
+def test_without_load_nothing_moves_by_any_method(method, reference_scene):
+    scene = changed(reference_scene("F1", 0.02), operation={"load": 0.0})
+    trace = simulate(scene, RATE, method=method, substeps=2, estimate_error=False)
+    assert np.all(trace.acceleration == 0.0)
+
+
+@pytest.mark.parametrize("method", MARCHES)
+def test_balls_that_rattle_in_a_bearing_without_damping_stay_finite_and_bounded(method, reference_scene):
+    """A shaft thrown about by an unbalance of ten times its load touches and leaves most balls."""
+    scene = changed(
+        reference_scene("F1", 0.05), rig={"film_damping": 0.0}, operation={"load": 0.5, "unbalance_force": 5.0}
+    )
+    trace = simulate(scene, RATE, method=method, substeps=2, estimate_error=False, keep_state=True)
+    assert np.all(np.isfinite(trace.state))
+    assert trace.changes.time.size > 20
+    assert rms(trace.acceleration) < 100.0  # m/s²; 5.5 N on 2.5 kg make 2
+
+
+def test_no_method_hangs_where_a_strong_film_makes_contact_chatter(reference_scene):
+    """Film forces of hundreds of times the load switch on and off with each other's changes of contact."""
+    scene = changed(reference_scene("F1", 0.02), rig={"film_damping": 3e4}, contact_law="no_tension")
+    for method in MARCHES:
+        ended = outcome(lambda method=method: simulate(scene, RATE, method=method, substeps=8, estimate_error=False))
+        assert ended in ("finite", Outcome.UNSTABLE_STEP, Outcome.TOO_MANY_STEPS, Outcome.TOO_MANY_CHANGES)
+
+
+def outcome(run):
+    """How a simulation ended: "finite", "not finite" or its typed outcome."""
+    try:
+        trace = run()
+    except SimulationFailed as failure:
+        return failure.outcome
+    return "finite" if np.all(np.isfinite(trace.acceleration)) else "not finite"
+
+
+@pytest.mark.parametrize("mass", [1e-4, 1e-9])
+def test_a_resonator_too_light_for_the_rate_is_refused_before_anything_is_made(mass, reference_scene):
+    scene = changed(reference_scene("F1", 0.02), rig={"resonator_mass": mass, "resonator_damping": 0.0})
+    with pytest.raises(SimulationFailed, match="has to be raised") as failure:
+        simulate(scene, 4096.0)
+    assert failure.value.outcome is Outcome.UNRESOLVED
+
+
+def test_a_resonator_just_light_enough_is_simulated_at_a_multiple_of_the_rate(reference_scene):
+    scene = changed(reference_scene("F1", 0.02), rig={"resonator_mass": 1e-3, "resonator_damping": 5.0})
+    once = simulate(scene, RATE, method="exponential_rk4", estimate_error=False).acceleration
+    often = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False).acceleration
+    assert rms(once - often) < 3e-3 * rms(often)  # contact changes an order n + 1 below the smooth error
+
+
+# Damping lengthens stable steps; nearly without it the limit is sharp.
+THIN = {"film_damping": 1.0}
+
+
+def stiffened(scene, method, steps):
+    """`scene` with contacts so stiff that the longest stable step of `method` is `steps` samples."""
+    low, high = 0.0, 20.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        stiff = changed(
+            scene, bearing={"load_deflection": math.exp(middle) * scene.rig.bearing.load_deflection}, rig=THIN
+        )
+        if longest(stiff, method) * RATE > steps:
+            low = middle
+        else:
+            high = middle
+    return stiff
+
+
+def longest(scene, method):
+    rest = equilibrium(scene, np.zeros(1))
+    return longest_stable_step(scene.rig, METHODS[method], rest.stiffness[0], rest.damping[0])
+
+
+def unchecked(scene, method, samples):
+    """Acceleration at one step a sample, stable or not, from a push of 1 µm/s that a decaying mode forgets."""
+    rest = equilibrium(scene, np.zeros(1))
+    start = starting_state(motion_model(scene), rest.displacement[0])
+    start[7] += 1e-6
+    return respond(scene, start, Grid(samples, 1, 1.0 / RATE), method).acceleration
+
+
+LIMITED = sorted(name for name in MARCHES if math.isfinite(METHODS[name].stability_limit))
+
+
+@pytest.mark.parametrize("method", LIMITED)
+def test_just_inside_the_stability_limit_a_push_dies_away(method, reference_scene):
+    scene = stiffened(reference_scene("G0", 0.02), method, 1.06)
+    simulate(scene, RATE, method=method, substeps=1, estimate_error=False)
+    response = unchecked(scene, method, 1200)
+    assert rms(response[-200:]) < 20.0 * rms(
+        simulate(scene, RATE, method=method, substeps=8, estimate_error=False).acceleration
+    )
+
+
+@pytest.mark.parametrize("method", LIMITED)
+def test_just_outside_the_stability_limit_the_step_is_refused_and_would_have_run_away(method, reference_scene):
+    scene = stiffened(reference_scene("G0", 0.02), method, 0.8)  # nearer, the last damping still holds it for a while
+    with pytest.raises(SimulationFailed, match=f"{method} is stable up to") as failure:
+        simulate(scene, RATE, method=method, substeps=1, estimate_error=False)
+    assert failure.value.outcome is Outcome.UNSTABLE_STEP
+    calm = rms(simulate(scene, RATE, method=method, substeps=8, estimate_error=False).acceleration)
+    assert ran_away(lambda: unchecked(scene, method, 1200), calm)
+
+
+def ran_away(run, calm):
+    """Whether a response ended with an outcome of runaway, or a hundred times larger than `calm` (m/s²)."""
+    try:
+        return rms(run()[-200:]) > 100.0 * calm
+    except SimulationFailed as failure:
+        return failure.outcome in (Outcome.NOT_FINITE, Outcome.TOO_MANY_CHANGES)
+
+
+@pytest.mark.parametrize("method", LIMITED)
+def test_without_steps_given_the_method_takes_as_many_as_it_is_stable_with(method, reference_scene):
+    scene = stiffened(reference_scene("G0", 0.02), method, 0.3)
+    trace = simulate(scene, RATE, method=method, estimate_error=False)
+    rest = equilibrium(scene, np.zeros(1))
+    assert round(1.0 / (RATE * trace.step)) == stable_substeps(scene, METHODS[method], rest, RATE) == 4  # 1 / 0.3
+    assert np.all(np.isfinite(trace.acceleration))
+
+
+def test_contacts_far_too_stiff_for_an_explicit_method_are_refused_and_named(reference_scene):
+    scene = changed(reference_scene("G0", 0.02), bearing={"load_deflection": 1e24})
+    with pytest.raises(SimulationFailed, match="of the contact modes") as failure:
+        simulate(scene, RATE, method="exponential_rk4")
+    assert failure.value.outcome is Outcome.UNSTABLE_STEP
+
+
+def test_the_limiting_rate_of_a_lightly_damped_rig_is_its_fastest_mode(gearbox, reference_scene):
+    rest = equilibrium(reference_scene("G0", 0.02), np.zeros(1))
+    rate = fastest_rate(gearbox, "every mode", rest.stiffness[0], rest.damping[0])
+    assert rate == pytest.approx(2.0 * math.pi * 10548.1, rel=1e-4)  # MODEL's measured value, to a decimal
+
+
+def test_the_limiting_rate_of_the_contact_modes_is_the_root_of_their_quadratic(gearbox):
+    inverse = 1.0 / gearbox.inner_mass + 1.0 / gearbox.outer_mass
+    k, c = np.array([1e8, 2e8, 0.0]), np.array([0.0, 0.0, 0.0])
+    assert fastest_rate(gearbox, "the contact modes", k, c) == pytest.approx(math.sqrt(2e8 * inverse), rel=1e-9)
+    overdamped = np.array([0.0, 1e6, 0.0])
+    roots = np.roots([1.0, 1e6 * inverse, 2e8 * inverse])
+    assert fastest_rate(gearbox, "the contact modes", k, overdamped) == pytest.approx(np.abs(roots).max(), rel=1e-9)

@@ -93,6 +93,7 @@ def _empty_output(contact: ContactModel, samples: int, capacity: int, keep_state
         change_made=np.zeros(capacity, dtype=np.bool_),
         initial=np.zeros(balls),
         tally=np.zeros(4, dtype=np.int64),
+        budget=np.zeros(1),
     )
 
 

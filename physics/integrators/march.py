@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit, specialise
+from physics._jit import njit, njit_lean, specialise
 from physics.contact import ACTIVE, FORCE, Law, Track, count_changes, of_ball, press, reset_contact, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
@@ -62,6 +62,7 @@ class Output(NamedTuple):
     change_made: NDArray[np.bool_]
     initial: Array
     tally: NDArray[np.int64]
+    budget: Array
 
 
 @njit
@@ -93,7 +94,8 @@ def locate(
         set_time(balls, frames, track, time + step)
         press_state(balls, frames, law, then)
     mark_suspects(balls, law, 1.0, suspects)
-    return earliest_change(balls, frames, law, track, time, step, begin, end, suspects)
+    share, ball, _ = earliest_change(balls, law, track, time, step, begin, end, suspects)
+    return share, ball
 
 
 @njit
@@ -102,7 +104,7 @@ def press_state(balls: Array, frames: Array, law: Law, state: Array) -> tuple[fl
     return press(balls, frames, law, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
 
 
-@njit
+@njit_lean
 def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
     """Move `ball` to the other side of the contact set and log it."""
     made = of_ball(balls, ACTIVE, ball) < 0.5

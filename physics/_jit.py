@@ -52,7 +52,7 @@ def njit(kernel: Kernel) -> Kernel:
 
 
 def njit_lean(kernel: Kernel) -> Kernel:
-    """Like `njit` for a kernel that creates no array: without reference counts, which cost more than short kernels do."""
+    """Like `njit` for a kernel that creates no array: without reference counts, which cost more than short kernels."""
     compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True, _nrt=False)(kernel)
     return cast(Kernel, compiled)
 

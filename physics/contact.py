@@ -6,8 +6,8 @@ and in a fixed order, so they use vector instructions and give the same bits on 
 spall need the depth of their path.
 
 Kernels take few arrays: each array handed to a compiled function costs reference counting, which would cost more than
-the mechanics. What belongs to one ball is therefore one column of `balls` (G, 10, M), G cages of M balls each, padded to
-whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
+the mechanics. What belongs to one ball is therefore one column of `balls` (G, 10, M), G cages of M balls each, padded
+to whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
 know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
 """
 
@@ -197,9 +197,7 @@ def compression_of(
 
 
 @njit_inline
-def _spall_under(
-    track: Track, spall: int, number: int, angle: float, speed: float, time: float
-) -> tuple[float, float]:
+def _spall_under(track: Track, spall: int, number: int, angle: float, speed: float, time: float) -> tuple[float, float]:
     """Depth (m) under ball `number` of the spall's row and its rate (m/s)."""
     sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
     first_break, pieces = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, PIECES])

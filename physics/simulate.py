@@ -9,15 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import discard_cache
+from physics.adaptive_response import Kept, respond_accurately
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
+from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.resampling import decimate
-from physics.response import MARCHES, respond, respond_by_reference
+from physics.response import respond, respond_by_reference
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics import equilibrium
@@ -25,8 +27,7 @@ from physics.trace import Trace
 
 Array = NDArray[np.float64]
 
-REFERENCE = "reference"
-METHODS = (*MARCHES, REFERENCE)
+SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
 STEPS_PER_FAST_PERIOD = 6.2
 SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0
@@ -42,33 +43,43 @@ def simulate(
     scene: Scene,
     rate: float,
     *,
-    method: str = "exponential_rk4",
+    method: str | None = None,
     substeps: int | None = None,
     accuracy: float = 1e-3,
+    least_error: float = 0.0,
     keep_state: bool = False,
     keep_force: bool = False,
+    keep_outer: bool = False,
     estimate_error: bool = True,
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
 
-    `substeps` is the number of steps a sample. None starts from the fewest that resolve the fastest mode and doubles
-    them until a pilot of a few ball passes differs from one at half the step by no more than the relative RMS
-    `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate too low to hold
-    the resonator is simulated at a multiple of it and decimated without aliasing (states and forces stay samples). The
-    reference method has no estimate. Raises SimulationFailed with a typed outcome.
+    By default the modal method chooses its own steps so that the relative RMS error of the acceleration stays within
+    `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made.
+    Other methods take `substeps` fixed steps a sample (and are meant if they are given); None starts from the fewest
+    that resolve the fastest mode and doubles them until a pilot of a few ball passes differs from one at half the step
+    by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
+    too low to hold the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer
+    ring's motion kept by `keep_outer` (states and forces stay samples). The reference method has no estimate. Raises
+    SimulationFailed with a typed outcome.
     """
-    _check_request(scene, rate, method, substeps, keep_force)
+    method = method or (MODAL if substeps is None else "exponential_rk4")
+    _check_request(scene, rate, method, substeps, keep_force or keep_outer, accuracy)
     start = _starting_state(scene)
     samples = round(scene.duration * rate)
     if method == REFERENCE:
         return respond_by_reference(scene, start, rate, samples, keep_state=keep_state)
     factor = oversampling(scene, rate)
+    if method == MODAL:
+        kept = Kept(keep_state, keep_force, keep_outer)
+        trace = respond_accurately(scene, start, rate * factor, samples * factor, accuracy, least_error, kept)
+        return _lowered(trace, rate, factor)
     steps, error = substeps or default_substeps(scene, rate * factor), math.nan
     if estimate_error:
         most = steps if substeps else max(MOST_SUBSTEPS, steps)
         steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
     grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
-    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force)
+    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force, keep_outer=keep_outer)
     return replace(_lowered(trace, rate, factor), error_estimate=error)
 
 
@@ -97,7 +108,7 @@ def warm_up() -> None:
         simulate(scene, 65536.0)
 
 
-def _check_request(scene: Scene, rate: float, method: str, substeps: int | None, keep_force: bool) -> None:
+def _check_request(scene: Scene, rate: float, method: str, substeps: int | None, keeps: bool, accuracy: float) -> None:
     problem = ""
     if method not in METHODS:
         problem = f'method = "{method}"; allowed: {", ".join(METHODS)}'
@@ -107,8 +118,12 @@ def _check_request(scene: Scene, rate: float, method: str, substeps: int | None,
         problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
     elif substeps is not None and (substeps != int(substeps) or substeps < 1):
         problem = f"substeps = {substeps!r}; it must be a whole number, 1 or more"
-    elif method == REFERENCE and keep_force:
-        problem = "keep_force = True; the reference method keeps no forces"
+    elif method == MODAL and substeps is not None:
+        problem = f"substeps = {substeps!r}; the method {MODAL} chooses its own steps, give accuracy instead"
+    elif not SMALLEST_ACCURACY <= accuracy <= LARGEST_ACCURACY:
+        problem = f"accuracy = {accuracy!r}; it must lie from {SMALLEST_ACCURACY:g} to {LARGEST_ACCURACY:g}"
+    elif method == REFERENCE and keeps:
+        problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
@@ -165,4 +180,11 @@ def _lowered(trace: Trace, rate: float, factor: int) -> Trace:
         acceleration=decimate(trace.acceleration, factor),
         state=None if trace.state is None else trace.state[::factor],
         contact_force=None if trace.contact_force is None else trace.contact_force[::factor],
+        outer_displacement=_decimated(trace.outer_displacement, factor),
+        outer_velocity=_decimated(trace.outer_velocity, factor),
+        outer_acceleration=_decimated(trace.outer_acceleration, factor),
     )
+
+
+def _decimated(signal: Array | None, factor: int) -> Array | None:
+    return None if signal is None else decimate(signal, factor)

@@ -50,7 +50,7 @@ def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float
 def contact_condition(
     balls: Array, law: Law, track: Track, ball: int, time: float, step: float, share: float, begin: Array, end: Array
 ) -> tuple[float, float]:
-    """A number that is above zero while `ball` touches, at the `share` of the step, and its rate of compression, m/s."""
+    """A number above zero while `ball` touches, at the `share` of the step, and its rate of compression, m/s."""
     x, u = quintic(begin, end, 0, share)
     y, v = quintic(begin, end, 1, share)
     compression, rate = compression_of(balls, track, ball, time + share * step, x, y, u / step, v / step)
@@ -84,7 +84,7 @@ def earliest_change(
 def _root(
     balls: Array, law: Law, track: Track, ball: int, time: float, step: float, begin: Array, end: Array, upper: float
 ) -> tuple[float, float]:
-    """Earliest share, and rate there, at which `ball` leaves the state the contact set gives it; 2.0 if not by `upper`."""
+    """Earliest share at which `ball` leaves the contact set's state, and the rate there; 2.0 if not by `upper`."""
     sign = 1.0 if of_ball(balls, ACTIVE, ball) > 0.5 else -1.0
     high, low = upper, 0.0
     value, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)

@@ -1,4 +1,4 @@
-"""The linear part of the motion in modal form: outer ring, resonator, and the inner ring on a spring in the balls' place.
+"""The linear part of the motion in modal form: outer ring, resonator, and inner ring on a spring in the balls' place.
 
 Each direction is z' = A z + b r + e w with z = (xi, vi, xo, vo, xr, vr): the spring k and damper c that stand for the
 mean contact belong to A, r is what the true contact force differs from them, w the outer load. In the eigenvectors of A
@@ -22,12 +22,15 @@ Array = NDArray[np.float64]
 
 # Rows of `rows`, real and imaginary part each: eigenvalue (1/s), amplitude of the mode per unit of contact force, and
 # the modes' shares in what is read from them: displacement, velocity and acceleration of the inner relative to the
-# outer ring, acceleration of the resonator, and from SHAPE on the six states of the direction.
+# outer ring, acceleration of the resonator, from SHAPE on the six states of the direction (among them the outer ring's
+# displacement and velocity), and the outer ring's acceleration but for the force on it.
 RATE, KICK, DISPLACEMENT, VELOCITY, ACCELERATION, OUTPUT, SHAPE = 0, 2, 4, 6, 8, 10, 12
-FLOW_ROWS = 24
+OUTER, OUTER_SPEED, OUTER_ACCELERATION = SHAPE + 4, SHAPE + 6, 24
+FLOW_ROWS = 26
 # Columns of `rest`: displacement, velocity and acceleration of inner relative to outer ring, resonator acceleration,
 # and from STATE on the six states.
 REST_RELATIVE, REST_OUTPUT, REST_STATE = 0, 3, 4
+REST_OUTER = REST_STATE + 2
 REST_COLUMNS = 10
 # Places of the first readings, in the order of the rows from DISPLACEMENT on.
 DISPLACEMENT_READING, VELOCITY_READING, ACCELERATION_READING, OUTPUT_READING = range(4)
@@ -39,7 +42,7 @@ DEFECT_SHIFT = 1e-6
 class LinearFlow(NamedTuple):
     """Modes of both directions, as the kernels read them.
 
-    `rows` (24, 2, M): rows, then x or y, then mode. `stiffness`, `damping`: the spring (N/m)
+    `rows` (26, 2, M): rows, then x or y, then mode. `stiffness`, `damping`: the spring (N/m)
     and damper (N s/m) along x and y that stand for the contacts. `jump` (1/kg): relative acceleration per unit of
     contact force. `rest`, `cosine`, `sine` (2, 10): what the loads alone do, constant and turning at `shaft_speed`.
     """
@@ -53,6 +56,7 @@ class LinearFlow(NamedTuple):
     sine: Array
     turning: bool
     shaft_speed: float
+    outer_mass: float
 
 
 def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tuple[float, float]) -> LinearFlow:
@@ -63,12 +67,12 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     for axis, (rate, shape, kick) in enumerate(bases):
         read = _readings(motion, axis, shape)
         read[ACCELERATION_READING] = read[VELOCITY_READING] * rate
-        for row, values in ((RATE, rate), (KICK, kick), *zip(range(4, FLOW_ROWS, 2), read, strict=True)):
+        outer = shape[3] * rate
+        reads = zip(range(4, OUTER_ACCELERATION, 2), read, strict=True)
+        for row, values in ((RATE, rate), (KICK, kick), *reads, (OUTER_ACCELERATION, outer)):
             rows[row, axis, : rate.size], rows[row + 1, axis, : rate.size] = values.real, values.imag
         matrix, push = _matrix(motion, axis, stiffness[axis], damping[axis]), _push(motion)
-        for target, response in zip(
-            (rest, cosine, sine), _loaded(motion, axis, matrix, push), strict=True
-        ):
+        for target, response in zip((rest, cosine, sine), _loaded(motion, axis, matrix, push), strict=True):
             target[axis] = response
     return LinearFlow(
         rows=rows,
@@ -80,9 +84,8 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
         sine=sine,
         turning=bool(np.any(cosine) or np.any(sine)),
         shaft_speed=motion.shaft_speed,
+        outer_mass=motion.outer_mass,
     )
-
-
 
 
 def _readings(motion: MotionModel, axis: int, states: NDArray[np.complex128]) -> NDArray[np.complex128]:
@@ -182,7 +185,7 @@ def set_rest(flow: LinearFlow, time: float, rest: Array) -> None:
     if flow.turning:
         cosine, sine = math.cos(flow.shaft_speed * time), math.sin(flow.shaft_speed * time)
         for axis in range(2):
-            for column in range(4):
+            for column in range(REST_COLUMNS):
                 rest[axis, column] = (
                     flow.rest[axis, column] + cosine * flow.cosine[axis, column] + sine * flow.sine[axis, column]
                 )
@@ -194,7 +197,10 @@ def amplitudes(flow: LinearFlow, state: Array) -> Array:
     for axis in range(2):
         away = state[[axis, 6 + axis, 2 + axis, 8 + axis, 4 + axis, 10 + axis]]
         away = away - flow.rest[axis, REST_STATE:] - flow.cosine[axis, REST_STATE:]
-        real, imaginary = flow.rows[SHAPE::2, axis], -flow.rows[SHAPE + 1 :: 2, axis]
+        real, imaginary = (
+            flow.rows[SHAPE:OUTER_ACCELERATION:2, axis],
+            -flow.rows[SHAPE + 1 : OUTER_ACCELERATION : 2, axis],
+        )
         used = np.any(real != 0.0, axis=0)
         swinging = flow.rows[RATE + 1, axis] != 0.0
         solved = np.linalg.solve(np.concatenate([real[:, used], imaginary[:, swinging]], axis=1), away)
@@ -216,8 +222,10 @@ def physical_state(flow: LinearFlow, time: float, modal: Array, state: Array) ->
 
 
 def ringing(flow: LinearFlow) -> float:
-    """What a push of 1 N s between the rings leaves in the resonator's acceleration: ∫ a² dt, m²/s³ per (N s)², the larger
-    of both directions."""
+    """What a push of 1 N s between the rings leaves in the resonator's acceleration: ∫ a² dt, m²/s³ per (N s)².
+
+    The larger of both directions.
+    """
     sums = []
     for axis in range(2):
         rate = flow.rows[RATE, axis] + 1j * flow.rows[RATE + 1, axis]

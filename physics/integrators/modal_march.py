@@ -9,6 +9,7 @@ next to it from how fast contact begins or ends.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -16,12 +17,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean, specialise
-from physics.contact import ACTIVE, FORCE, Law, Track, count_ahead, count_changes, move_to, of_ball, press, set_time, touches
-from physics.contact import reset_contact
+from physics.contact import (
+    ACTIVE,
+    FORCE,
+    Law,
+    Track,
+    count_ahead,
+    count_changes,
+    of_ball,
+    press,
+    reset_contact,
+    set_time,
+    touches,
+)
 from physics.integrators.events import earliest_change, mark_suspects, quintic
 from physics.integrators.flow import (
     ACCELERATION,
+    OUTER,
+    OUTER_ACCELERATION,
+    OUTER_SPEED,
     OUTPUT,
+    REST_OUTER,
     REST_OUTPUT,
     LinearFlow,
     physical_state,
@@ -39,8 +55,8 @@ from physics.integrators.march import (
     MOST_CHANGES_PER_STEP,
     NOT_FINITE,
     PULLED,
-    SHORTEST_GRADED_SHARE,
     SMALLEST_STEP_SHARE,
+    STEPS,
     UNLOCATED,
     Output,
     Stops,
@@ -48,10 +64,12 @@ from physics.integrators.march import (
 )
 from physics.integrators.modal_weights import (
     INSIDE_FIRST,
+    INSIDE_KICKS,
     INSIDE_LAST,
     INSIDE_MIDDLE,
     INSIDE_MODES,
     INSIDE_ROWS,
+    INSIDE_TURN,
     WEIGHT_ROWS,
     set_inside,
     set_step,
@@ -75,10 +93,11 @@ REJECTED, DOUBLED = 4.0, 1.0 / 32.0
 
 
 class Workspace(NamedTuple):
-    """Memory of a march: two states (2, 2, 2, M), the weights of every step length, those of the samples inside strides,
-    φ-functions, what the loads alone do, and scratch for locating contact changes."""
+    """Memory of a march: two states (2, 2, 2, M) and one in between (2, 2, M), weights of every step length and of the
+    samples inside strides, φ-functions, what the loads alone do, and scratch."""
 
     states: Array
+    between: Array
     weights: Array
     inside: Array
     phi: Array
@@ -90,12 +109,20 @@ class Workspace(NamedTuple):
 
 
 class Stride(NamedTuple):
-    """`samples` instants, `interval` (s) apart; steps of at most 2^`levels` samples; `tolerance` (N s) of one step."""
+    """`samples` instants, `interval` (s) apart; steps of at most 2^`levels` samples.
+
+    One step may be wrong by the momentum (N s) `share` times the root mean square of the resonator's acceleration
+    (m/s²) seen so far, or by `least` if that is more. `seen` (m²/s⁴) is what to take for the mean square at the start,
+    with the weight of `seen_samples`.
+    """
 
     samples: int
     interval: float
     levels: int
-    tolerance: float
+    share: float
+    least: float
+    seen: float
+    seen_samples: float
 
 
 @njit_lean
@@ -162,26 +189,95 @@ def remaining_force(
     return fx - flow.stiffness[0] * x - flow.damping[0] * u, fy - flow.stiffness[1] * y - flow.damping[1] * v
 
 
-@njit_inline
-def record(balls: Array, flow: LinearFlow, state: Array, rest: Array, time: float, sample: int, output: Output) -> bool:
-    """Write one sample; False if the response is no longer finite."""
-    x = reading(flow.rows, OUTPUT, state, 0) + rest[0, REST_OUTPUT]
-    y = reading(flow.rows, OUTPUT, state, 1) + rest[1, REST_OUTPUT]
-    output.acceleration[sample, 0] = x
-    output.acceleration[sample, 1] = y
+@njit_lean
+def keep(
+    balls: Array,
+    flow: LinearFlow,
+    state: Array,
+    rest: Array,
+    force: tuple[float, float],
+    time: float,
+    sample: int,
+    output: Output,
+) -> None:
+    """Write what else is wanted of one sample: the outer ring's motion, the state, the balls' forces."""
+    if output.outer.shape[0] > 0:
+        for axis in range(2):
+            output.outer[sample, axis] = reading(flow.rows, OUTER, state, axis) + rest[axis, REST_OUTER]
+            speed = reading(flow.rows, OUTER_SPEED, state, axis) + rest[axis, REST_OUTER + 1]
+            output.outer[sample, 2 + axis] = speed
+            rate = reading(flow.rows, OUTER_ACCELERATION, state, axis) + force[axis] / flow.outer_mass
+            output.outer[sample, 4 + axis] = rate
     if output.state.shape[0] > 0:
         physical_state(flow, time, state, output.state[sample])
     if output.force.shape[0] > 0:
         for ball in range(output.force.shape[1]):
             output.force[sample, ball] = of_ball(balls, FORCE, ball)
+
+
+@njit_lean
+def keep_inside(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    flow: LinearFlow,
+    inside: Array,
+    state: Array,
+    between: Array,
+    rest: Array,
+    first: tuple[float, float],
+    middle: tuple[float, float],
+    last: tuple[float, float],
+    start: float,
+    interval: float,
+    sample: int,
+    output: Output,
+) -> None:
+    """Write what else is wanted of the samples inside a stride that begins at `sample` and `start` (s) in `state`.
+
+    `inside` (S − 1, 13, 2, M) are their weights, `between` is scratch; leaves `balls` and `rest` at the last of them.
+    """
+    count = inside.shape[0] + 1
+    for k in range(count - 1):
+        w, share, time = inside[k], (k + 1.0) / count, start + (k + 1) * interval
+        a, b, c = 1.0 - 3.0 * share + 2.0 * share**2, 4.0 * (share - share**2), 2.0 * share**2 - share
+        force = a * first[0] + b * middle[0] + c * last[0], a * first[1] + b * middle[1] + c * last[1]
+        for axis in range(2):
+            for mode in range(state.shape[2]):
+                er, ei = w[INSIDE_TURN, axis, mode], w[INSIDE_TURN + 1, axis, mode]
+                real, imaginary = state[0, axis, mode], state[1, axis, mode]
+                between[0, axis, mode], between[1, axis, mode] = er * real - ei * imaginary, er * imaginary + ei * real
+                for part in range(2):
+                    between[part, axis, mode] += (
+                        w[INSIDE_KICKS + part, axis, mode] * first[axis]
+                        + w[INSIDE_KICKS + 2 + part, axis, mode] * middle[axis]
+                        + w[INSIDE_KICKS + 4 + part, axis, mode] * last[axis]
+                    )
+        set_rest(flow, time, rest)
+        if output.force.shape[0] > 0:
+            set_time(balls, frames, track, time)
+            remaining_force(balls, frames, law, flow, between, rest)
+        keep(balls, flow, between, rest, force, time, sample + 1 + k, output)
+
+
+@njit_inline
+def record(
+    balls: Array, flow: LinearFlow, state: Array, rest: Array, sample: int, weight: int, output: Output
+) -> float:
+    """Write one sample that stands for `weight` of them; the square of the resonator's acceleration, m²/s⁴."""
+    x = reading(flow.rows, OUTPUT, state, 0) + rest[0, REST_OUTPUT]
+    y = reading(flow.rows, OUTPUT, state, 1) + rest[1, REST_OUTPUT]
+    output.acceleration[sample, 0] = x
+    output.acceleration[sample, 1] = y
     held, pulled = 0, 0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
             held += balls[cage, ACTIVE, j] > 0.5
             pulled += balls[cage, FORCE, j] < 0.0
-    output.tally[HELD] += held
-    output.tally[PULLED] += pulled
-    return abs(x) + abs(y) < LARGEST_ACCELERATION
+    output.tally[HELD] += weight * held
+    output.tally[PULLED] += weight * pulled
+    return x * x + y * y
 
 
 @njit_inline
@@ -253,7 +349,7 @@ def _unbound(*_arguments: object) -> Any:
 step_pasted: Callable[..., tuple[int, float, float]] = _unbound
 
 
-def _march(
+def _march(  # noqa: C901
     balls: Array,
     frames: Array,
     law: Law,
@@ -268,7 +364,7 @@ def _march(
     now, then = space.states[0], space.states[1]
     weights, inside, phi, rest = space.weights, space.inside, space.phi, space.rest
     past, told = space.past, space.foretelling
-    unit, tolerance = grid.interval / UNITS, grid.tolerance
+    unit = grid.interval / UNITS
     for k in range(1, UNITS + 1):
         set_step(flow.rows, weights[k], k * unit, phi)
     for level in range(1, grid.levels + 1):
@@ -284,8 +380,11 @@ def _march(
     for ball in range(output.initial.size):
         output.initial[ball] = of_ball(balls, ACTIVE, ball)
     fx, fy = remaining_force(balls, frames, law, flow, now, rest)
-    if not record(balls, flow, now, rest, 0.0, 0, output):
-        return NOT_FINITE
+    square = record(balls, flow, now, rest, 0, 1, output) + grid.seen * grid.seen_samples
+    tolerance = max(grid.least, grid.share * math.sqrt(square / (1.0 + grid.seen_samples)))
+    keeps = output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0
+    if keeps:
+        keep(balls, flow, now, rest, (fx, fy), 0.0, 0, output)
     # `cell` counts units; off the grid it is the last one passed.
     cell, careful, place, tried = 0, 0, 0, 0
     time, pace, before_step, budget = 0.0, grid.interval, 0.0, 0.0
@@ -357,13 +456,12 @@ def _march(
                     if ball >= 0:
                         event_ball, event_left = ball, share * step
                         losing = of_ball(balls, ACTIVE, ball) > 0.5
-                        graded = graded_length(law, speed, tolerance)
+                        graded = max(graded_length(law, speed, tolerance), unit / UNITS)
                         if on_grid and UNIT_ERROR * unit * law.damping * abs(speed) < tolerance and graded > unit:
                             event_left = unit * int(event_left / unit + 0.5)
                             jump = UNIT_ERROR * unit * law.damping * abs(speed)
                             budget += jump * jump
                         if not losing:
-                            graded = max(graded, 0.5 * unit)
                             pace = min(pace, graded)
                             graded = step
                         set_rest(flow, time, rest)
@@ -404,6 +502,7 @@ def _march(
             else:
                 budget += tolerance * tolerance
                 pace = min(max(2.0 * step, pace), grid.interval)
+        output.tally[STEPS] += 1
         past[0, 0], past[0, 1], past[1, 0], past[1, 1] = fx, fy, mx, my
         before_step = step
         if level > 0:
@@ -411,6 +510,15 @@ def _march(
                 inside, units // UNITS, units // UNITS, now, before, rest, (fx, fy), (mx, my), (gx, gy),
                 cell // UNITS, output.acceleration,
             )  # fmt: skip
+            if keeps:
+                count = units // UNITS
+                keep_inside(
+                    balls, frames, law, track, flow, inside[count : 2 * count - 1], now, space.between, rest,
+                    (fx, fy), (mx, my), (gx, gy), time, grid.interval, cell // UNITS, output,
+                )  # fmt: skip
+                set_rest(flow, target, rest)
+                set_time(balls, frames, track, target)
+                remaining_force(balls, frames, law, flow, then, rest)
         now, then = then, now
         fx, fy, time = gx, gy, beyond
         if event_ball >= 0:
@@ -438,8 +546,14 @@ def _march(
                 cell, time, on_grid = near, near * unit, True
         if on_grid and cell % UNITS == 0:
             tried = 0
-            if not record(balls, flow, now, rest, time, cell // UNITS, output):
+            sample, weight = cell // UNITS, max(1, units // UNITS)
+            seen = record(balls, flow, now, rest, sample, weight, output)
+            if keeps:
+                keep(balls, flow, now, rest, (fx, fy), time, sample, output)
+            if not seen < LARGEST_ACCELERATION**2:
                 return NOT_FINITE
+            square += weight * seen
+            tolerance = max(grid.least, grid.share * math.sqrt(square / (1.0 + grid.seen_samples + sample)))
     output.budget[0] = budget
     return DONE
 
@@ -454,6 +568,7 @@ def workspace(flow: LinearFlow, start: Array, grid: Stride, balls: int) -> Works
     modes = start.shape[2]
     return Workspace(
         states=np.stack([start, np.zeros_like(start)]),
+        between=np.zeros_like(start),
         weights=np.zeros((UNITS + grid.levels + 2, WEIGHT_ROWS, 2, modes)),
         inside=np.zeros((2 << grid.levels, INSIDE_ROWS, 2, modes)),
         phi=np.zeros((2, 4, 2, 2, modes)),

@@ -95,10 +95,14 @@ def step_modal_rk4(
     for mode in range(start.shape[2]):
         for part in range(2):
             end[part, 0, mode] += (
-                w[FIRST + part, 0, mode] * force_x + w[MIDDLE + part, 0, mode] * (x2 + x3) + w[LAST + part, 0, mode] * x4
+                w[FIRST + part, 0, mode] * force_x
+                + w[MIDDLE + part, 0, mode] * (x2 + x3)
+                + w[LAST + part, 0, mode] * x4
             )
             end[part, 1, mode] += (
-                w[FIRST + part, 1, mode] * force_y + w[MIDDLE + part, 1, mode] * (y2 + y3) + w[LAST + part, 1, mode] * y4
+                w[FIRST + part, 1, mode] * force_y
+                + w[MIDDLE + part, 1, mode] * (y2 + y3)
+                + w[LAST + part, 1, mode] * y4
             )
     return contradicted, x3, y3
 

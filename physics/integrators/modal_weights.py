@@ -14,16 +14,18 @@ from physics.integrators.flow import DISPLACEMENT, KICK, OUTPUT, RATE
 
 Array = NDArray[np.float64]
 
-# Rows of the weights of one step (20, 2, M), rows, axis, mode. Of every mode, real and imaginary: exp over half and over
-# the whole step, and what the contact forces of stage 1, of stages 2 and 3, and of stage 4 add. Of each axis, in place
-# of its first mode: what the force of one stage adds to displacement and velocity in a later one.
+# Rows of the weights of one step (20, 2, M): row, axis, mode. Of every mode, real and imaginary: exp over half and
+# over the whole step, and what the contact forces of stage 1, of stages 2 and 3, and of stage 4 add. Of each axis, in
+# place of its first mode: what the force of one stage adds to displacement and velocity in a later one.
 HALF, WHOLE, FIRST, MIDDLE, LAST = 0, 2, 4, 6, 8
 TO_2, TO_3_FROM_1, TO_3_FROM_2, TO_4_FROM_1, TO_4_FROM_3 = 10, 12, 14, 16, 18
 WEIGHT_ROWS = 20
-# Rows of the weights of a sample inside a step (5, 2, M): the modes' shares, and per axis those of the contact force at
-# the beginning, in the middle and at the end.
+# Rows of the weights of a sample inside a step (13, 2, M): the modes' shares in the resonator's acceleration, per axis
+# those of the contact force at the beginning, in the middle and at the end; and of every mode, real and imaginary, exp
+# up to the sample and what the force at the beginning, in the middle and at the end adds by then.
 INSIDE_MODES, INSIDE_FIRST, INSIDE_MIDDLE, INSIDE_LAST = 0, 2, 3, 4
-INSIDE_ROWS = 5
+INSIDE_TURN, INSIDE_KICKS = 5, 7
+INSIDE_ROWS = 13
 SERIES_TOLERANCE = 1e-15
 MOST_TERMS = 60
 # 1/(j + 3) for j = 0 … 60: a division costs more than all else in a term of the series.
@@ -118,9 +120,10 @@ def set_step(rows: Array, weights: Array, step: float, phi: Array) -> None:
 
 @njit_lean
 def set_inside(rows: Array, inside: Array, step: float, phi: Array) -> None:
-    """Fill `inside` (S − 1, 5, 2, M) for the samples that a step of S samples and `step` (s) passes over; `phi` (4, 2, 2, M) is scratch.
+    """Fill `inside` (S − 1, 13, 2, M) for the samples that a step of S samples and `step` (s) passes over.
 
     The contact force is the parabola through its values at the beginning, in the middle and at the end of the step.
+    `phi` (4, 2, 2, M) is scratch.
     """
     count = inside.shape[0] + 1
     inside[:] = 0.0
@@ -133,11 +136,18 @@ def set_inside(rows: Array, inside: Array, step: float, phi: Array) -> None:
                 er, ei = phi[0, 0, axis, mode], phi[0, 1, axis, mode]
                 inside[k - 1, INSIDE_MODES, axis, mode] = out_r * er - out_i * ei
                 inside[k - 1, INSIDE_MODES + 1, axis, mode] = out_r * ei + out_i * er
+                inside[k - 1, INSIDE_TURN, axis, mode], inside[k - 1, INSIDE_TURN + 1, axis, mode] = er, ei
                 kr, ki = step * rows[KICK, axis, mode], step * rows[KICK + 1, axis, mode]
-                a, b = out_r * kr - out_i * ki, out_r * ki + out_i * kr
-                constant = share * (a * phi[1, 0, axis, mode] - b * phi[1, 1, axis, mode])
-                linear = share**2 * (a * phi[2, 0, axis, mode] - b * phi[2, 1, axis, mode])
-                square = 2.0 * share**3 * (a * phi[3, 0, axis, mode] - b * phi[3, 1, axis, mode])
-                inside[k - 1, INSIDE_FIRST, axis, 0] += constant - 3.0 * linear + 2.0 * square
-                inside[k - 1, INSIDE_MIDDLE, axis, 0] += 4.0 * (linear - square)
-                inside[k - 1, INSIDE_LAST, axis, 0] += 2.0 * square - linear
+                for part in range(2):
+                    constant = share * phi[1, part, axis, mode]
+                    linear = share**2 * phi[2, part, axis, mode]
+                    square = 2.0 * share**3 * phi[3, part, axis, mode]
+                    inside[k - 1, INSIDE_KICKS + part, axis, mode] = constant - 3.0 * linear + 2.0 * square
+                    inside[k - 1, INSIDE_KICKS + 2 + part, axis, mode] = 4.0 * (linear - square)
+                    inside[k - 1, INSIDE_KICKS + 4 + part, axis, mode] = 2.0 * square - linear
+                for row in range(3):
+                    kick = INSIDE_KICKS + 2 * row
+                    real, imaginary = inside[k - 1, kick, axis, mode], inside[k - 1, kick + 1, axis, mode]
+                    real, imaginary = kr * real - ki * imaginary, kr * imaginary + ki * real
+                    inside[k - 1, kick, axis, mode], inside[k - 1, kick + 1, axis, mode] = real, imaginary
+                    inside[k - 1, INSIDE_FIRST + row, axis, 0] += out_r * real - out_i * imaginary

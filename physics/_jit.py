@@ -74,6 +74,12 @@ def specialise(template: Callable[..., Any], name: str, *, lean: bool = False, *
     return njit_lean(copy) if lean else njit(copy)
 
 
+def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
+    """The Python function behind a compiled one, to be specialised anew."""
+    compiled: Any = kernel
+    return cast(Callable[..., Any], compiled.py_func)
+
+
 def discard_cache() -> None:
     """Delete the compiled kernels: the cure for a cache file cut short by a crash."""
     shutil.rmtree(CACHE_FOLDER, ignore_errors=True)

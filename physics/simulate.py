@@ -13,16 +13,19 @@ from physics.adaptive_response import Kept, respond_accurately
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
+from physics.integrators.method import Method
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.integrators.propagator import reach
+from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.resampling import decimate
-from physics.response import respond, respond_by_reference
+from physics.response import MODEL, respond, respond_by_reference
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.stability import longest_stable_step
+from physics.statics import Equilibrium, equilibrium
 from physics.trace import Trace
 
 Array = NDArray[np.float64]
@@ -35,6 +38,8 @@ PILOT_PASSES = 3.0
 PILOT_TURNS = 2.2
 SHORTEST_PILOT = 2048
 MOST_SUBSTEPS = 32
+MOST_STABLE_SUBSTEPS = 1024
+MOST_OVERSAMPLING = 64
 # On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
 PILOT_ORDER = 2.0
 
@@ -44,6 +49,7 @@ def simulate(
     rate: float,
     *,
     method: str | None = None,
+    model: str = MODEL,
     substeps: int | None = None,
     accuracy: float = 1e-3,
     least_error: float = 0.0,
@@ -60,12 +66,16 @@ def simulate(
     that resolve the fastest mode and doubles them until a pilot of a few ball passes differs from one at half the step
     by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
     too low to hold the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer
-    ring's motion kept by `keep_outer` (states and forces stay samples). The reference method has no estimate. Raises
-    SimulationFailed with a typed outcome.
+    ring's motion kept by `keep_outer` (states and forces stay samples). The reference method has no estimate. A simpler
+    `model` (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them.
+    Raises SimulationFailed with a typed outcome.
     """
     method = method or (MODAL if substeps is None else "exponential_rk4")
-    _check_request(scene, rate, method, substeps, keep_force or keep_outer, accuracy)
-    start = _starting_state(scene)
+    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy)
+    if model != MODEL:
+        return SIMPLER_MODELS[model].respond(scene, rate)
+    rest = _starting_rest(scene)
+    start = starting_state(motion_model(scene), rest.displacement[0])
     samples = round(scene.duration * rate)
     if method == REFERENCE:
         return respond_by_reference(scene, start, rate, samples, keep_state=keep_state)
@@ -75,6 +85,11 @@ def simulate(
         trace = respond_accurately(scene, start, rate * factor, samples * factor, accuracy, least_error, kept)
         return _lowered(trace, rate, factor)
     steps, error = substeps or default_substeps(scene, rate * factor), math.nan
+    least = stable_substeps(scene, METHODS[method], rest, rate * factor)
+    if substeps is None:
+        steps = max(steps, least)
+    if steps < least or steps > MOST_STABLE_SUBSTEPS:
+        raise SimulationFailed(Outcome.UNSTABLE_STEP, _instability(METHODS[method], rate * factor, steps, least))
     if estimate_error:
         most = steps if substeps else max(MOST_SUBSTEPS, steps)
         steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
@@ -89,10 +104,31 @@ def default_substeps(scene: Scene, rate: float) -> int:
     return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
 
 
+def stable_substeps(scene: Scene, method: Method, rest: Equilibrium, rate: float) -> int:
+    """Fewest steps a sample at which `method` is stable in the quasi-static position `rest` at t = 0."""
+    longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
+    return max(1, math.ceil(1.0 / (rate * longest) - 1e-9))
+
+
+def _instability(method: Method, rate: float, steps: int, least: int) -> str:
+    return (
+        f"{steps} step(s) a sample of {rate:.6g} Hz; {method.name} is stable up to |λ| h = {method.stability_limit:g} "
+        f"of {method.limits}, which here takes {least} steps a sample (at most {MOST_STABLE_SUBSTEPS} are made)"
+    )
+
+
 def oversampling(scene: Scene, rate: float) -> int:
     """How many times `rate` (Hz) is needed to hold the fastest linear mode with room for the filter."""
     per_sample = reach(motion_model(scene), 1.0 / rate)
-    return max(1, math.ceil(per_sample * SAMPLES_PER_FAST_PERIOD / (2.0 * math.pi)))
+    factor = max(1, math.ceil(per_sample * SAMPLES_PER_FAST_PERIOD / (2.0 * math.pi)))
+    if factor > MOST_OVERSAMPLING:
+        fastest = per_sample * rate / (2.0 * math.pi)
+        raise SimulationFailed(
+            Outcome.UNRESOLVED,
+            f"a rate of {rate:.6g} Hz has to be raised {factor} times to hold the fastest mode, {fastest:.4g} Hz; "
+            f"at most {MOST_OVERSAMPLING} times are allowed",
+        )
+    return factor
 
 
 def warm_up() -> None:
@@ -108,10 +144,14 @@ def warm_up() -> None:
         simulate(scene, 65536.0)
 
 
-def _check_request(scene: Scene, rate: float, method: str, substeps: int | None, keeps: bool, accuracy: float) -> None:
+def _check_request(
+    scene: Scene, rate: float, method: str, model: str, substeps: int | None, keeps: bool, accuracy: float
+) -> None:
     problem = ""
     if method not in METHODS:
         problem = f'method = "{method}"; allowed: {", ".join(METHODS)}'
+    elif model != MODEL and model not in SIMPLER_MODELS:
+        problem = f'model = "{model}"; allowed: {", ".join((*SIMPLER_MODELS, MODEL))}'
     elif not (math.isfinite(rate) and rate > 0.0):
         problem = f"rate = {rate!r} Hz; it must be above 0"
     elif round(scene.duration * rate) < 1:
@@ -128,11 +168,11 @@ def _check_request(scene: Scene, rate: float, method: str, substeps: int | None,
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
 
-def _starting_state(scene: Scene) -> Array:
+def _starting_rest(scene: Scene) -> Equilibrium:
     rest = equilibrium(scene, np.zeros(1))
     if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
         raise SimulationFailed(Outcome.NO_START, f"at t = 0 {rest.outcome(0).value} of {scene.operation.load:g} N")
-    return starting_state(motion_model(scene), rest.displacement[0])
+    return rest
 
 
 def _pilot(

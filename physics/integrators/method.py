@@ -12,7 +12,7 @@ class Method:
     """One method and its contract.
 
     `order` of the global error where the contact set does not change; `contact_sums` per step; `stability_limit`, the
-    largest ω h (rad) of an undamped mode, infinite if there is none, and which modes it `limits`; where samples come
+    largest |λ| h of a decaying mode, infinite if there is none, and which modes it `limits`; where samples come
     from (`dense_output`), what is done about contact changes and kinks (`events`), and what the method is for.
     """
 

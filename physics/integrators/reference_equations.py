@@ -15,6 +15,7 @@ from physics.scene import Scene
 
 Array = NDArray[np.float64]
 Cubics = tuple[Array, Array]
+Turn = tuple[tuple[float, float], tuple[float, float]]
 
 
 class Equations(NamedTuple):
@@ -113,8 +114,13 @@ def _unpacked(path: DepthPath) -> Cubics:
 @njit
 def polynomial_at(edges: Array, polynomials: Array, first: int, last: int, place: float) -> tuple[float, float]:
     """Value and slope at `place` of the piecewise polynomial whose edges are edges[first:last]."""
-    piece = first + int(np.searchsorted(edges[first:last], place, side="right")) - 1
-    piece = min(max(piece, first), last - 2)
+    piece, beyond = first, last - 1
+    while beyond - piece > 1:
+        middle = (piece + beyond) // 2
+        if edges[middle] <= place:
+            piece = middle
+        else:
+            beyond = middle
     x = place - edges[piece]
     value, slope = 0.0, 0.0
     for k in range(polynomials.shape[0]):
@@ -145,11 +151,22 @@ def _missing(equations: Equations, row: float, angle: float, speed: float, time:
 
 
 @njit
-def _closing(equations: Equations, time: float, state: Array, ball: int) -> tuple[float, float, float, float]:
+def _turn(equations: Equations, time: float) -> Turn:
+    """Angles and speeds of both rows' cages at `time` (s)."""
+    edges, quartics = equations.cages[0]
+    first = polynomial_at(edges, quartics, 0, edges.size, time)
+    edges, quartics = equations.cages[1]
+    second = polynomial_at(edges, quartics, 0, edges.size, time)
+    return first, second
+
+
+@njit
+def _closing(
+    equations: Equations, turn: Turn, time: float, state: Array, ball: int
+) -> tuple[float, float, float, float]:
     """Compression of one ball along its normal (m), its rate (m/s), and cosine and sine of the ball's angle."""
     row = equations.balls[ball, 0]
-    edges, quartics = equations.cages[0] if row == 0.0 else equations.cages[1]
-    angle, speed = polynomial_at(edges, quartics, 0, edges.size, time)
+    angle, speed = turn[0] if row == 0.0 else turn[1]
     angle += equations.balls[ball, 1]
     cosine, sine = math.cos(angle), math.sin(angle)
     dx, dy = state[0] - state[2], state[1] - state[3]
@@ -162,9 +179,11 @@ def _closing(equations: Equations, time: float, state: Array, ball: int) -> tupl
 
 
 @njit
-def _pressed(equations: Equations, time: float, state: Array, ball: int) -> tuple[float, float, float, float]:
+def _pressed(
+    equations: Equations, turn: Turn, time: float, state: Array, ball: int
+) -> tuple[float, float, float, float]:
     """Compression (m) of one ball, its force along the normal if it touches (N), and cosine and sine of its angle."""
-    compression, rate, cosine, sine = _closing(equations, time, state, ball)
+    compression, rate, cosine, sine = _closing(equations, turn, time, state, ball)
     law = equations.law
     return compression, law[0] * max(compression, 0.0) ** law[1] + law[2] * rate, cosine, sine
 
@@ -173,8 +192,9 @@ def _pressed(equations: Equations, time: float, state: Array, ball: int) -> tupl
 def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.bool_]:
     """Which balls (B,) touch: those compressed, and under the no-tension law only while they also push."""
     touching = np.empty(equations.balls.shape[0], dtype=np.bool_)
+    turn = _turn(equations, time)
     for ball in range(touching.size):
-        compression, force, _, _ = _pressed(equations, time, state, ball)
+        compression, force, _, _ = _pressed(equations, turn, time, state, ball)
         touching[ball] = compression > 0.0 and (equations.law[5] == 0.0 or force > 0.0)
     return touching
 
@@ -183,17 +203,17 @@ def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.b
 def slopes(equations: Equations, touching: NDArray[np.bool_], time: float, state: Array) -> Array:
     """Time derivative (12,) of the state while exactly the balls `touching` (B,) are in contact."""
     contact = np.zeros(2)
-    law = equations.law
+    law, turn = equations.law, _turn(equations, time)
     for ball in range(touching.size):
         if touching[ball]:
-            _, force, cosine, sine = _pressed(equations, time, state, ball)
+            _, force, cosine, sine = _pressed(equations, turn, time, state, ball)
             contact[0] += force * law[3] * cosine
             contact[1] += force * law[3] * sine
-    turn = law[6] * time
+    phase = law[6] * time
     load = np.empty(2)
-    load[0] = equations.loads[1] * math.cos(turn + equations.loads[2])
-    load[1] = equations.loads[1] * math.sin(turn + equations.loads[2])
-    load[1] -= equations.loads[0] * (1.0 + equations.loads[3] * math.cos(turn + equations.loads[4]))
+    load[0] = equations.loads[1] * math.cos(phase + equations.loads[2])
+    load[1] = equations.loads[1] * math.sin(phase + equations.loads[2])
+    load[1] -= equations.loads[0] * (1.0 + equations.loads[3] * math.cos(phase + equations.loads[4]))
     result = np.empty(12)
     result[:6] = state[6:]
     for axis in range(2):

@@ -1,7 +1,7 @@
 """The classical explicit Runge-Kutta method of order 4: four contact sums a step, every coordinate treated alike.
 
-Stable up to ω h = 2.83 for the fastest mode of all, the resonator's included, and up to 2.79 over the rate of the
-fastest decay. Order 4 while the contact set does not change, which the marching loop ensures. Not to be confused with
+Stable up to |λ| h = 2.78 for the fastest mode of all, the resonator's included (2.83 undamped, 2.785 for pure decay).
+Order 4 while the contact set does not change, which the marching loop ensures. Not to be confused with
 the same method run blindly through changes of contact, which drops to first order.
 """
 

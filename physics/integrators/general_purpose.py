@@ -1,0 +1,197 @@
+"""General-purpose solvers compiled throughout, as a user would pick one: no contact change or kink is located.
+
+DOP853 and RK45 with SciPy's tables and step control, on the equations written ball by ball and on this package's
+contact kernel. They are here to be measured beside the methods of this folder, not to be used.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import DOP853, RK45
+
+from physics._jit import njit, specialise
+from physics.assembly import assemble
+from physics.contact import Law, Track, count_changes, reset_contact, set_time
+from physics.integrators.accelerations import accelerations
+from physics.integrators.ball_by_ball import ball_by_ball_slopes
+from physics.integrators.march import press_state
+from physics.integrators.reference_equations import Equations, write_equations
+from physics.motion import MotionModel, motion_model
+from physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+SAFETY, MOST_SHRINKING, MOST_GROWTH = 0.9, 0.2, 10.0
+FIRST_STEP = 1e-9
+MOST_STEPS = 20_000_000
+# A deviation this small (m) counts as nothing beside the relative tolerance; a generous choice for the solvers.
+TYPICAL_DEVIATION = 1e-8
+BALL_BY_BALL, CONTACT_KERNEL = "ball by ball", "contact kernel"
+PAIRS = ("RK45", "DOP853")
+
+
+class Tableau(NamedTuple):
+    """An embedded pair: stages `a` (S, S) with the new step as last row, nodes `c` (S,), error weights `e` (2, S), of
+    which the second is zero where one is enough, and the `power` of the step control."""
+
+    a: Array
+    c: Array
+    e: Array
+    power: float
+
+
+class Kernel(NamedTuple):
+    """This package's contact kernel with its equations of motion."""
+
+    balls: Array
+    frames: Array
+    law: Law
+    track: Track
+    motion: MotionModel
+
+
+def _tableau(name: str) -> Tableau:
+    pair: Any = {"RK45": RK45, "DOP853": DOP853}[name]
+    stages = pair.n_stages
+    a = np.zeros((stages + 1, stages))
+    a[:stages] = np.asarray(pair.A)[:stages, :stages] if name == "DOP853" else _padded(pair.A, stages)
+    a[stages] = pair.B
+    errors = [pair.E5, pair.E3] if name == "DOP853" else [pair.E, np.zeros(stages + 1)]
+    return Tableau(a, np.append(pair.C, 1.0), np.array(errors), -1.0 / (pair.error_estimator_order + 1.0))
+
+
+def _padded(table: Array, stages: int) -> Array:
+    wide = np.zeros((stages, stages))
+    wide[:, : table.shape[1]] = table
+    return wide
+
+
+@njit
+def kernel_slopes(model: Kernel, time: float, state: Array) -> Array:
+    """Time derivative (12,) of the state by the contact kernel, each ball touching if it is compressed now."""
+    set_time(model.balls, model.frames, model.track, time)
+    force = press_state(model.balls, model.frames, model.law, state)
+    if count_changes(model.balls, model.law) > 0:
+        reset_contact(model.balls, model.law)
+        force = press_state(model.balls, model.frames, model.law, state)
+    result = np.empty(12)
+    result[:6] = state[6:]
+    accelerations(model.motion, time, state, force, result[6:])
+    return result
+
+
+# Bound by `specialise`: the right-hand side.
+slope: Callable[..., Array] = ball_by_ball_slopes
+
+
+@njit
+def _error(
+    tableau: Tableau, rates: Array, step: float, state: Array, trial: Array, start: Array, small: Array
+) -> float:
+    """Estimated error of a step over the tolerance that `small` (13,) holds: relative, then absolute of each entry."""
+    fine, coarse = 0.0, 0.0
+    for i in range(12):
+        scale = small[1 + i] + small[0] * max(abs(state[i] - start[i]), abs(trial[i] - start[i]))
+        five, three = 0.0, 0.0
+        for stage in range(rates.shape[0]):
+            five += tableau.e[0, stage] * rates[stage, i]
+            three += tableau.e[1, stage] * rates[stage, i]
+        fine += (five / scale) ** 2
+        coarse += (three / scale) ** 2
+    if fine == 0.0:
+        return 0.0
+    return step * fine / math.sqrt((fine + 0.01 * coarse) * 12.0)
+
+
+@njit
+def _between(begin: Array, end: Array, rate: Array, last: Array, step: float, share: float, state: Array) -> None:
+    """Fill `state` (12,): displacements on the quintic through displacement, velocity and acceleration at both ends."""
+    x = share
+    for i in range(6):
+        v0, a0 = step * begin[6 + i], 0.5 * step * step * rate[6 + i]
+        v1, a1 = step * end[6 + i], 0.5 * step * step * last[6 + i]
+        rise = end[i] - begin[i] - v0 - a0
+        speed, bend = v1 - v0 - 2.0 * a0, a1 - a0
+        c3 = 10.0 * rise - 4.0 * speed + bend
+        c4 = -15.0 * rise + 7.0 * speed - 2.0 * bend
+        c5 = 6.0 * rise - 3.0 * speed + bend
+        state[i] = begin[i] + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))))
+        rising = v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))
+        state[6 + i] = rising / step
+
+
+def _integrate(
+    tableau: Tableau, model: Any, start: Array, period: float, samples: int, small: Array
+) -> tuple[Array, int]:
+    """States (T, 12) at multiples of `period` (s), and how often the right-hand side was read; −1 if it gave up."""
+    states, evaluations = np.empty((samples, 12)), 1
+    states[0] = start
+    stages = tableau.a.shape[1]
+    rates, state, trial = np.empty((stages + 1, 12)), start.copy(), np.empty(12)
+    rates[0] = slope(model, 0.0, state)
+    time, step, sample, rejected = 0.0, FIRST_STEP, 1, False
+    for _ in range(MOST_STEPS):
+        if sample == samples:
+            return states, evaluations
+        for stage in range(1, stages + 1):
+            for i in range(12):
+                moved = 0.0
+                for earlier in range(stage):
+                    moved += tableau.a[stage, earlier] * rates[earlier, i]
+                trial[i] = state[i] + step * moved
+            rates[stage] = slope(model, time + tableau.c[stage] * step, trial)
+        evaluations += stages
+        error = _error(tableau, rates, step, state, trial, start, small)
+        growth = MOST_GROWTH if error == 0.0 else min(MOST_GROWTH, max(MOST_SHRINKING, SAFETY * error**tableau.power))
+        if not error < 1.0:
+            step *= min(growth, 1.0) if math.isfinite(error) else MOST_SHRINKING
+            rejected = True
+            continue
+        while sample < samples and sample * period <= time + step:
+            _between(state, trial, rates[0], rates[stages], step, (sample * period - time) / step, states[sample])
+            sample += 1
+        time += step
+        state[:] = trial
+        rates[0] = rates[stages]
+        step *= min(growth, 1.0) if rejected else growth
+        rejected = False
+    return states, -1
+
+
+_SOLVERS: Mapping[str, Callable[..., tuple[Array, int]]] = {
+    BALL_BY_BALL: specialise(_integrate, "general_purpose_ball_by_ball", slope=ball_by_ball_slopes),
+    CONTACT_KERNEL: specialise(_integrate, "general_purpose_contact_kernel", slope=kernel_slopes),
+}
+_SLOPES: Mapping[str, Callable[..., Array]] = {BALL_BY_BALL: ball_by_ball_slopes, CONTACT_KERNEL: kernel_slopes}
+
+
+def right_hand_side(scene: Scene, kind: str) -> tuple[Callable[..., Array], Equations | Kernel]:
+    """A compiled right-hand side slope(model, time, state) → (12,) of `kind`, and its model of `scene`."""
+    if kind == BALL_BY_BALL:
+        return _SLOPES[kind], write_equations(scene)
+    contact = assemble(scene)
+    return _SLOPES[kind], Kernel(contact.balls, contact.frames, contact.law, contact.track, motion_model(scene))
+
+
+def absolute_tolerance(scene: Scene, tolerance: float) -> Array:
+    """Absolute tolerances (12,), m and m/s, that go with a relative one."""
+    rig = scene.rig
+    fastest = math.sqrt(rig.resonator_stiffness * (1.0 / rig.resonator_mass + 1.0 / rig.outer_mass))
+    return tolerance * np.repeat([TYPICAL_DEVIATION, TYPICAL_DEVIATION * fastest], 6)
+
+
+def integrate_compiled(
+    scene: Scene, pair: str, kind: str, start: Array, rate: float, samples: int, tolerance: float
+) -> tuple[Array, int]:
+    """States (T, 12) of `scene` at the instants k / rate by a compiled embedded pair of `PAIRS`; and its evaluations.
+
+    Errors are measured against the deviation from the `start` (12,), as a careful user would.
+    """
+    _, model = right_hand_side(scene, kind)
+    small = np.append(tolerance, absolute_tolerance(scene, tolerance))
+    return _SOLVERS[kind](_tableau(pair), model, start, 1.0 / rate, samples, small)

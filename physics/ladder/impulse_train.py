@@ -1,0 +1,166 @@
+"""The impulse train: each edge of a spall takes a ball's static load off the outer ring, or gives it back.
+
+The time of each edge comes from the cage's path, slip included; the load from the healthy load distribution where the
+ball is; the ramp of each taper blunts its step; the linear modes of the rig answer. It is what most generators of
+bearing signals do, with a size in newtons.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.signal import lfilter
+
+from physics.imperfections import Imperfections
+from physics.ladder.model import Model
+from physics.modes import coupled_matrix
+from physics.passages import passages
+from physics.profile import build_path
+from physics.scene import Scene
+from physics.spall import Spall
+from physics.statics import equilibrium
+from physics.stiffness import matrix
+from physics.trace import ContactChanges, Trace
+
+Array = NDArray[np.float64]
+
+
+class Edges(NamedTuple):
+    """Steps of force on the outer ring: `time` (E,) s, `row`, `ball` (E,) from 1, `angle` (E,) of the ball, rad,
+    `change` (E,) of its load, N, over the `ramp` (E,), s, and whether it is `all` (E,) of it."""
+
+    time: Array
+    row: NDArray[np.int16]
+    ball: NDArray[np.int16]
+    angle: Array
+    change: Array
+    ramp: Array
+    all: NDArray[np.bool_]
+
+
+def _healthy(scene: Scene) -> tuple[Array, Array, Array]:
+    """Position (2,), stiffness (2, 2) and film damping (2, 2) of the bearing without spalls at t = 0."""
+    sound = replace(scene, spalls=(), imperfections=Imperfections())
+    rest = equilibrium(sound, np.zeros(1))
+    return rest.displacement[0], matrix(rest.stiffness[0]), matrix(rest.damping[0])
+
+
+def _edges_of(scene: Scene, index: int, position: Array) -> list[Edges]:
+    """The entry edge and the exit edge of every pass over one spall."""
+    spall, bearing = scene.spalls[index], scene.rig.bearing
+    depth = build_path(spall, bearing).largest_depth
+    race_speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
+    speed = abs(scene.cage.mean_speed - race_speed)
+    ends = ((-1.0, spall.entry_taper), (1.0, spall.exit_taper))
+    found = []
+    for sign, taper in ends:
+        crossed = passages(scene, index, sign * (spall.extent - taper) / 2.0, 0.0, scene.duration)
+        angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
+        compression = position[0] * np.cos(angle) + position[1] * np.sin(angle) - bearing.clearance
+        before, inside = np.maximum(compression, 0.0), np.maximum(compression - depth, 0.0)
+        lost = bearing.load_deflection * (before**bearing.exponent - inside**bearing.exponent)
+        found.append(
+            Edges(
+                crossed.time,
+                np.full(crossed.time.size, spall.row, np.int16),
+                crossed.ball.astype(np.int16),
+                angle,
+                sign * lost,
+                np.full(crossed.time.size, taper / speed),
+                (before > 0.0) & (inside == 0.0),
+            )
+        )
+    return found
+
+
+def _ball_angle(scene: Scene, spall: Spall, ball: NDArray[np.int64], time: Array) -> Array:
+    cage = scene.cage if spall.row == 1 or scene.second_cage is None else scene.second_cage
+    bearing = scene.rig.bearing
+    return np.asarray(cage.angle(time) + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
+
+
+def _edges(scene: Scene, position: Array) -> Edges:
+    parts = [part for index in range(len(scene.spalls)) for part in _edges_of(scene, index, position)]
+    none, number = np.zeros(0), np.zeros(0, np.int16)
+    empty = Edges(none, number, number, none, none, none, np.zeros(0, np.bool_))
+    columns = [np.concatenate(column) for column in zip(empty, *parts, strict=True)]
+    order = np.argsort(columns[0], kind="stable")
+    return Edges(*(column[order] for column in columns))
+
+
+def _blunted(frequency: float, ramp: Array) -> Array:
+    """What a mode of `frequency` (rad/s) sees of a raised-cosine ramp (E,), s, beside a step at its middle."""
+    turn = frequency * ramp
+    return np.sinc(turn / (2.0 * np.pi) + 0.5) * np.pi / 4.0 + np.sinc(turn / (2.0 * np.pi) - 0.5) * np.pi / 4.0
+
+
+def _ring(time: Array, size: Array, frequency: float, damping: float, samples: int, rate: float) -> Array:
+    """Acceleration (T,) of a modal coordinate of unit mass after steps of force `size` (E,), N, at `time` (E,), s."""
+    decay = frequency * complex(-damping, math.sqrt(max(1.0 - damping**2, 0.0)))
+    sample = np.ceil(time * rate - 1e-9).astype(np.int64)
+    kept = sample < samples
+    start = np.zeros(samples, dtype=np.complex128)
+    # η̈ after a unit step is Im(λ exp(λ t)) / Im(λ) with λ the pole.
+    np.add.at(start, sample[kept], size[kept] * np.exp(decay * (sample[kept] / rate - time[kept])))
+    rung = lfilter([1.0], [1.0, -np.exp(decay / rate)], start)
+    return np.imag(decay * rung) / decay.imag if decay.imag > 0.0 else np.zeros(samples)
+
+
+def impulse_response(scene: Scene, rate: float) -> Trace:
+    """Response of `scene` at the instants k / rate (Hz) to the steps of force at the edges of its spalls.
+
+    A healthy scene gives zero. Contact changes are the middles of those edges at which the ball loses all its load.
+    """
+    samples, rig = round(scene.duration * rate), scene.rig
+    position, stiffness, film = _healthy(scene)
+    edges = _edges(scene, position)
+    squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())
+    damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
+    alpha = math.cos(rig.bearing.contact_angle)
+    along = np.array([np.cos(edges.angle), np.sin(edges.angle)]) * edges.change * alpha
+    acceleration = np.zeros((samples, 2))
+    for mode in range(squared.size):
+        frequency = math.sqrt(max(float(squared[mode]), 0.0))
+        if 0.0 < frequency < math.pi * rate:
+            pushed = (shapes[2:4, mode] - shapes[0:2, mode]) @ along * _blunted(frequency, edges.ramp)
+            rung = _ring(edges.time, pushed, frequency, float(damping[mode]) / (2.0 * frequency), samples, rate)
+            acceleration += rung[:, None] * shapes[4:6, mode]
+    return Trace(
+        rate=rate,
+        time=np.arange(samples) / rate,
+        acceleration=acceleration,
+        changes=_changes(scene, edges, position),
+        model=IMPULSE_TRAIN.name,
+        method="modes",
+        step=1.0 / rate,
+        error_estimate=math.nan,
+        tension_share=0.0,
+    )
+
+
+def _changes(scene: Scene, edges: Edges, position: Array) -> ContactChanges:
+    bearing = scene.rig.bearing
+    row, ball = np.meshgrid(np.arange(1, bearing.rows + 1), np.arange(1, bearing.balls + 1), indexing="ij")
+    angle = scene.cage.start_angle + bearing.spacing * (ball - 1) + bearing.stagger * (row - 1)
+    compression = position[0] * np.cos(angle) + position[1] * np.sin(angle) - bearing.clearance
+    return ContactChanges(
+        time=edges.time[edges.all],
+        row=edges.row[edges.all],
+        ball=edges.ball[edges.all],
+        made=edges.change[edges.all] > 0.0,
+        initial=compression > 0.0,
+    )
+
+
+IMPULSE_TRAIN = Model(
+    name="impulse train",
+    computes="the ringing of the linear modes after each edge of each spall",
+    holds_where="times of edges and the lines they make in spectra; levels to within some decibels for line spalls",
+    leaves_out="release and regain other than the edges, variation of stiffness, hardening, and healthy vibration",
+    respond=impulse_response,
+)

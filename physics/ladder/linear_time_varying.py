@@ -1,0 +1,219 @@
+"""The linear time-varying model: small motions around the quasi-static positions, excited by the changing stiffness.
+
+M ẍ + C(t) ẋ + K(t) x = 0 in the deviations x from the quasi-static solution, which moves [P14 Eq. 28]. Stiffness,
+damping and the force at the quasi-static position are tabulated: over one ball spacing of cage angle where the scene
+repeats itself with the balls, slip or not, else over time. Outer ring and resonator are exact, as in the step of the
+nonlinear model, which is used here with a linear contact.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit, njit_inline, specialise, uncompiled
+from physics.assembly import assemble
+from physics.cage import CagePath
+from physics.contact import ACTIVE, ContactModel, Law, Track, cage_at, press, reset_contact, set_time
+from physics.integrators.contact_tangent import contact_tangent
+from physics.integrators.exponential_rk4 import step_exponential_rk4
+from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, power_series, set_step
+from physics.ladder.contact_sets import changes_between_samples
+from physics.ladder.model import Model
+from physics.motion import MotionModel, motion_model, resonator_acceleration, starting_state
+from physics.outcome import Outcome, SimulationFailed
+from physics.rest import NO_EQUILIBRIUM, solve_at
+from physics.scene import Scene
+from physics.statics import load_vector
+from physics.trace import Trace
+
+Array = NDArray[np.float64]
+
+NODES_PER_SPACING = 4096
+NODES_PER_SAMPLE = 2
+# Columns of the table: force at zero displacement and velocity, stiffness xx, xy, yx, yy, damping xx, xy, yy.
+COLUMNS = 9
+
+
+class Place(NamedTuple):
+    """Where in the table a time lies: cage angle over `period` (rad) if that is above zero, else time, per `width`."""
+
+    track: Track
+    period: float
+    width: float
+
+
+def repeats_with_the_balls(scene: Scene) -> bool:
+    """Whether every quantity is a function of the cage angle that returns after one ball spacing."""
+    run, flaws = scene.operation, scene.imperfections
+    return (
+        scene.defective_race != "inner"
+        and run.unbalance_force == 0.0
+        and run.load_fluctuation == 0.0
+        and not flaws.ball_deviation
+        and not any(wave.race == "inner" for wave in flaws.waviness)
+        and scene.second_cage is None
+    )
+
+
+@njit
+def _linearise(
+    balls: Array, frames: Array, law: Law, track: Track, time: Array, loads: Array
+) -> tuple[Array, Array, NDArray[np.bool_], int]:
+    """Table (N, 9), the position (2,) at its first time, who touches (N, M), and the first index without a position."""
+    table, first = np.zeros((time.size, COLUMNS)), np.zeros(2)
+    touching = np.zeros((time.size, balls.shape[0] * balls.shape[2]), dtype=np.bool_)
+    dx, dy = 0.0, 0.0
+    for k in range(time.size):
+        set_time(balls, frames, track, time[k])
+        dx, dy, _, status = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
+        if status == NO_EQUILIBRIUM:
+            return table, first, touching, k
+        if k == 0:
+            first[0], first[1] = dx, dy
+        press(balls, frames, law, dx, dy, 0.0, 0.0)
+        reset_contact(balls, law)
+        fx, fy = press(balls, frames, law, dx, dy, 0.0, 0.0)
+        xx, xy, yx, yy = contact_tangent(balls, frames, law, 0.0)
+        cxx, cxy, _, cyy = contact_tangent(balls, frames, law, 1.0)
+        table[k] = fx - xx * dx - xy * dy, fy - yx * dx - yy * dy, xx, xy, yx, yy, cxx - xx, cxy - xy, cyy - yy
+        for ball in range(touching.shape[1]):
+            touching[k, ball] = balls[ball // balls.shape[2], ACTIVE, ball % balls.shape[2]] > 0.5
+    return table, first, touching, -1
+
+
+@njit_inline
+def _look_up(table: Array, row: Array, place: Place, time: float) -> None:
+    """Fill `row` (9,) with the table's values at `time`, on straight lines between nodes."""
+    where = time
+    if place.period > 0.0:
+        angle = cage_at(place.track, 0, time)[0]
+        where = angle - place.period * math.floor(angle / place.period)
+    position = where / place.width
+    node = min(max(int(position), 0), table.shape[0] - 2)
+    share = position - node
+    for column in range(row.size):
+        row[column] = table[node, column] + share * (table[node + 1, column] - table[node, column])
+
+
+@njit_inline
+def _pull(table: Array, row: Array, law: bool, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
+    """Net force (N) of the linear contact at a displacement (m) and velocity (m/s)."""
+    return (
+        row[0] + row[2] * dx + row[3] * dy + row[6] * vx + row[7] * vy,
+        row[1] + row[4] * dx + row[5] * dy + row[7] * vx + row[8] * vy,
+    )
+
+
+@njit_inline
+def _no_changes(table: Array, law: bool) -> int:
+    return 0
+
+
+_step = specialise(
+    uncompiled(step_exponential_rk4),
+    "step_linear_time_varying",
+    move_to=_look_up,
+    press=_pull,
+    count_changes=_no_changes,
+)
+
+
+@njit
+def _march(
+    table: Array, place: Place, motion: MotionModel, series: PowerSeries, substeps: int, start: Array, state: Array
+) -> Array:
+    """Acceleration (T, 2) and `state` (T, 12) from the state `start`."""
+    acceleration = np.zeros((state.shape[0], 2))
+    now, then, row = start.copy(), np.empty(12), np.empty(COLUMNS)
+    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
+    set_step(series, weights, 1.0)
+    _look_up(table, row, place, 0.0)
+    for sample in range(state.shape[0]):
+        acceleration[sample, 0] = resonator_acceleration(motion, now, 0)
+        acceleration[sample, 1] = resonator_acceleration(motion, now, 1)
+        state[sample] = now
+        for substep in range(substeps):
+            time = (sample * substeps + substep) * series.step
+            force = _pull(table, row, False, now[0] - now[2], now[1] - now[3], now[6] - now[8], now[7] - now[9])
+            _step(table, row, False, place, motion, weights, time, series.step, now, force, then, stage)
+            now, then = then, now
+    return acceleration
+
+
+def _table(
+    scene: Scene, model: ContactModel, samples: int, rate: float
+) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+    """Times (N,), table (N, 9), first position (2,) and who touches (N, M); raises SimulationFailed."""
+    if repeats_with_the_balls(scene):
+        speed = scene.cage.mean_speed
+        period = scene.rig.bearing.spacing
+        steady = CagePath(speed, 1.5 * period / speed)
+        model = assemble(replace(scene, cage=steady))
+        time = np.linspace(0.0, period / speed, NODES_PER_SPACING + 1)
+    else:
+        time = np.arange(NODES_PER_SAMPLE * samples + 1) / (NODES_PER_SAMPLE * rate)
+    loads = load_vector(scene, time)
+    table, first, touching, lost = _linearise(model.balls, model.frames, model.law, model.track, time, loads)
+    if lost >= 0:
+        raise SimulationFailed(Outcome.NO_START, f"no position carries {scene.operation.load:g} N")
+    return time, table, first, touching
+
+
+def _touching(
+    scene: Scene, model: ContactModel, touching: NDArray[np.bool_], samples: int, rate: float
+) -> NDArray[np.bool_]:
+    """Who touches (T, rows, balls) at the samples, from who touches (N, M) at the nodes of the table."""
+    bearing = scene.rig.bearing
+    real = touching[:, model.ball >= 0].reshape(-1, bearing.rows, bearing.balls)
+    if not repeats_with_the_balls(scene):
+        return real[: NODES_PER_SAMPLE * samples : NODES_PER_SAMPLE]
+    turned = scene.cage.angle(np.arange(samples) / rate) / bearing.spacing
+    passed = np.floor(turned).astype(np.int64)
+    node = ((turned - passed) * NODES_PER_SPACING).astype(np.int64)
+    # After `passed` spacings a ball stands where, in the table, the one that many places further on does.
+    ball = (np.arange(bearing.balls) + passed[:, None]) % bearing.balls
+    return np.stack([real[node[:, None], row, ball] for row in range(bearing.rows)], axis=1)
+
+
+def linear_response(scene: Scene, rate: float) -> Trace:
+    """Response of `scene` at the instants k / rate (Hz), linearised around its quasi-static positions.
+
+    Contact changes are those of the quasi-static positions, known to half a sample. Raises SimulationFailed where no
+    position carries the load.
+    """
+    samples = round(scene.duration * rate)
+    model, motion = assemble(scene), motion_model(scene)
+    time, table, _, touching = _table(scene, model, samples, rate)
+    repeats = repeats_with_the_balls(scene)
+    width = scene.rig.bearing.spacing / NODES_PER_SPACING if repeats else float(time[1])
+    place = Place(model.track, scene.rig.bearing.spacing if repeats else 0.0, width)
+    now = _linearise(model.balls, model.frames, model.law, model.track, np.zeros(1), load_vector(scene, np.zeros(1)))[1]
+    state = np.zeros((samples, 12))
+    series = power_series(motion, 1.0 / rate)
+    acceleration = _march(table, place, motion, series, 1, starting_state(motion, now), state)
+    return Trace(
+        rate=rate,
+        time=np.arange(samples) / rate,
+        acceleration=acceleration,
+        changes=changes_between_samples(_touching(scene, model, touching, samples, rate), rate),
+        model=LINEAR_TIME_VARYING.name,
+        method="exponential_rk4",
+        step=1.0 / rate,
+        error_estimate=math.nan,
+        tension_share=math.nan,
+        state=state,
+    )
+
+
+LINEAR_TIME_VARYING = Model(
+    name="linear time-varying",
+    computes="acceleration and motion around the quasi-static positions under their changing stiffness",
+    holds_where="healthy bearings and spalls over which contact forces stay within about a tenth of the static loads",
+    leaves_out="contact lost or made by vibration, and the hardening of the contacts under impacts",
+    respond=linear_response,
+)

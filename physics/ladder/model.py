@@ -1,0 +1,24 @@
+"""What every simpler model states of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from physics.scene import Scene
+from physics.trace import Trace
+
+
+@dataclass(frozen=True)
+class Model:
+    """One model of the ladder: `respond(scene, rate)` gives its Trace.
+
+    `computes` says what its response holds, `holds_where` in which scenes that is near the nonlinear model's, and
+    `leaves_out` what it cannot show.
+    """
+
+    name: str
+    computes: str
+    holds_where: str
+    leaves_out: str
+    respond: Callable[[Scene, float], Trace]

@@ -1,0 +1,61 @@
+"""The quasi-static model: at each instant the shaft rests where the load is carried [P14 Eq. 18-26]."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.ladder.contact_sets import changes_between_samples
+from physics.ladder.model import Model
+from physics.outcome import Outcome, SimulationFailed
+from physics.rest import NO_EQUILIBRIUM
+from physics.scene import Scene
+from physics.statics import equilibrium, load_vector
+from physics.trace import Trace
+
+Array = NDArray[np.float64]
+
+
+def quasi_static_response(scene: Scene, rate: float) -> Trace:
+    """Positions, ball loads and contact of `scene` at the instants k / rate (Hz) without any inertia.
+
+    Contacts carry exactly the load, so the support moves with the load alone: the acceleration is that of a load which
+    turns with the shaft over the support's stiffness, and zero under a constant load. Contact changes are known to half
+    a sample. Raises SimulationFailed where no position carries the load.
+    """
+    time = np.arange(round(scene.duration * rate)) / rate
+    rest = equilibrium(scene, time)
+    lost = np.flatnonzero(rest.status == NO_EQUILIBRIUM)
+    if lost.size:
+        raise SimulationFailed(
+            Outcome.NO_START, f"at t = {time[lost[0]]:g} s no position carries {scene.operation.load:g} N"
+        )
+    rig, turn = scene.rig, scene.operation.shaft_speed
+    support = np.array([rig.support_stiffness_x, rig.support_stiffness_y])
+    steady = np.array([0.0, -scene.operation.load])
+    outer = load_vector(scene, time) / support
+    position = np.hstack([outer + rest.displacement, outer, outer])
+    return Trace(
+        rate=rate,
+        time=time,
+        acceleration=-(turn**2) * (outer - steady / support),
+        changes=changes_between_samples(rest.ball_load > 0.0, rate),
+        model=QUASI_STATIC.name,
+        method="Newton",
+        step=1.0 / rate,
+        error_estimate=math.nan,
+        tension_share=0.0,
+        state=np.hstack([position, np.gradient(position, 1.0 / rate, axis=0)]) if time.size > 1 else None,
+        contact_force=rest.ball_load,
+    )
+
+
+QUASI_STATIC = Model(
+    name="quasi-static",
+    computes="ball loads, positions and stiffness without inertia; acceleration only of a load that turns",
+    holds_where="stiffness and ball loads of slow, shallow or extended spalls, where contact forces stay near them",
+    leaves_out="every vibration that contacts excite, so its acceleration is no stand-in for a sensor's",
+    respond=quasi_static_response,
+)

@@ -1,0 +1,46 @@
+"""The longest step at which an explicit method is stable, from the fastest modes of the linearised scene."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.integrators.method import ALL_MODES, CONTACT_MODES, Method
+from physics.modes import coupled_matrix
+from physics.rig import Rig
+from physics.stiffness import matrix
+
+Array = NDArray[np.float64]
+
+
+def fastest_rate(rig: Rig, limits: str, stiffness: Array, damping: Array) -> float:
+    """Largest |λ| (1/s) among the modes that limit a method, for a bearing of `stiffness`, `damping` (3,): xx, yy, xy.
+
+    The contact modes are those of the inner ring against a free outer ring, which the film damps.
+    """
+    if limits == ALL_MODES:
+        mass, size = rig.mass_matrix(), 6
+        k = coupled_matrix(rig.stiffness_matrix(), matrix(stiffness))
+        c = coupled_matrix(rig.damping_matrix(), matrix(damping))
+    elif limits == CONTACT_MODES:
+        mass, size = np.eye(2) / (1.0 / rig.inner_mass + 1.0 / rig.outer_mass), 2
+        k, c = matrix(stiffness), matrix(damping)
+    else:
+        return 0.0
+    first_order = np.zeros((2 * size, 2 * size))
+    first_order[:size, size:] = np.eye(size)
+    first_order[size:, :size] = -np.linalg.solve(mass, k)
+    first_order[size:, size:] = -np.linalg.solve(mass, c)
+    # Rates grow as step sizes shrink: both are brought to the same unit before the eigenvalues are sought.
+    unit = math.sqrt(float(np.abs(first_order[size:, :size]).max())) or 1.0
+    first_order[:size, size:] *= unit
+    first_order[size:, :size] /= unit
+    return float(np.abs(np.linalg.eigvals(first_order)).max())
+
+
+def longest_stable_step(rig: Rig, method: Method, stiffness: Array, damping: Array) -> float:
+    """Longest stable step (s) of `method` for a bearing of this `stiffness` and `damping` (3,); may be infinite."""
+    rate = fastest_rate(rig, method.limits, stiffness, damping)
+    return method.stability_limit / rate if rate > 0.0 else math.inf

@@ -5,11 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import tomllib
-from bisect import bisect_right
 from functools import cached_property
-from itertools import accumulate
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
@@ -24,6 +22,7 @@ from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.recipe_files import find_recipe
+from datagen.recipes.record_order import Place, machines, place_by_part, place_interleaved
 from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.recipes.settings import Between, OneOf, Table, refuse
 from physics.scene import CONTACT_LAWS
@@ -143,17 +142,7 @@ class Part(Table):
     @property
     def machines(self) -> int:
         """Number of virtual machines."""
-        return -(-self.records // self.records_per_machine)
-
-
-class Place(NamedTuple):
-    """Where a record stands, all from 0: its part, its machine in the corpus; it in its part, its machine there."""
-
-    part: int
-    machine: int
-    record_in_part: int
-    machine_in_part: int
-    record_in_machine: int
+        return machines((self.records, self.records_per_machine))
 
 
 class Recipe(Table):
@@ -177,6 +166,8 @@ class Recipe(Table):
     """What is written."""
     split: Split = Split()
     """How virtual machines are divided."""
+    order: Literal["by_part", "interleaved"] = "by_part"
+    """by_part: one part after the other; interleaved: taking turns, so that the first records are of all parts."""
     part: tuple[Part, ...] = Field(min_length=1, strict=False)
     """The parts of the corpus, in order."""
 
@@ -212,24 +203,14 @@ class Recipe(Table):
     @property
     def count(self) -> int:
         """Number of records of all parts."""
-        return self._first_records[-1]
-
-    @cached_property
-    def _first_records(self) -> list[int]:
-        return list(accumulate((part.records for part in self.part), initial=0))
-
-    @cached_property
-    def _first_machines(self) -> list[int]:
-        return list(accumulate((part.machines for part in self.part), initial=0))
+        return sum(part.records for part in self.part)
 
     def place(self, record: int) -> Place:
         """Where `record` (0 ≤ record < count) stands in the corpus."""
         if not 0 <= record < self.count:
             raise BadInput(file=self.source, field="record", value=record, allowed=f"0 to {self.count - 1}")
-        part = bisect_right(self._first_records, record) - 1
-        local = record - self._first_records[part]
-        machine, in_machine = divmod(local, self.part[part].records_per_machine)
-        return Place(part, self._first_machines[part] + machine, local, machine, in_machine)
+        sizes = tuple((part.records, part.records_per_machine) for part in self.part)
+        return place_by_part(sizes, record) if self.order == "by_part" else place_interleaved(sizes, record)
 
 
 def load_recipe(path_or_name: str | Path) -> Recipe:

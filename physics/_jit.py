@@ -53,8 +53,8 @@ def njit(kernel: Kernel) -> Kernel:
 
 def njit_lean(kernel: Kernel) -> Kernel:
     """Like `njit` for a kernel that creates no array: without reference counts, which cost more than short kernels."""
-    compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True, _nrt=False)(kernel)
-    return cast(Kernel, compiled)
+    decorator: Any = numba.njit
+    return cast(Kernel, decorator(cache=True, error_model="numpy", nogil=True, _nrt=False)(kernel))
 
 
 def njit_inline(kernel: Kernel) -> Kernel:

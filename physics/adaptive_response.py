@@ -17,7 +17,7 @@ from physics.assembly import assemble
 from physics.integrators.flow import LinearFlow, amplitudes, linear_flow, ringing
 from physics.integrators.march import LOG_FULL, NOT_FINITE, STEPS, Grid, Output
 from physics.integrators.methods import MODAL
-from physics.integrators.modal_march import Stride, workspace
+from physics.integrators.modal_march import Stride, memory_for
 from physics.integrators.modal_rk4 import march_modal_rk4
 from physics.kinks import known_kinks
 from physics.motion import MotionModel, motion_model
@@ -30,8 +30,8 @@ from physics.trace import Trace
 Array = NDArray[np.float64]
 
 LONGEST_LEVEL = 3
-# Steps and contact changes a second that share the error: their pushes add up like noise.
-USUAL_PUSHES = 20_000.0
+# Steps and contact changes a sample that share the error: their pushes add up like noise.
+USUAL_PUSHES = 0.3
 # Measured on the reference scenes: errors are this many times what the pushes alone add up to, within a factor of 3.
 ERROR_FACTOR = 5.0
 # Of the accuracy asked for, what the tolerance aims at.
@@ -64,7 +64,7 @@ def respond_accurately(
     """
     motion = motion_model(scene)
     flow = mean_flow(scene, motion)
-    push = 1.0 / math.sqrt(ringing(flow) * USUAL_PUSHES)
+    push = 1.0 / math.sqrt(ringing(flow) * USUAL_PUSHES * rate)
     seen = _seed(scene, start, flow, rate, samples, push)
     aim = AIM
     for _ in range(MOST_ATTEMPTS):
@@ -130,9 +130,9 @@ def _run(scene: Scene, flow: LinearFlow, start: Array, grid: Stride, kept: Kept)
                 Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
             )
         output = empty_output(contact, grid.samples, capacity, kept.state, kept.force, kept.outer)
-        space = workspace(flow, amplitudes(flow, start), grid, contact.ball.size)
+        memory = memory_for(flow, amplitudes(flow, start), grid, contact.balls.shape[0], contact.balls.shape[2])
         status = march_modal_rk4(
-            contact.balls, contact.frames, contact.law, contact.track, flow, grid, stops, space, output
+            contact.balls, contact.frames, contact.law, contact.track, flow, grid, stops, memory, output
         )
         capacity *= 8
     if status == NOT_FINITE:

@@ -309,6 +309,31 @@ def count_ahead(balls: Array, ahead: float) -> int:
     return changing
 
 
+@njit_inline
+def note_motion(balls: Array, noted: Array) -> None:
+    """Keep in `noted` (G, 2, M) the compression (m) and its rate (m/s) of every ball."""
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            noted[cage, 0, j] = balls[cage, COMPRESSION, j]
+            noted[cage, 1, j] = balls[cage, CLOSING, j]
+
+
+@njit_inline
+def count_dips(balls: Array, noted: Array, step: float) -> int:
+    """Number of balls that agree with the contact set now and `step` s ago, as `noted`, but seem not to in between.
+
+    Between, compression is taken for a parabola with the rates of both ends: it turns where its rate is zero.
+    """
+    dips = 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            side = 2.0 * balls[cage, ACTIVE, j] - 1.0
+            away, back = side * noted[cage, 1, j], side * balls[cage, CLOSING, j]
+            room = side * (noted[cage, 0, j] + balls[cage, COMPRESSION, j]) * (back - away)
+            dips += (away < 0.0) & (back > 0.0) & (room < 0.5 * step * (away * away + back * back))
+    return dips
+
+
 @njit_lean
 def reset_contact(balls: Array, law: Law) -> None:
     """Make the contact set what the compressions left by `press` say."""

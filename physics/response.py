@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from physics.assembly import assemble
 from physics.contact import ContactModel
 from physics.integrators.adaptive_march import OUT_OF_STEPS
-from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, UNLOCATED, Grid, Output
+from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, TALLY_ENTRIES, UNLOCATED, Grid, Output
 from physics.integrators.methods import MARCHES
 from physics.integrators.propagator import power_series
 from physics.kinks import known_kinks
@@ -106,7 +106,7 @@ def empty_output(
         change_ball=np.zeros(capacity, dtype=np.int64),
         change_made=np.zeros(capacity, dtype=np.bool_),
         initial=np.zeros(balls),
-        tally=np.zeros(5, dtype=np.int64),
+        tally=np.zeros(TALLY_ENTRIES, dtype=np.int64),
         budget=np.zeros(1),
     )
 

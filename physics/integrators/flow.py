@@ -28,10 +28,12 @@ RATE, KICK, DISPLACEMENT, VELOCITY, ACCELERATION, OUTPUT, SHAPE = 0, 2, 4, 6, 8,
 OUTER, OUTER_SPEED, OUTER_ACCELERATION = SHAPE + 4, SHAPE + 6, 24
 FLOW_ROWS = 26
 # Columns of `rest`: displacement, velocity and acceleration of inner relative to outer ring, resonator acceleration,
-# and from STATE on the six states.
+# from STATE on the six states (among them the outer ring's displacement and velocity), its acceleration.
 REST_RELATIVE, REST_OUTPUT, REST_STATE = 0, 3, 4
 REST_OUTER = REST_STATE + 2
-REST_COLUMNS = 10
+REST_OUTER_ACCELERATION = 10
+REST_COLUMNS = 11
+STATES = slice(REST_STATE, REST_OUTER_ACCELERATION)
 # Places of the first readings, in the order of the rows from DISPLACEMENT on.
 DISPLACEMENT_READING, VELOCITY_READING, ACCELERATION_READING, OUTPUT_READING = range(4)
 # An eigenvector basis worse conditioned than this loses the digits that its modes stand for.
@@ -44,7 +46,7 @@ class LinearFlow(NamedTuple):
 
     `rows` (26, 2, M): rows, then x or y, then mode. `stiffness`, `damping`: the spring (N/m)
     and damper (N s/m) along x and y that stand for the contacts. `jump` (1/kg): relative acceleration per unit of
-    contact force. `rest`, `cosine`, `sine` (2, 10): what the loads alone do, constant and turning at `shaft_speed`.
+    contact force. `rest`, `cosine`, `sine` (2, 11): what the loads alone do, constant and turning at `shaft_speed`.
     """
 
     rows: Array
@@ -67,9 +69,9 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     for axis, (rate, shape, kick) in enumerate(bases):
         read = _readings(motion, axis, shape)
         read[ACCELERATION_READING] = read[VELOCITY_READING] * rate
-        outer = shape[3] * rate
-        reads = zip(range(4, OUTER_ACCELERATION, 2), read, strict=True)
-        for row, values in ((RATE, rate), (KICK, kick), *reads, (OUTER_ACCELERATION, outer)):
+        read[REST_OUTER_ACCELERATION] = shape[3] * rate
+        reads = zip(range(4, FLOW_ROWS, 2), read, strict=True)
+        for row, values in ((RATE, rate), (KICK, kick), *reads):
             rows[row, axis, : rate.size], rows[row + 1, axis, : rate.size] = values.real, values.imag
         matrix, push = _matrix(motion, axis, stiffness[axis], damping[axis]), _push(motion)
         for target, response in zip((rest, cosine, sine), _loaded(motion, axis, matrix, push), strict=True):
@@ -89,14 +91,14 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
 
 
 def _readings(motion: MotionModel, axis: int, states: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Readings (10, M) of states (6, M): relative displacement, velocity, (acceleration left zero), output, states."""
+    """Readings (11, M) of states (6, M); the two that need a rate of change are left zero."""
     read = np.zeros((REST_COLUMNS, states.shape[1]), dtype=np.complex128)
     xi, vi, xo, vo, xr, vr = states
     read[DISPLACEMENT_READING], read[VELOCITY_READING] = xi - xo, vi - vo
     read[OUTPUT_READING] = (
         motion.resonator_stiffness * (xo - xr) + motion.resonator_damping * (vo - vr)
     ) / motion.resonator_mass
-    read[REST_STATE:] = states
+    read[STATES] = states
     return read
 
 
@@ -145,7 +147,7 @@ def _modes(
 
 
 def _loaded(motion: MotionModel, axis: int, matrix: Array, push: Array) -> tuple[Array, Array, Array]:
-    """Constant, cosine and sine parts (10,) of what the outer loads alone do along one axis."""
+    """Constant, cosine and sine parts (11,) of what the outer loads alone do along one axis."""
     steady = -motion.load if axis == 1 else 0.0
     turning = motion.unbalance_force * np.exp(1j * motion.unbalance_phase) * (1.0 if axis == 0 else -1j)
     if axis == 1:
@@ -155,6 +157,7 @@ def _loaded(motion: MotionModel, axis: int, matrix: Array, push: Array) -> tuple
     swing = np.linalg.solve(1j * speed * np.eye(6) - matrix, push) * turning
     read = _readings(motion, axis, np.column_stack([still.astype(np.complex128), swing]))
     read[ACCELERATION_READING, 1] = 1j * speed * read[VELOCITY_READING, 1]
+    read[REST_OUTER_ACCELERATION, 1] = 1j * speed * swing[3]
     return read[:, 0].real, read[:, 1].real, -read[:, 1].imag
 
 
@@ -181,7 +184,7 @@ def relative(rows: Array, state: Array, rest: Array) -> tuple[float, float, floa
 
 @njit_inline
 def set_rest(flow: LinearFlow, time: float, rest: Array) -> None:
-    """Bring `rest` (2, 10), what the loads alone do, to `time` (s)."""
+    """Bring `rest` (2, 11), what the loads alone do, to `time` (s)."""
     if flow.turning:
         cosine, sine = math.cos(flow.shaft_speed * time), math.sin(flow.shaft_speed * time)
         for axis in range(2):
@@ -196,7 +199,7 @@ def amplitudes(flow: LinearFlow, state: Array) -> Array:
     found = np.zeros((2, 2, flow.rows.shape[2]))
     for axis in range(2):
         away = state[[axis, 6 + axis, 2 + axis, 8 + axis, 4 + axis, 10 + axis]]
-        away = away - flow.rest[axis, REST_STATE:] - flow.cosine[axis, REST_STATE:]
+        away = away - flow.rest[axis, STATES] - flow.cosine[axis, STATES]
         real, imaginary = (
             flow.rows[SHAPE:OUTER_ACCELERATION:2, axis],
             -flow.rows[SHAPE + 1 : OUTER_ACCELERATION : 2, axis],

@@ -30,8 +30,10 @@ MOST_CHANGES_PER_STEP = 100
 SHORTEST_GRADED_SHARE = 1.0 / 16.0
 LARGEST_ACCELERATION = 1e12
 
-# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension, steps.
-LOGGED, UNLOCATED, HELD, PULLED, STEPS = range(5)
+# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension, steps;
+# and for the next sample, balls in contact and in tension at the last.
+LOGGED, UNLOCATED, HELD, PULLED, STEPS, HELD_BEFORE, PULLED_BEFORE = range(7)
+TALLY_ENTRIES = 7
 
 
 class Grid(NamedTuple):
@@ -53,7 +55,7 @@ class Output(NamedTuple):
     """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
     (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
     `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
-    contact set; `tally` (5,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are wrong, if the
+    contact set; `tally` (7,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are wrong, if the
     method knows."""
 
     acceleration: Array

@@ -19,42 +19,25 @@ from numpy.typing import NDArray
 from physics._jit import njit_inline, njit_lean, specialise
 from physics.contact import (
     ACTIVE,
-    FORCE,
     Law,
     Track,
     count_ahead,
     count_changes,
+    count_dips,
+    note_motion,
     of_ball,
-    press,
     reset_contact,
     set_time,
-    touches,
 )
-from physics.integrators.events import earliest_change, mark_suspects, quintic
-from physics.integrators.flow import (
-    ACCELERATION,
-    OUTER,
-    OUTER_ACCELERATION,
-    OUTER_SPEED,
-    OUTPUT,
-    REST_OUTER,
-    REST_OUTPUT,
-    LinearFlow,
-    physical_state,
-    reading,
-    relative,
-    set_rest,
-)
+from physics.integrators.flow import REST_OUTPUT, LinearFlow, set_rest
 from physics.integrators.march import (
     DONE,
-    HELD,
     KINK_NUDGE_SHARE,
     LARGEST_ACCELERATION,
     LOG_FULL,
     LOGGED,
     MOST_CHANGES_PER_STEP,
     NOT_FINITE,
-    PULLED,
     SMALLEST_STEP_SHARE,
     STEPS,
     UNLOCATED,
@@ -62,23 +45,13 @@ from physics.integrators.march import (
     Stops,
     toggle,
 )
-from physics.integrators.modal_weights import (
-    INSIDE_FIRST,
-    INSIDE_KICKS,
-    INSIDE_LAST,
-    INSIDE_MIDDLE,
-    INSIDE_MODES,
-    INSIDE_ROWS,
-    INSIDE_TURN,
-    WEIGHT_ROWS,
-    set_inside,
-    set_step,
-)
+from physics.integrators.modal_events import locate
+from physics.integrators.modal_output import keep, record, remaining_force, write_inside
+from physics.integrators.modal_weights import INSIDE_ROWS, WEIGHT_ROWS, set_inside, set_step
 
 Array = NDArray[np.float64]
 
 UNITS = 16
-ODD = -1
 # A stride is taken only if no ball would change sides within this many times its length.
 LOOK_AHEAD = 1.0
 # Error of Simpson's rule, in which the method's quadrature consists, over one step: its length to the fifth times the
@@ -90,11 +63,26 @@ UNIT_ERROR = 0.29
 # A step is taken back if its error exceeds the tolerance this many times, and the next is doubled if it stays below
 # this share of it: the error grows by the fifth power of the length.
 REJECTED, DOUBLED = 4.0, 1.0 / 32.0
+NEARLY = 1e-6
+NO_BALL = -1
+
+# Entries of `clock`: time (s), longest next step (s), length of the step before (s, 0 if its past is of no use), what
+# is left to the contact change ahead (s), longest step next to it (s), tolerance (N s), sum of the squares of the
+# acceleration (m²/s⁴), ratio of step lengths for which `foretelling` stands, sum of the squares of the errors (N² s²).
+TIME, PACE, BEFORE, LEFT, GRADED, TOLERANCE, SQUARES, RATIO, BUDGET = range(9)
+# Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
+# of the contact change ahead, whether `time` is a whole number of units.
+CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID = range(6)
+# What a look at a trial step says: take it, or go on from where it began.
+TAKE, AGAIN = range(2)
 
 
-class Workspace(NamedTuple):
+class Memory(NamedTuple):
     """Memory of a march: two states (2, 2, 2, M) and one in between (2, 2, M), weights of every step length and of the
-    samples inside strides, φ-functions, what the loads alone do, and scratch."""
+    samples inside strides, φ-functions, what the loads alone do, scratch for locating changes, contact force at the
+    beginning and in the middle of the step before (2, 2), weights that foretell it (5,), motion of the balls at the
+    beginning of the step (G, 2, M), `clock` and `marks` as above.
+    """
 
     states: Array
     between: Array
@@ -106,6 +94,9 @@ class Workspace(NamedTuple):
     suspects: Array
     past: Array
     foretelling: Array
+    noted: Array
+    clock: Array
+    marks: NDArray[np.int64]
 
 
 class Stride(NamedTuple):
@@ -123,190 +114,6 @@ class Stride(NamedTuple):
     least: float
     seen: float
     seen_samples: float
-
-
-@njit_lean
-def relative_motion(
-    flow: LinearFlow, step: float, state: Array, force_x: float, force_y: float, rest: Array, ends: Array
-) -> None:
-    """Fill `ends` (3, 2): displacement, step · velocity and step² · acceleration of inner relative to outer ring."""
-    ends[0, 0], ends[0, 1], u, v = relative(flow.rows, state, rest)
-    ends[1, 0], ends[1, 1] = step * u, step * v
-    a = reading(flow.rows, ACCELERATION, state, 0) + rest[0, 2] + flow.jump * force_x
-    b = reading(flow.rows, ACCELERATION, state, 1) + rest[1, 2] + flow.jump * force_y
-    ends[2, 0], ends[2, 1] = step * step * a, step * step * b
-
-
-@njit_lean
-def locate(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    flow: LinearFlow,
-    time: float,
-    step: float,
-    now: Array,
-    force: tuple[float, float],
-    then: Array,
-    after: tuple[float, float],
-    rest: Array,
-    halfway: bool,
-    ends: Array,
-    suspects: Array,
-) -> tuple[float, int, float]:
-    """Share of the step, ball and its speed of compression (m/s) of the first contact change in the trial step `now` to
-    `then`; ball −1 if none.
-
-    `rest` (2, 10) is of the end of the step; leaves `balls` somewhere inside it.
-    """
-    begin, end = ends[0], ends[1]
-    for ball in range(suspects.size):
-        suspects[ball] = 0.0
-    relative_motion(flow, step, then, after[0], after[1], rest, end)
-    set_rest(flow, time, rest)
-    relative_motion(flow, step, now, force[0], force[1], rest, begin)
-    set_rest(flow, time + step, rest)
-    mark_suspects(balls, law, 1.0, suspects)
-    if halfway:
-        set_time(balls, frames, track, time + 0.5 * step)
-        x, u = quintic(begin, end, 0, 0.5)
-        y, v = quintic(begin, end, 1, 0.5)
-        press(balls, frames, law, x, y, u / step, v / step)
-        for ball in range(suspects.size):
-            if touches(balls, law, ball) != (of_ball(balls, ACTIVE, ball) > 0.5):
-                suspects[ball] = 0.5
-    return earliest_change(balls, law, track, time, step, begin, end, suspects)
-
-
-@njit_inline
-def remaining_force(
-    balls: Array, frames: Array, law: Law, flow: LinearFlow, state: Array, rest: Array
-) -> tuple[float, float]:
-    """Contact force (N) of `state` (2, 2, M) less what the modes' spring and damper take of it."""
-    x, y, u, v = relative(flow.rows, state, rest)
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    return fx - flow.stiffness[0] * x - flow.damping[0] * u, fy - flow.stiffness[1] * y - flow.damping[1] * v
-
-
-@njit_lean
-def keep(
-    balls: Array,
-    flow: LinearFlow,
-    state: Array,
-    rest: Array,
-    force: tuple[float, float],
-    time: float,
-    sample: int,
-    output: Output,
-) -> None:
-    """Write what else is wanted of one sample: the outer ring's motion, the state, the balls' forces."""
-    if output.outer.shape[0] > 0:
-        for axis in range(2):
-            output.outer[sample, axis] = reading(flow.rows, OUTER, state, axis) + rest[axis, REST_OUTER]
-            speed = reading(flow.rows, OUTER_SPEED, state, axis) + rest[axis, REST_OUTER + 1]
-            output.outer[sample, 2 + axis] = speed
-            rate = reading(flow.rows, OUTER_ACCELERATION, state, axis) + force[axis] / flow.outer_mass
-            output.outer[sample, 4 + axis] = rate
-    if output.state.shape[0] > 0:
-        physical_state(flow, time, state, output.state[sample])
-    if output.force.shape[0] > 0:
-        for ball in range(output.force.shape[1]):
-            output.force[sample, ball] = of_ball(balls, FORCE, ball)
-
-
-@njit_lean
-def keep_inside(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    flow: LinearFlow,
-    inside: Array,
-    state: Array,
-    between: Array,
-    rest: Array,
-    first: tuple[float, float],
-    middle: tuple[float, float],
-    last: tuple[float, float],
-    start: float,
-    interval: float,
-    sample: int,
-    output: Output,
-) -> None:
-    """Write what else is wanted of the samples inside a stride that begins at `sample` and `start` (s) in `state`.
-
-    `inside` (S − 1, 13, 2, M) are their weights, `between` is scratch; leaves `balls` and `rest` at the last of them.
-    """
-    count = inside.shape[0] + 1
-    for k in range(count - 1):
-        w, share, time = inside[k], (k + 1.0) / count, start + (k + 1) * interval
-        a, b, c = 1.0 - 3.0 * share + 2.0 * share**2, 4.0 * (share - share**2), 2.0 * share**2 - share
-        force = a * first[0] + b * middle[0] + c * last[0], a * first[1] + b * middle[1] + c * last[1]
-        for axis in range(2):
-            for mode in range(state.shape[2]):
-                er, ei = w[INSIDE_TURN, axis, mode], w[INSIDE_TURN + 1, axis, mode]
-                real, imaginary = state[0, axis, mode], state[1, axis, mode]
-                between[0, axis, mode], between[1, axis, mode] = er * real - ei * imaginary, er * imaginary + ei * real
-                for part in range(2):
-                    between[part, axis, mode] += (
-                        w[INSIDE_KICKS + part, axis, mode] * first[axis]
-                        + w[INSIDE_KICKS + 2 + part, axis, mode] * middle[axis]
-                        + w[INSIDE_KICKS + 4 + part, axis, mode] * last[axis]
-                    )
-        set_rest(flow, time, rest)
-        if output.force.shape[0] > 0:
-            set_time(balls, frames, track, time)
-            remaining_force(balls, frames, law, flow, between, rest)
-        keep(balls, flow, between, rest, force, time, sample + 1 + k, output)
-
-
-@njit_inline
-def record(
-    balls: Array, flow: LinearFlow, state: Array, rest: Array, sample: int, weight: int, output: Output
-) -> float:
-    """Write one sample that stands for `weight` of them; the square of the resonator's acceleration, m²/s⁴."""
-    x = reading(flow.rows, OUTPUT, state, 0) + rest[0, REST_OUTPUT]
-    y = reading(flow.rows, OUTPUT, state, 1) + rest[1, REST_OUTPUT]
-    output.acceleration[sample, 0] = x
-    output.acceleration[sample, 1] = y
-    held, pulled = 0, 0
-    for cage in range(balls.shape[0]):
-        for j in range(balls.shape[2]):
-            held += balls[cage, ACTIVE, j] > 0.5
-            pulled += balls[cage, FORCE, j] < 0.0
-    output.tally[HELD] += weight * held
-    output.tally[PULLED] += weight * pulled
-    return x * x + y * y
-
-
-@njit_inline
-def record_inside(
-    inside: Array,
-    first_row: int,
-    count: int,
-    state: Array,
-    before: tuple[float, float],
-    rest: Array,
-    first: tuple[float, float],
-    middle: tuple[float, float],
-    last: tuple[float, float],
-    sample: int,
-    acceleration: Array,
-) -> None:
-    """Write the `count` − 1 samples inside the stride that starts at `sample` in `state` (2, 2, M).
-
-    `before` (x, y) is the resonator acceleration of the loads alone at its beginning, `rest` (2, 10) of its end.
-    """
-    for k in range(count - 1):
-        w = inside[first_row + k]
-        share = (k + 1.0) / count
-        x = before[0] + share * (rest[0, REST_OUTPUT] - before[0])
-        y = before[1] + share * (rest[1, REST_OUTPUT] - before[1])
-        x += w[INSIDE_FIRST, 0, 0] * first[0] + w[INSIDE_MIDDLE, 0, 0] * middle[0] + w[INSIDE_LAST, 0, 0] * last[0]
-        y += w[INSIDE_FIRST, 1, 0] * first[1] + w[INSIDE_MIDDLE, 1, 0] * middle[1] + w[INSIDE_LAST, 1, 0] * last[1]
-        acceleration[sample + 1 + k, 0] = x + reading(w, INSIDE_MODES, state, 0)
-        acceleration[sample + 1 + k, 1] = y + reading(w, INSIDE_MODES, state, 1)
 
 
 @njit_inline
@@ -341,6 +148,294 @@ def set_foretelling(ratio: float, foretelling: Array) -> None:
     foretelling[4] = 96.0 * SIMPSON_ERROR / ((0.5 + a) * (0.5 + b))
 
 
+@njit_lean
+def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
+    """Let the tolerance follow the acceleration of `samples` samples."""
+    square = memory.clock[SQUARES] / (grid.seen_samples + samples)
+    memory.clock[TOLERANCE] = max(grid.least, grid.share * math.sqrt(square))
+
+
+@njit_lean
+def begin(
+    balls: Array, frames: Array, law: Law, track: Track, flow: LinearFlow, grid: Stride, memory: Memory, output: Output
+) -> tuple[float, float]:
+    """Fill the tables of weights, find the first contact set, write sample 0; the remaining contact force (N)."""
+    clock, marks = memory.clock, memory.marks
+    for k in range(1, UNITS + 1):
+        set_step(flow.rows, memory.weights[k], k * (grid.interval / UNITS), memory.phi)
+    for level in range(1, grid.levels + 1):
+        size = 1 << level
+        set_step(flow.rows, memory.weights[UNITS + level], size * grid.interval, memory.phi)
+        set_inside(flow.rows, memory.inside[size : 2 * size - 1], size * grid.interval, memory.phi[0])
+    state = memory.states[0]
+    set_rest(flow, 0.0, memory.rest)
+    set_time(balls, frames, track, 0.0)
+    remaining_force(balls, frames, law, flow, state, memory.rest)
+    reset_contact(balls, law)
+    for ball in range(output.initial.size):
+        output.initial[ball] = of_ball(balls, ACTIVE, ball)
+    force = remaining_force(balls, frames, law, flow, state, memory.rest)
+    clock[:] = 0.0
+    marks[:] = 0
+    clock[PACE], marks[BALL], marks[ON_GRID] = grid.interval, NO_BALL, 1
+    clock[SQUARES] = record(balls, flow, state, memory.rest, 0, 1, output) + grid.seen * grid.seen_samples
+    set_tolerance(grid, memory, 1)
+    keep(balls, flow, state, memory.rest, force, 0.0, 0, output)
+    return force
+
+
+@njit_inline
+def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> int:
+    """Power of two of the samples that may be passed over from here in one step; 0 if it has to be one or less."""
+    clock, marks = memory.clock, memory.marks
+    if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0 or marks[CELL] < marks[CAREFUL]:
+        return 0
+    level = grid.levels
+    while level > 0:
+        length = (1 << level) * grid.interval
+        finish = clock[TIME] + length
+        if (
+            clock[PACE] >= length
+            and marks[CELL] + UNITS * (1 << level) <= (grid.samples - 1) * UNITS
+            and active_kink(balls, stops, marks[STOP], finish) >= finish
+            and count_ahead(balls, LOOK_AHEAD * length) == 0
+        ):
+            break
+        level -= 1
+    return level
+
+
+@njit_inline
+def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple[int, int, float, float]:
+    """Row of the step's weights (0 if they have to be computed), its units (0 if it ends off the grid), its end (s),
+    and where to go on (s), beyond a kink at its end."""
+    clock, marks = memory.clock, memory.marks
+    unit, time = grid.interval / UNITS, clock[TIME]
+    if marks[BALL] != NO_BALL:
+        left = clock[LEFT]
+        length = left if left <= clock[GRADED] else 0.5 * left
+        units = int(length / unit + 0.5)
+        if marks[ON_GRID] == 1 and units > 0 and abs(left / unit - int(left / unit + 0.5)) < NEARLY:
+            return units, units, time + units * unit, time + units * unit
+        return 0, 0, time + length, time + length
+    level = stride_level(balls, grid, stops, memory)
+    if level > 0:
+        units = UNITS * (1 << level)
+        return UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit
+    sample_end = (marks[CELL] // UNITS + 1) * UNITS
+    reach = int((time + clock[PACE]) / unit + NEARLY)
+    units = min(sample_end, max(marks[CELL] + 1, reach)) - marks[CELL]
+    target = (marks[CELL] + units) * unit
+    smallest = SMALLEST_STEP_SHARE * grid.interval
+    kink = active_kink(balls, stops, marks[STOP], target - smallest)
+    if kink < target - smallest:
+        nudge = KINK_NUDGE_SHARE * grid.interval
+        return 0, 0, kink - nudge, kink + nudge
+    return units if marks[ON_GRID] == 1 else 0, units, target, target
+
+
+@njit_lean
+def meet_change(
+    law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
+) -> None:
+    """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression."""
+    clock, marks = memory.clock, memory.marks
+    unit = grid.interval / UNITS
+    clock[GRADED] = max(graded_length(law, speed, clock[TOLERANCE]), unit / UNITS)
+    jump = UNIT_ERROR * unit * law.damping * abs(speed)
+    if marks[ON_GRID] == 1 and jump < clock[TOLERANCE] and clock[GRADED] > unit:
+        left = unit * int(left / unit + 0.5)
+        clock[BUDGET] += jump * jump
+    marks[BALL], clock[LEFT] = ball, left
+    if not losing:
+        clock[PACE] = min(clock[PACE], clock[GRADED])
+        clock[GRADED] = step
+
+
+@njit_lean
+def change_sides(balls: Array, memory: Memory, output: Output) -> None:
+    """Let the ball of the contact change ahead change sides now."""
+    toggle(balls, memory.marks[BALL], memory.clock[TIME], output)
+    memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
+
+
+@njit_lean
+def look(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    flow: LinearFlow,
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    units: int,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
+    after: tuple[float, float],
+    halfway: bool,
+    output: Output,
+) -> int:
+    """What to do about the trial step `now` to `then` that some ball contradicts: TAKE it or AGAIN.
+
+    AGAIN: shorter, or up to the change that was located, or from here with a ball that has just changed sides.
+    """
+    clock, marks, rest = memory.clock, memory.marks, memory.rest
+    if units > UNITS:
+        marks[CAREFUL] = marks[CELL] + units
+        return AGAIN
+    if marks[TRIED] >= MOST_CHANGES_PER_STEP:
+        output.tally[UNLOCATED] += count_changes(balls, law)
+        reset_contact(balls, law)
+        return TAKE
+    marks[TRIED] += 1
+    share, ball, speed = locate(
+        balls, frames, law, track, flow, clock[TIME], step, now, force, then, after, rest, halfway,
+        memory.ends, memory.suspects,
+    )  # fmt: skip
+    if ball < 0:
+        set_time(balls, frames, track, clock[TIME] + step)
+        return TAKE
+    meet_change(law, grid, memory, share * step, ball, of_ball(balls, ACTIVE, ball) > 0.5, speed, step)
+    if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
+        return AGAIN
+    change_sides(balls, memory, output)
+    return AGAIN
+
+
+@njit_inline
+def dipped(balls: Array, memory: Memory, step: float, units: int) -> bool:
+    """Whether some ball seems to change sides and back within the step, which is then to be halved."""
+    if units == 1 or count_dips(balls, memory.noted, step) == 0:
+        return False
+    memory.clock[PACE] = 0.5 * step
+    return True
+
+
+@njit_inline
+def judge(
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    units: int,
+    force: tuple[float, float],
+    middle: tuple[float, float],
+    after: tuple[float, float],
+) -> bool:
+    """Set the pace by how well the past foretold the force in the middle of the step; False to take it back."""
+    clock, told, past = memory.clock, memory.foretelling, memory.past
+    tolerance = clock[TOLERANCE]
+    if clock[BEFORE] == 0.0:
+        clock[BUDGET] += tolerance * tolerance
+        clock[PACE] = min(max(2.0 * step, clock[PACE]), grid.interval)
+        return True
+    ratio = clock[BEFORE] / step
+    if ratio != clock[RATIO]:
+        clock[RATIO] = ratio
+        set_foretelling(ratio, told)
+    error = 0.0
+    for axis in range(2):
+        foretold = told[0] * past[0, axis] + told[1] * past[1, axis] + told[2] * force[axis] + told[3] * after[axis]
+        error += abs(foretold - middle[axis])
+    error *= step * told[4]
+    if error > REJECTED * tolerance and units > 1:
+        clock[PACE] = 0.5 * step
+        return False
+    clock[BUDGET] += error * error
+    if error > tolerance:
+        clock[PACE] = max(0.5 * step, grid.interval / UNITS)
+    elif error < DOUBLED * tolerance:
+        clock[PACE] = 2.0 * step
+    elif error > 2.0 * DOUBLED * tolerance and step < clock[PACE]:
+        clock[PACE] = step
+    return True
+
+
+@njit_inline
+def land(grid: Stride, memory: Memory, units: int, beyond: float) -> None:
+    """Move the clock to the end of a step of `units`, or off the grid to `beyond` (s)."""
+    clock, marks = memory.clock, memory.marks
+    unit = grid.interval / UNITS
+    if units > 0:
+        marks[CELL] += units
+        marks[ON_GRID] = 1
+    else:
+        near = int(beyond / unit + 0.5)
+        marks[ON_GRID] = abs(beyond - near * unit) < SMALLEST_STEP_SHARE * grid.interval
+        marks[CELL] = near if marks[ON_GRID] == 1 else int(beyond / unit)
+    clock[TIME] = marks[CELL] * unit if marks[ON_GRID] == 1 else beyond
+
+
+@njit_inline
+def pass_stops(grid: Stride, stops: Stops, memory: Memory) -> None:
+    """Count on to the first kink that is still ahead."""
+    passed = memory.clock[TIME] + SMALLEST_STEP_SHARE * grid.interval
+    while memory.marks[STOP] < stops.time.size and stops.time[memory.marks[STOP]] <= passed:
+        memory.marks[STOP] += 1
+
+
+@njit_inline
+def remember(memory: Memory, step: float, force: tuple[float, float], middle: tuple[float, float]) -> None:
+    """Keep the contact force of the step that was taken, which foretells that of the next."""
+    past = memory.past
+    past[0, 0], past[0, 1], past[1, 0], past[1, 1] = force[0], force[1], middle[0], middle[1]
+    memory.clock[BEFORE] = step
+
+
+@njit_inline
+def write_sample(
+    balls: Array,
+    flow: LinearFlow,
+    grid: Stride,
+    memory: Memory,
+    state: Array,
+    force: tuple[float, float],
+    units: int,
+    output: Output,
+) -> bool:
+    """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite."""
+    clock, marks = memory.clock, memory.marks
+    if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0:
+        return True
+    marks[TRIED] = 0
+    sample, weight = marks[CELL] // UNITS, max(1, units // UNITS)
+    square = record(balls, flow, state, memory.rest, sample, weight, output)
+    keep(balls, flow, state, memory.rest, force, clock[TIME], sample, output)
+    clock[SQUARES] += weight * square
+    set_tolerance(grid, memory, sample + 1)
+    return square < LARGEST_ACCELERATION**2
+
+
+@njit_inline
+def arrive(
+    balls: Array,
+    frames: Array,
+    track: Track,
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    jump: float,
+    output: Output,
+) -> bool:
+    """What follows a `step` (s) that was taken; True if it changes the contact force.
+
+    A ball changes sides if this was the instant, and a kink is passed in a `jump` (s).
+    """
+    clock, marks = memory.clock, memory.marks
+    if marks[BALL] != NO_BALL:
+        clock[LEFT] -= step
+        if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
+            return False
+        change_sides(balls, memory, output)
+        return True
+    if jump > 0.0:
+        set_time(balls, frames, track, clock[TIME])
+        clock[BEFORE], clock[PACE] = 0.0, min(clock[PACE], grid.interval)
+        return True
+    return False
+
+
 def _unbound(*_arguments: object) -> Any:
     raise RuntimeError("a march needs the step of a method: use bind_modal_method")
 
@@ -349,7 +444,7 @@ def _unbound(*_arguments: object) -> Any:
 step_pasted: Callable[..., tuple[int, float, float]] = _unbound
 
 
-def _march(  # noqa: C901
+def _march(
     balls: Array,
     frames: Array,
     law: Law,
@@ -357,205 +452,59 @@ def _march(  # noqa: C901
     flow: LinearFlow,
     grid: Stride,
     stops: Stops,
-    space: Workspace,
+    memory: Memory,
     output: Output,
 ) -> int:
-    """Fill `output` from the first state of `space` at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
-    now, then = space.states[0], space.states[1]
-    weights, inside, phi, rest = space.weights, space.inside, space.phi, space.rest
-    past, told = space.past, space.foretelling
-    unit = grid.interval / UNITS
-    for k in range(1, UNITS + 1):
-        set_step(flow.rows, weights[k], k * unit, phi)
-    for level in range(1, grid.levels + 1):
-        count = 1 << level
-        set_step(flow.rows, weights[UNITS + level], count * grid.interval, phi)
-        set_inside(flow.rows, inside[count : 2 * count - 1], count * grid.interval, phi[0])
-    odd = UNITS + grid.levels + 1
-    smallest, nudge = SMALLEST_STEP_SHARE * grid.interval, KINK_NUDGE_SHARE * grid.interval
-    set_rest(flow, 0.0, rest)
-    set_time(balls, frames, track, 0.0)
-    remaining_force(balls, frames, law, flow, now, rest)
-    reset_contact(balls, law)
-    for ball in range(output.initial.size):
-        output.initial[ball] = of_ball(balls, ACTIVE, ball)
-    fx, fy = remaining_force(balls, frames, law, flow, now, rest)
-    square = record(balls, flow, now, rest, 0, 1, output) + grid.seen * grid.seen_samples
-    tolerance = max(grid.least, grid.share * math.sqrt(square / (1.0 + grid.seen_samples)))
-    keeps = output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0
-    if keeps:
-        keep(balls, flow, now, rest, (fx, fy), 0.0, 0, output)
-    # `cell` counts units; off the grid it is the last one passed.
-    cell, careful, place, tried = 0, 0, 0, 0
-    time, pace, before_step, budget = 0.0, grid.interval, 0.0, 0.0
-    on_grid, told_ratio = True, 0.0
-    event_ball, event_left, graded, losing = -1, 0.0, 0.0, False
-    last_cell = (grid.samples - 1) * UNITS
-    while cell < last_cell:
-        while place < stops.time.size and stops.time[place] <= time + smallest:
-            place += 1
-        which, units, level = odd, 0, 0
-        sample_end = (cell // UNITS + 1) * UNITS
-        if event_ball >= 0:
-            length = event_left if event_left <= graded else 0.5 * event_left
-            units = int(length / unit + 0.5)
-            if on_grid and units > 0 and abs(event_left / unit - int(event_left / unit + 0.5)) < 1e-6:
-                which, length = units, units * unit
-            else:
-                units = 0
-            target, beyond = time + length, time + length
-        else:
-            if on_grid:
-                if cell % UNITS == 0 and cell >= careful:
-                    level = grid.levels
-                    while level > 0:
-                        length = (1 << level) * grid.interval
-                        if (
-                            pace >= length
-                            and cell + UNITS * (1 << level) <= last_cell
-                            and active_kink(balls, stops, place, time + length) >= time + length
-                            and count_ahead(balls, LOOK_AHEAD * length) == 0
-                        ):
-                            break
-                        level -= 1
-                if level > 0:
-                    which, units = UNITS + level, UNITS * (1 << level)
-                else:
-                    units = min(sample_end - cell, max(1, int(pace / unit + 1e-6)))
-                    which = units
-                target = (cell + units) * unit
-            else:
-                units = min(sample_end, max(cell + 1, int((time + pace) / unit + 1e-6))) - cell
-                target = (cell + units) * unit
-            beyond = target
-            if level == 0:
-                kink = active_kink(balls, stops, place, target - smallest)
-                if kink < target - smallest:
-                    target, beyond, which, units = kink - nudge, kink + nudge, odd, 0
-        step = target - time
-        if which == odd:
-            set_step(flow.rows, weights[odd], step, phi)
+    """Fill `output` from the first state of `memory` at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
+    now, then, rest = memory.states[0], memory.states[1], memory.rest
+    clock, marks = memory.clock, memory.marks
+    force = begin(balls, frames, law, track, flow, grid, memory, output)
+    room = output.change_time.size
+    while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
+        pass_stops(grid, stops, memory)
+        row, units, target, beyond = next_step(balls, grid, stops, memory)
+        start, step = clock[TIME], target - clock[TIME]
+        if row == 0:
+            set_step(flow.rows, memory.weights[0], step, memory.phi)
         before = rest[0, REST_OUTPUT], rest[1, REST_OUTPUT]
-        contradicted, mx, my = step_pasted(
-            balls, frames, law, track, flow, weights[which], time, step, now, fx, fy, then, rest
+        note_motion(balls, memory.noted)
+        halfway, mx, my = step_pasted(
+            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then, rest
         )
-        gx, gy = remaining_force(balls, frames, law, flow, then, rest)
-        if event_ball < 0:
-            changed = count_changes(balls, law)
-            if changed + contradicted > 0:
-                if level > 0:
-                    careful = cell + units
-                    set_rest(flow, time, rest)
-                    continue
-                if tried < MOST_CHANGES_PER_STEP:
-                    tried += 1
-                    share, ball, speed = locate(
-                        balls, frames, law, track, flow, time, step, now, (fx, fy), then, (gx, gy), rest,
-                        contradicted > 0, space.ends, space.suspects,
-                    )  # fmt: skip
-                    if ball >= 0:
-                        event_ball, event_left = ball, share * step
-                        losing = of_ball(balls, ACTIVE, ball) > 0.5
-                        graded = max(graded_length(law, speed, tolerance), unit / UNITS)
-                        if on_grid and UNIT_ERROR * unit * law.damping * abs(speed) < tolerance and graded > unit:
-                            event_left = unit * int(event_left / unit + 0.5)
-                            jump = UNIT_ERROR * unit * law.damping * abs(speed)
-                            budget += jump * jump
-                        if not losing:
-                            pace = min(pace, graded)
-                            graded = step
-                        set_rest(flow, time, rest)
-                        if event_left > smallest:
-                            continue
-                        toggle(balls, ball, time, output)
-                        if output.tally[LOGGED] >= output.change_time.size:
-                            return LOG_FULL
-                        event_ball, before_step = -1, 0.0
-                        set_time(balls, frames, track, time)
-                        fx, fy = remaining_force(balls, frames, law, flow, now, rest)
-                        continue
-                    set_time(balls, frames, track, target)
-                    gx, gy = remaining_force(balls, frames, law, flow, then, rest)
-                elif changed > 0:
-                    output.tally[UNLOCATED] += changed
-                    reset_contact(balls, law)
-                    gx, gy = remaining_force(balls, frames, law, flow, then, rest)
-            if before_step > 0.0:
-                ratio = before_step / step
-                if ratio != told_ratio:
-                    told_ratio = ratio
-                    set_foretelling(ratio, told)
-                error = abs(told[0] * past[0, 0] + told[1] * past[1, 0] + told[2] * fx + told[3] * gx - mx)
-                error += abs(told[0] * past[0, 1] + told[1] * past[1, 1] + told[2] * fy + told[3] * gy - my)
-                error *= step * told[4]
-                if error > REJECTED * tolerance and units > 1:
-                    pace = 0.5 * step
-                    set_rest(flow, time, rest)
-                    continue
-                budget += error * error
-                if error > tolerance:
-                    pace = max(0.5 * step, unit)
-                elif error < DOUBLED * tolerance:
-                    pace = 2.0 * step
-                elif step < pace:
-                    pace = step if error > 2.0 * DOUBLED * tolerance else pace
-            else:
-                budget += tolerance * tolerance
-                pace = min(max(2.0 * step, pace), grid.interval)
-        output.tally[STEPS] += 1
-        past[0, 0], past[0, 1], past[1, 0], past[1, 1] = fx, fy, mx, my
-        before_step = step
-        if level > 0:
-            record_inside(
-                inside, units // UNITS, units // UNITS, now, before, rest, (fx, fy), (mx, my), (gx, gy),
-                cell // UNITS, output.acceleration,
-            )  # fmt: skip
-            if keeps:
-                count = units // UNITS
-                keep_inside(
-                    balls, frames, law, track, flow, inside[count : 2 * count - 1], now, space.between, rest,
-                    (fx, fy), (mx, my), (gx, gy), time, grid.interval, cell // UNITS, output,
+        after = remaining_force(balls, frames, law, flow, then, rest)
+        if marks[BALL] == NO_BALL:
+            action = TAKE
+            if halfway + count_changes(balls, law) > 0:
+                action = look(
+                    balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, halfway > 0,
+                    output,
                 )  # fmt: skip
-                set_rest(flow, target, rest)
-                set_time(balls, frames, track, target)
-                remaining_force(balls, frames, law, flow, then, rest)
+                after = remaining_force(balls, frames, law, flow, then, rest)
+            elif dipped(balls, memory, step, units):
+                action = AGAIN
+            if action == TAKE and not judge(grid, memory, step, units, force, (mx, my), after):
+                action = AGAIN
+            if action != TAKE:
+                set_time(balls, frames, track, start)
+                set_rest(flow, start, rest)
+                force = remaining_force(balls, frames, law, flow, now, rest)
+                continue
+        output.tally[STEPS] += 1
+        remember(memory, step, force, (mx, my))
+        if units > UNITS:
+            write_inside(
+                balls, frames, law, track, flow, memory.inside, units // UNITS, now, memory.between, then, before, rest,
+                force, (mx, my), after, start, grid.interval, marks[CELL] // UNITS, output,
+            )  # fmt: skip
         now, then = then, now
-        fx, fy, time = gx, gy, beyond
-        if event_ball >= 0:
-            event_left -= step
-            if event_left <= smallest:
-                toggle(balls, event_ball, time, output)
-                if output.tally[LOGGED] >= output.change_time.size:
-                    return LOG_FULL
-                fx, fy = remaining_force(balls, frames, law, flow, now, rest)
-                event_ball, before_step = -1, 0.0
-        elif beyond > target:
-            set_time(balls, frames, track, time)
-            fx, fy = remaining_force(balls, frames, law, flow, now, rest)
-            before_step = 0.0
-            pace = min(pace, grid.interval)
-        if units > 0:
-            cell += units
-            on_grid = True
-            time = cell * unit
-        else:
-            cell = int(time / unit)
-            on_grid = False
-            near = int(time / unit + 0.5)
-            if abs(time - near * unit) < smallest:
-                cell, time, on_grid = near, near * unit, True
-        if on_grid and cell % UNITS == 0:
-            tried = 0
-            sample, weight = cell // UNITS, max(1, units // UNITS)
-            seen = record(balls, flow, now, rest, sample, weight, output)
-            if keeps:
-                keep(balls, flow, now, rest, (fx, fy), time, sample, output)
-            if not seen < LARGEST_ACCELERATION**2:
-                return NOT_FINITE
-            square += weight * seen
-            tolerance = max(grid.least, grid.share * math.sqrt(square / (1.0 + grid.seen_samples + sample)))
-    output.budget[0] = budget
-    return DONE
+        force = after
+        land(grid, memory, units, beyond)
+        if arrive(balls, frames, track, grid, memory, step, beyond - target, output):
+            force = remaining_force(balls, frames, law, flow, now, rest)
+        if not write_sample(balls, flow, grid, memory, now, force, units, output):
+            return NOT_FINITE
+    output.budget[0] = clock[BUDGET]
+    return DONE if output.tally[LOGGED] < room else LOG_FULL
 
 
 def bind_modal_method(name: str, step: Callable[..., tuple[int, float, float]]) -> Callable[..., int]:
@@ -563,18 +512,21 @@ def bind_modal_method(name: str, step: Callable[..., tuple[int, float, float]]) 
     return specialise(_march, f"march_{name}", lean=True, step_pasted=step)
 
 
-def workspace(flow: LinearFlow, start: Array, grid: Stride, balls: int) -> Workspace:
-    """Memory for a march on `grid` from the amplitudes `start` (2, 2, M), for a contact model of `balls` columns."""
+def memory_for(flow: LinearFlow, start: Array, grid: Stride, cages: int, balls: int) -> Memory:
+    """Memory for a march on `grid` from the amplitudes `start` (2, 2, M), for `cages` of `balls` columns each."""
     modes = start.shape[2]
-    return Workspace(
+    return Memory(
         states=np.stack([start, np.zeros_like(start)]),
         between=np.zeros_like(start),
-        weights=np.zeros((UNITS + grid.levels + 2, WEIGHT_ROWS, 2, modes)),
+        weights=np.zeros((UNITS + grid.levels + 1, WEIGHT_ROWS, 2, modes)),
         inside=np.zeros((2 << grid.levels, INSIDE_ROWS, 2, modes)),
         phi=np.zeros((2, 4, 2, 2, modes)),
         rest=flow.rest.copy(),
         ends=np.zeros((2, 3, 2)),
-        suspects=np.zeros(balls),
+        suspects=np.zeros(cages * balls),
         past=np.zeros((2, 2)),
         foretelling=np.zeros(5),
+        noted=np.zeros((cages, 2, balls)),
+        clock=np.zeros(9),
+        marks=np.zeros(6, dtype=np.int64),
     )

@@ -60,7 +60,7 @@ def step_modal_rk4(
 ) -> tuple[int, float, float]:
     """One step of length `step` from `start` (2, 2, M), under the remaining contact force given, into `end`.
 
-    The contact set stays frozen. Leaves `balls` and `rest` (2, 10) at the end time; returns how many balls contradict
+    The contact set stays frozen. Leaves `balls` and `rest` (2, 11) at the end time; returns how many balls contradict
     the set halfway, and the remaining contact force there.
     """
     w = weights

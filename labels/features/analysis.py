@@ -1,0 +1,106 @@
+"""Everything that features of one record are read from: spectra, families, refined speed. Computed once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, condition
+from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
+from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_shaft
+from labels.features.kinematics import Kinematics
+from labels.features.speed import Speed, refine_speed, vibration_lines
+
+SLIP_TOLERANCE = 0.025
+SLIP_PRIOR = 0.012
+VIBRATION_ORDERS = 12.0
+DECOYS = (2.31, 2.63, 2.87, 3.17, 3.37, 3.71, 4.29, 4.61, 5.23, 5.83, 6.37, 6.71, 7.37, 8.29)
+"""Fundamentals, in orders, that no part of a bearing has by design: what other machines and chance put there."""
+RATIOS = (0.5, 2.0 / 3.0, 1.0, 1.5, 2.0)
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """One axis of one record: `record` its spectrum, `given` the kinematics at the speed given."""
+
+    record: Conditioned
+    given: Kinematics
+
+    @property
+    def top_hz(self) -> float:
+        """Highest frequency of interest in an envelope, Hz."""
+        return (ENVELOPE_HARMONICS * max(self.given.bpfo, self.given.bpfi) * 1.06 + 2.0) * self.given.shaft_hz
+
+    @cached_property
+    def envelopes(self) -> EnvelopeSpectra:
+        """Squared envelope spectra of all bands."""
+        return envelope_spectra(self.record, self.given.shaft_hz, min(self.top_hz, 0.45 * self.record.bandwidth))
+
+    @cached_property
+    def _vibration(self) -> tuple[Lines, Array]:
+        top = max(self.top_hz, VIBRATION_ORDERS * self.given.shaft_hz)
+        return vibration_lines(self.record, self.given.shaft_hz, min(top, self.record.bandwidth))
+
+    @cached_property
+    def speed(self) -> Speed:
+        """The refined speed of the shaft."""
+        return refine_speed(self._vibration[0], self.envelopes, self.given)
+
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """Kinematics at the refined speed."""
+        return self.given.at(self.speed.shaft_hz)
+
+    @cached_property
+    def envelope_lines(self) -> Lines:
+        """Lines of the envelope spectra, without those of the shaft."""
+        excess = without_shaft(self.envelopes.excess, self.envelopes.step, self.speed.shaft_hz)
+        return lines_in(excess, self.envelopes.step)
+
+    @cached_property
+    def all_envelope_lines(self) -> Lines:
+        """Lines of the envelope spectra, the shaft's too."""
+        return lines_in(self.envelopes.excess, self.envelopes.step)
+
+    @cached_property
+    def vibration(self) -> Lines:
+        """Lines of the vibration's own spectrum, without those of the shaft."""
+        excess = without_shaft(self._vibration[1], self.record.step, self.speed.shaft_hz)
+        return lines_in(excess, self.record.step)
+
+    def envelope_family(self, order: float, harmonics: int = HARMONICS) -> Family:
+        """The strongest family near an order of the refined speed, in every band's envelope."""
+        return self._family(self.envelope_lines, order, harmonics)
+
+    def vibration_family(self, order: float) -> Family:
+        """The strongest family near an order of the refined speed in the vibration itself."""
+        return self._family(self.vibration, order, HARMONICS)
+
+    def _family(self, lines: Lines, order: float, harmonics: int) -> Family:
+        shaft_hz = self.speed.shaft_hz
+        return find_family(lines, order * shaft_hz, SLIP_TOLERANCE, shaft_hz, SLIP_PRIOR, harmonics)
+
+    @cached_property
+    def outer(self) -> Family:
+        """Outer-race family in the envelopes."""
+        return self.envelope_family(self.given.bpfo)
+
+    @cached_property
+    def inner(self) -> Family:
+        """Inner-race family in the envelopes."""
+        return self.envelope_family(self.given.bpfi)
+
+    @cached_property
+    def decoys(self) -> Array:
+        """Evidence (D,) of families at fundamentals that belong to no part of the bearing, best band each."""
+        own = np.array([self.given.bpfo, self.given.bpfi, 2.0 * self.given.ball_spin])
+        near = [np.abs(order / np.outer(own, RATIOS) - 1.0).min() < 2.0 * SLIP_TOLERANCE for order in DECOYS]
+        chosen = [order for order, taken in zip(DECOYS, near, strict=True) if not taken][:8]
+        return np.array([self.envelope_family(order).evidence.max() for order in chosen])
+
+
+def analyse(signal: Array, rate: float, kinematics: Kinematics, bandwidth: float = COMMON_BANDWIDTH) -> Analysis:
+    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError if it holds no signal."""
+    return Analysis(condition(signal, rate, bandwidth), kinematics)

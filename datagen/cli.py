@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from datagen.commands import catalog, check, generate, import_recordings, info, preview, schema
+from datagen.commands import catalog, check, classify, generate, import_recordings, info, preview, schema
 from datagen.commands.program import app
 
-COMMANDS = (generate, import_recordings, check, info, preview, catalog, schema)
+COMMANDS = (generate, import_recordings, check, info, preview, classify, catalog, schema)
 
 
 def main() -> None:

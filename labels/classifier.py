@@ -34,7 +34,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         self.false_alarms = false_alarms
 
     def fit(self, X: Array, y: NDArray[Any], groups: NDArray[Any] | None = None) -> SpallClassifier:
-        """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) name the virtual bearings."""
+        """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) are virtual bearings."""
         X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
         self.classes_ = np.array(CLASSES)
@@ -45,7 +45,9 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         self.race_ = self._stage().fit(_race_columns(faults), _ends_with(y[faulty], "inner"), fault_groups)
         extended = np.char.startswith(y[faulty].astype(str), "extended")
         # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
-        self.length_ = self._stage().fit(faults, extended, fault_groups) if extended.any() and not extended.all() else None
+        self.length_ = (
+            self._stage().fit(faults, extended, fault_groups) if extended.any() and not extended.all() else None
+        )
         self.always_extended_ = bool(extended.all())
         return self
 
@@ -74,12 +76,16 @@ def decide(probability: Array, alarm: float = EVEN) -> NDArray[np.str_]:
 
 def location_probability(probability: Array) -> Array:
     """Probabilities (N, 3) of none, outer and inner from those (N, 5) of CLASSES."""
-    return np.column_stack([probability[:, 0], probability[:, 1] + probability[:, 3], probability[:, 2] + probability[:, 4]])
+    return np.column_stack(
+        [probability[:, 0], probability[:, 1] + probability[:, 3], probability[:, 2] + probability[:, 4]]
+    )
 
 
 def condition_probability(probability: Array) -> Array:
     """Probabilities (N, 3) of healthy, line and extended from those (N, 5) of CLASSES."""
-    return np.column_stack([probability[:, 0], probability[:, 1] + probability[:, 2], probability[:, 3] + probability[:, 4]])
+    return np.column_stack(
+        [probability[:, 0], probability[:, 1] + probability[:, 2], probability[:, 3] + probability[:, 4]]
+    )
 
 
 def joint_class(condition: str, location: str) -> str:

@@ -17,15 +17,15 @@ def learner(name: str, seed: int = SEED) -> Any:
 
     if name == "forest":
         return make_pipeline(
-            ExtraTreesClassifier(300, min_samples_leaf=3, max_features=0.4, class_weight="balanced", random_state=seed)
+            ExtraTreesClassifier(200, min_samples_leaf=3, max_features=0.4, class_weight="balanced", random_state=seed)
         )
     if name == "logistic":
         return make_pipeline(StandardScaler(), LogisticRegression(C=0.05, max_iter=3000, class_weight="balanced"))
     if name == "boosting":
         return make_pipeline(
             HistGradientBoostingClassifier(
-                max_iter=150,
-                learning_rate=0.06,
+                max_iter=100,
+                learning_rate=0.08,
                 max_leaf_nodes=8,
                 min_samples_leaf=15,
                 l2_regularization=3.0,

@@ -1,4 +1,4 @@
-"""What is known of a bearing in operation before its signal is looked at: orders of its defect families and its speed."""
+"""What is known of a bearing in operation before its signal is looked at: orders of its parts and its speed."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 class Kinematics:
     """Ball pass orders of a bearing and the speed of its shaft.
 
-    `balls` in a row, `diameter_ratio` = Db cos α / Dp, `ball_spin` the spin of a ball in orders of the shaft, `shaft_hz`
-    the shaft's speed in Hz, which may be off by 2 %.
+    `balls` in a row, `diameter_ratio` = Db cos α / Dp, `ball_spin` the spin of a ball in orders of the shaft,
+    `shaft_hz` the shaft's speed in Hz, which may be off by 2 %.
     """
 
     balls: int

@@ -19,9 +19,13 @@ def _race_rows(race: str, line: str) -> tuple[Feature, ...]:
     return (
         Feature(f"{race}_evidence", "ln nat", f"ln(1 + evidence of {line} and its harmonics 2 to 4), best band.", SES),
         Feature(f"{race}_spread", "ln nat", f"ln(1 + evidence of {line}), the band at the 75 % quantile.", SES),
-        Feature(f"{race}_others", "ln nat", f"ln(1 + evidence of {line} without its strongest harmonic), best band.", SES),
+        Feature(
+            f"{race}_others", "ln nat", f"ln(1 + evidence of {line} without its strongest harmonic), best band.", SES
+        ),
         Feature(f"{race}_first", "ln nat", f"ln(1 + evidence of the first {line} line alone), best band.", SES),
-        Feature(f"{race}_sidebands", "ln nat", f"ln(1 + evidence of {line} ± shaft, harmonics 1 and 2), best band.", SES),
+        Feature(
+            f"{race}_sidebands", "ln nat", f"ln(1 + evidence of {line} ± shaft, harmonics 1 and 2), best band.", SES
+        ),
         Feature(f"{race}_cage", "ln nat", f"ln(1 + evidence of {line} ± cage, harmonics 1 and 2), best band.", SES),
         Feature(f"{race}_depth", "ln", f"ln of the depth of modulation at the first {line} line, best band.", SES),
         Feature(f"{race}_strength", "ln", f"ln of the mean height of {line} 1 to 3 over the floor, best band.", SES),
@@ -39,7 +43,9 @@ ROWS = (
     Feature("race_others", "ln nat", "outer_others minus inner_others.", SES),
     Feature("ball_evidence", "ln nat", "ln(1 + evidence of twice the ball's spin frequency), best band.", SES),
     Feature("cage_evidence", "ln nat", "ln(1 + evidence of the cage frequency), best band.", SES),
-    Feature("shaft_modulation", "ln nat", "ln(1 + evidence of shaft harmonics 1 to 4 in the envelopes), best band.", SES),
+    Feature(
+        "shaft_modulation", "ln nat", "ln(1 + evidence of shaft harmonics 1 to 4 in the envelopes), best band.", SES
+    ),
     Feature("decoy_evidence", "ln nat", "ln(1 + median evidence at eight orders of no bearing part).", SES),
     Feature("largest_decoy", "ln nat", "ln(1 + largest evidence at eight orders of no bearing part).", SES),
 )
@@ -48,7 +54,7 @@ ROWS = (
 def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
     known, shaft = analysis.kinematics, analysis.speed.shaft_hz
-    found = {}
+    found: dict[str, float] = {}
     for race, family, order in (("outer", analysis.outer, known.bpfo), ("inner", analysis.inner, known.bpfi)):
         found |= {f"{race}_{name}": value for name, value in _race(analysis, family, order).items()}
     for name in ("evidence", "spread", "strength", "depth", "others"):
@@ -106,5 +112,3 @@ def _depth(analysis: Analysis, fundamental: Array) -> float:
 
 def _log(nats: float | np.floating) -> float:
     return float(np.log1p(max(float(nats), 0.0)))
-
-

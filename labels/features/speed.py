@@ -23,7 +23,7 @@ DECISIVE = 12.0
 
 @dataclass(frozen=True)
 class Speed:
-    """Refined shaft speed in Hz, the evidence (nats) of shaft harmonics there, and what they gained over the speed given."""
+    """Refined shaft speed in Hz and the evidence (nats) of shaft harmonics there."""
 
     shaft_hz: float
     evidence: float
@@ -43,8 +43,8 @@ def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tupl
 def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics) -> Speed:
     """The most likely shaft speed within ± 2.2 % of the one given.
 
-    Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without slip
-    comes to the strongest outer or inner family. Without evidence the speed given is kept.
+    Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
+    slip comes to the strongest outer or inner family. Without evidence the speed given is kept.
     """
     step = spectrum.step
     count = int(np.ceil(2.0 * SPEED_TOLERANCE * known.shaft_hz * SHAFT_HARMONICS / (0.5 * step))) + 1

@@ -1,0 +1,142 @@
+"""Rows of the feature table of a corpus: one for each axis and window of a record, read shard by shard."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.benchmark.known import known_kinematics
+from datagen.corpus import Corpus
+from labels.features.analysis import analyse
+from labels.features.conditioning import COMMON_BANDWIDTH, Array
+from labels.features.table import FEATURE_NAMES, feature_values
+from labels.liveness import DEAD, is_dead, liveness
+
+if TYPE_CHECKING:
+    import pandas
+
+UNKNOWN_MACHINE = "no speed or no geometry"
+LONGEST_WINDOW = 10.0
+RECORDS_A_TASK = 24
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How records are turned into rows.
+
+    `bandwidth` (Hz) limits all records alike; `window` (s) is the longest piece; white noise of `noise_db` (signal over
+    noise, None: none) is added in `noise_draw`. `speed_error` and `lowest_bandwidth` are for training on simulated
+    records, whose speed is exact and whose rate is one: the speed told is off by up to that share, and each record is
+    limited to a bandwidth drawn between that and its own; beside it as it is, a copy is read with white noise at a level
+    drawn from `copies_db`.
+    """
+
+    bandwidth: float = COMMON_BANDWIDTH
+    window: float = LONGEST_WINDOW
+    noise_db: float | None = None
+    noise_draw: int = 0
+    speed_error: float = 0.0
+    lowest_bandwidth: float | None = None
+    copies_db: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows (N, F) of the feature table, the record (N,) of each, and per record why it must not be classified."""
+
+    table: Array
+    record: NDArray[np.int64]
+    rejected: dict[int, str] = field(default_factory=dict)
+
+
+def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2) -> Rows:
+    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory."""
+    from joblib import Parallel, delayed, parallel_config
+
+    tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
+    if workers <= 1 or len(tasks) < 2:
+        found = [_task(folder, task, reading) for task in tasks]
+    else:
+        with parallel_config(backend="loky", inner_max_num_threads=1):
+            found = Parallel(n_jobs=workers, batch_size=1, max_nbytes=None)(
+                delayed(_task)(folder, task, reading) for task in tasks
+            )
+    tables = [rows.table for rows in found] or [np.empty((0, len(FEATURE_NAMES)))]
+    owners = [rows.record for rows in found] or [np.empty(0, dtype=np.int64)]
+    rejected: dict[int, str] = {}
+    for rows in found:
+        rejected |= rows.rejected
+    return Rows(np.concatenate(tables), np.concatenate(owners), rejected)
+
+
+def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
+    corpus = Corpus(folder)
+    labels = corpus.labels.set_index("record", drop=False)
+    table: list[Array] = []
+    owners: list[int] = []
+    rejected: dict[int, str] = {}
+    for record in records.tolist():
+        rows, reason = record_rows(corpus.waveform(record), labels.loc[record], reading)
+        table += rows
+        owners += [record] * len(rows)
+        if reason:
+            rejected[record] = reason
+    corpus.close()
+    stacked = np.array(table) if table else np.empty((0, len(FEATURE_NAMES)))
+    return Rows(stacked, np.array(owners, dtype=np.int64), rejected)
+
+
+def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> tuple[list[Array], str]:
+    """Rows of one record (T, A), one an axis and window, and why it must not be classified ("" if it may)."""
+    kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
+    if kinematics is None:
+        return [], UNKNOWN_MACHINE
+    rows, reasons = [], []
+    for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
+        if is_dead(signal):
+            reasons.append(DEAD)
+            continue
+        for copy in range(1 if reading.copies_db is None else 2):
+            stream = _stream(labels, reading, axis, copy)
+            for piece in windows(_noisy(signal, reading, stream, copy), rate, reading.window):
+                given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
+                analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
+                rows.append(feature_values(analysis))
+                reasons.append(liveness(analysis, piece.size).reason)
+    reason = reasons[0] if reasons and all(reasons) else ""
+    return rows, reason
+
+
+def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:
+    """The signal (T,) in as few equal pieces as are no longer than `longest` (s)."""
+    count = max(1, int(np.ceil(signal.size / rate / longest - 0.05)))
+    yield from np.array_split(signal, count)
+
+
+def _stream(labels: pandas.Series[Any], reading: Reading, axis: int, copy: int) -> np.random.Generator:
+    """Random numbers that follow from the record and the draw alone, whatever is read beside it."""
+    name = zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode())
+    level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
+    return np.random.default_rng([name, int(labels["record"]), reading.noise_draw, level, axis, copy])
+
+
+def _noisy(signal: Array, reading: Reading, stream: np.random.Generator, copy: int) -> Array:
+    level = reading.noise_db
+    if copy and reading.copies_db is not None:
+        level = stream.uniform(*reading.copies_db)
+    if level is None:
+        return signal
+    return signal + signal.std() * 10.0 ** (-level / 20.0) * stream.standard_normal(signal.size)
+
+
+def _bandwidth(rate: float, reading: Reading, stream: np.random.Generator) -> float:
+    top = min(reading.bandwidth, rate / 2.0)
+    if reading.lowest_bandwidth is None or reading.lowest_bandwidth >= top:
+        return top
+    return float(np.exp(stream.uniform(np.log(reading.lowest_bandwidth), np.log(top))))

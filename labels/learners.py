@@ -17,7 +17,7 @@ def learner(name: str, seed: int = SEED) -> Any:
 
     if name == "forest":
         return make_pipeline(
-            ExtraTreesClassifier(200, min_samples_leaf=3, max_features=0.4, class_weight="balanced", random_state=seed)
+            ExtraTreesClassifier(120, min_samples_leaf=3, max_features=0.4, class_weight="balanced", random_state=seed)
         )
     if name == "logistic":
         return make_pipeline(StandardScaler(), LogisticRegression(C=0.05, max_iter=3000, class_weight="balanced"))

@@ -33,8 +33,8 @@ class Reading:
     `bandwidth` (Hz) limits all records alike; `window` (s) is the longest piece; white noise of `noise_db` (signal over
     noise, None: none) is added in `noise_draw`. `speed_error` and `lowest_bandwidth` are for training on simulated
     records, whose speed is exact and whose rate is one: the speed told is off by up to that share, and each record is
-    limited to a bandwidth drawn between that and its own; beside it as it is, a copy is read with white noise at a level
-    drawn from `copies_db`.
+    limited to a bandwidth drawn between that and its own; beside it as it is, a copy is read with white noise at a
+    level drawn from `copies_db`.
     """
 
     bandwidth: float = COMMON_BANDWIDTH

@@ -63,8 +63,8 @@ def judge(
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels.
 
-    A record is rejected where it shows no running machine, has no rows, or where the likeliest location has a probability
-    below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
+    A record is rejected where it shows no running machine, has no rows, or where the likeliest location has a
+    probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
     """
     records = labels["record"].to_numpy(np.int64)
     reasons = np.array([rows.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)

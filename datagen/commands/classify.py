@@ -44,8 +44,8 @@ def classify(
 ) -> None:
     """Learn health and location from a simulated corpus and score on corpora, simulated or imported.
 
-    A corpus that is both learned from and tested on is divided by its label split, that is by virtual bearing. Every run
-    on imported recordings is logged in their folder, in scored_runs.jsonl.
+    A corpus that is both learned from and tested on is divided by its label split, that is by virtual bearing. Every
+    run on imported recordings is logged in their folder, in scored_runs.jsonl.
     """
     from datagen.benchmark.request import benchmark_of
     from datagen.plain import plain_json

@@ -102,5 +102,5 @@ class Analysis:
 
 
 def analyse(signal: Array, rate: float, kinematics: Kinematics, bandwidth: float = COMMON_BANDWIDTH) -> Analysis:
-    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError if it holds no signal."""
+    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal."""
     return Analysis(condition(signal, rate, bandwidth), kinematics)

@@ -16,8 +16,8 @@ SHAFT_HARMONICS = 8
 SPECTRUM_FLOOR_ORDERS = 3.0
 SLIP_SPREAD = 0.007
 """Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle."""
-LARGEST_PART = 12.0
-"""No single line counts for more nats than this, so that a lone tone (a mains frequency) does not set the speed."""
+KNEE = 12.0
+"""Nats beyond which a line counts with its logarithm, so that a lone tone (a mains frequency) does not set the speed."""
 DECISIVE = 12.0
 
 
@@ -50,13 +50,17 @@ def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics)
     count = int(np.ceil(2.0 * SPEED_TOLERANCE * known.shaft_hz * SHAFT_HARMONICS / (0.5 * step))) + 1
     factors = np.linspace(1.0 - SPEED_TOLERANCE, 1.0 + SPEED_TOLERANCE, max(45, min(count, 800)) // 2 * 2 + 1)
     speeds = known.shaft_hz * factors
-    shaft = np.minimum(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0], LARGEST_PART)
+    shaft = _tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
     turning = lines_in(envelopes.excess[:1], envelopes.step)
-    modulation = np.minimum(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0], LARGEST_PART)
+    modulation = _tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
     comb = shaft.sum(axis=0) + modulation.sum(axis=0)
     joint = comb + _families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / 0.008) ** 2
     place = int(joint.argmax())
     return Speed(float(speeds[place]), float(comb[place]))
+
+
+def _tempered(nats: Array) -> Array:
+    return np.asarray(KNEE * np.log1p(nats / KNEE))
 
 
 def _families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array) -> Array:

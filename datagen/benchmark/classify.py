@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.benchmark.importance import importances
+from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.score_log import log_run, write_line
@@ -75,19 +76,13 @@ class Benchmark:
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
     """The results as plain numbers, and what was said of every record; raises BadInput."""
     began = time.monotonic()
-    places = [folder.resolve() for folder in benchmark.tests]
-    own = benchmark.train.resolve()
-    if Corpus(benchmark.train).manifest.imported and own not in places:
-        raise BadInput("classifiers learn from simulated corpora only", str(benchmark.train), "--train")
-    labels = training_records(benchmark.train, own in places)
-    say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
-    training = training_set(benchmark.train, labels, benchmark.training_reading(), benchmark.workers)
+    training, labels = _learned_from(benchmark, say)
     rule = train_rule(training)
     models = _models(benchmark, training, labels)
     results: dict[str, Any] = {
         "train": str(benchmark.train),
         "options": benchmark.options,
-        "training_records": len(labels),
+        "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
         "rule_threshold": rule.threshold,
         "alarms": {model.name: model.alarm for model in models},
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
@@ -104,10 +99,24 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
     return results, tested
 
 
-def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame) -> list[Model]:
+def _learned_from(benchmark: Benchmark, say: Say) -> tuple[TrainingSet, pandas.DataFrame | None]:
+    """The training set, and the labels of its records if it is a corpus."""
+    ingredients = ingredients_of(benchmark.train)
+    if ingredients is not None:
+        say("learning from plain impulse trains")
+        return impulse_training(ingredients, benchmark.training_reading(), benchmark.workers), None
+    places = [folder.resolve() for folder in benchmark.tests]
+    if Corpus(benchmark.train).manifest.imported:
+        raise BadInput("classifiers learn from simulated corpora only", str(benchmark.train), "--train")
+    labels = training_records(benchmark.train, benchmark.train.resolve() in places)
+    say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
+    return training_set(benchmark.train, labels, benchmark.training_reading(), benchmark.workers), labels
+
+
+def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> list[Model]:
     if benchmark.estimator is None:
         return train_models(training, benchmark.learner)
-    if benchmark.takes_windows:
+    if benchmark.takes_windows and labels is not None:
         raw = read_windows(benchmark.train, labels["record"].to_numpy(np.int64), benchmark.window_rate)
         training = joined_labels(raw, labels)
     return [train_own(training, benchmark.estimator, benchmark.takes_windows)]
@@ -131,7 +140,7 @@ def _test(
     levels = () if benchmark.takes_windows else benchmark.noise_db
     summary["noise"] = [_noisy(benchmark, folder, labels, rule, models, level, say) for level in levels]
     if imported:
-        log_run(folder, [benchmark.train], benchmark.options, summary)
+        log_run(folder, benchmark.train, benchmark.options, summary)
     return tested, summary
 
 

@@ -15,6 +15,7 @@ from datagen.benchmark.known import known_kinematics
 from datagen.corpus import Corpus
 from labels.features.analysis import analyse
 from labels.features.conditioning import COMMON_BANDWIDTH, Array
+from labels.features.kinematics import Kinematics
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.liveness import DEAD, is_dead, liveness
 
@@ -97,20 +98,31 @@ def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Read
     kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
     if kinematics is None:
         return [], UNKNOWN_MACHINE
-    rows, reasons = [], []
+    rows: list[Array] = []
+    reasons: list[str] = []
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
-        if is_dead(signal):
-            reasons.append(DEAD)
-            continue
-        for copy in range(1 if reading.copies_db is None else 2):
-            stream = _stream(labels, reading, axis, copy)
-            for piece in windows(_noisy(signal, reading, stream, copy), rate, reading.window):
-                given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
-                analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
-                rows.append(feature_values(analysis))
-                reasons.append(liveness(analysis, piece.size).reason)
-    reason = reasons[0] if reasons and all(reasons) else ""
-    return rows, reason
+        found, why = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis])
+        rows += found
+        reasons += why
+    return rows, reasons[0] if reasons and all(reasons) else ""
+
+
+def signal_rows(
+    signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]
+) -> tuple[list[Array], list[str]]:
+    """Rows of one axis (T,) and for each why it must not be classified; `seed` sets the random numbers."""
+    if is_dead(signal):
+        return [], [DEAD]
+    rows, reasons = [], []
+    for copy in range(1 if reading.copies_db is None else 2):
+        level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
+        stream = np.random.default_rng([*seed, reading.noise_draw, level, copy])
+        for piece in windows(_noisy(signal, reading, stream, copy), rate, reading.window):
+            given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
+            analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
+            rows.append(feature_values(analysis))
+            reasons.append(liveness(analysis, piece.size).reason)
+    return rows, reasons
 
 
 def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:
@@ -119,11 +131,9 @@ def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:
     yield from np.array_split(signal, count)
 
 
-def _stream(labels: pandas.Series[Any], reading: Reading, axis: int, copy: int) -> np.random.Generator:
-    """Random numbers that follow from the record and the draw alone, whatever is read beside it."""
-    name = zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode())
-    level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
-    return np.random.default_rng([name, int(labels["record"]), reading.noise_draw, level, axis, copy])
+def _seed(labels: pandas.Series[Any]) -> list[int]:
+    """Numbers that follow from the record alone, whatever is read beside it."""
+    return [zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode()), int(labels["record"])]
 
 
 def _noisy(signal: Array, reading: Reading, stream: np.random.Generator, copy: int) -> Array:

@@ -19,14 +19,15 @@ def log_path(folder: Path) -> Path:
     return folder / NAME
 
 
-def log_run(folder: Path, training: list[Path], options: dict[str, Any], summary: dict[str, Any]) -> None:
+def log_run(folder: Path, training: Path, options: dict[str, Any], summary: dict[str, Any]) -> None:
     """Append one line: when, trained on which corpus (by its recipe's hash), with which options, and the scores.
 
     Raises BadInput if the folder cannot be written: a run that leaves no trace is not made.
     """
     line = {
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
-        "train": [{"folder": str(path), "recipe": read_manifest(path).identity.recipe_hash} for path in training],
+        "train": str(training),
+        "recipe": read_manifest(training).identity.recipe_hash if training.is_dir() else "",
         "options": options,
         "versions": program_versions(),
         "scores": {

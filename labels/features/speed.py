@@ -17,7 +17,7 @@ SPECTRUM_FLOOR_ORDERS = 3.0
 SLIP_SPREAD = 0.007
 """Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle."""
 KNEE = 12.0
-"""Nats beyond which a line counts with its logarithm, so that a lone tone (a mains frequency) does not set the speed."""
+"""Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not set the speed."""
 DECISIVE = 12.0
 
 

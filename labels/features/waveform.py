@@ -45,4 +45,5 @@ def measure(analysis: Analysis) -> dict[str, float]:
 
 
 def _log_kurtosis(wave: Array) -> float:
-    return float(np.log(np.mean(wave**4) / np.mean(wave**2) ** 2))
+    square = wave**2
+    return float(np.log(np.mean(square**2) / square.mean() ** 2))

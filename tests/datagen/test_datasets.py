@@ -23,8 +23,8 @@ def scenarios(name: str) -> list[Scenario]:
     return [draw_scenario(recipe, record) for record in range(recipe.count)]
 
 
-def test_the_shipped_datasets_are_the_three_promised() -> None:
-    assert sorted(shipped_recipes()) == ["fan_rig", "gearbox_rig", "quickstart"]
+def test_the_shipped_datasets_are_the_four_promised() -> None:
+    assert sorted(shipped_recipes()) == ["fan_rig", "gearbox_rig", "quickstart", "transfer"]
 
 
 @pytest.mark.parametrize(

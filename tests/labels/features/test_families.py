@@ -32,10 +32,10 @@ def test_the_line_of_amplitude_modulated_noise_stands_as_high_as_computed():
     spectra = envelope_spectra(record, 25.0, 300.0)
     place = round(frequency / spectra.step)
     # Hann: a line on a component keeps its height, the floor of squared Gaussian noise of bandwidth B over time T has a
-    # mean power of 6 mean² / (B T) near 0 Hz ((2/N)² · N · var, var = mean², times 3/2 for the window).
+    # mean power of 6 mean² / (B T) near 0 Hz: (2/N)² · N · mean², times 3/2 for the window.
     components = record.bandwidth * record.duration
     expected = depth**2 / (6.0 / components * (1.0 - frequency / record.bandwidth))
-    # The height of a line in noise scatters by twice the root of the floor over it: 4 %, and the floor's median by 15 %.
+    # The line scatters by twice the root of the floor over it, 4 %; the median of the floor by 15 %.
     assert spectra.excess[0, place] == pytest.approx(expected, rel=0.35)
     assert spectra.depth[0, place] == pytest.approx(depth, rel=0.1)
 

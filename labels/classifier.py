@@ -17,15 +17,27 @@ CLASSES = ("healthy", "line outer", "line inner", "extended outer", "extended in
 HEALTHY = "healthy"
 FALSE_ALARMS = 0.02
 RACE_PREFIXES = ("outer_", "inner_", "race_")
+SPALL_NAMES = (
+    "kurtosis",
+    "crest_factor",
+    "flat_kurtosis",
+    "band_kurtosis",
+    "median_band_kurtosis",
+    "decoy_evidence",
+    "largest_decoy",
+    "ball_evidence",
+    "cage_evidence",
+)
 EVEN = 0.5
 
 
 class SpallClassifier(ClassifierMixin, BaseEstimator):
     """Three calibrated questions asked with one kind of learner ("forest", "logistic" or "boosting").
 
-    Spall or none, from all features; outer or inner race, only from the features of the two races' line families, since
-    nothing else about a machine tells the race; line or extended, from all. `alarm_` is the probability of a spall that
-    `false_alarms` of the healthy records exceed, on bearings not learned from.
+    Spall or none, from the features of the two races' line families and of impulsiveness; outer or inner race, from the
+    families alone; line or extended, from all. Lines of the shaft, which belong to the machine, tell neither.
+    `alarm_` is the probability of a spall that `false_alarms` of the healthy records exceed, on bearings not learned
+    from.
     """
 
     def __init__(self, kind: str = "forest", seed: int = SEED, false_alarms: float = FALSE_ALARMS) -> None:
@@ -39,7 +51,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
-        self.spall_ = self._stage().fit(X, faulty, groups)
+        self.spall_ = self._stage().fit(_spall_columns(X), faulty, groups)
         self.alarm_ = float(np.quantile(self.spall_.held_out[~faulty], 1.0 - self.false_alarms))
         faults, fault_groups = X[faulty], groups[faulty]
         self.race_ = self._stage().fit(_race_columns(faults), _ends_with(y[faulty], "inner"), fault_groups)
@@ -54,7 +66,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
     def predict_proba(self, X: Array) -> Array:
         """Probabilities (N, 5) of CLASSES; they sum to 1 in each row."""
         X = np.asarray(X, dtype=np.float64)
-        spall, inner = self.spall_.probability(X), self.race_.probability(_race_columns(X))
+        spall, inner = self.spall_.probability(_spall_columns(X)), self.race_.probability(_race_columns(X))
         long = np.full(len(X), float(self.always_extended_)) if self.length_ is None else self.length_.probability(X)
         parts = (1.0 - long) * (1.0 - inner), (1.0 - long) * inner, long * (1.0 - inner), long * inner
         return np.column_stack([1.0 - spall, *(spall * part for part in parts)])
@@ -97,8 +109,11 @@ def joint_class(condition: str, location: str) -> str:
 
 
 def _race_columns(table: Array) -> Array:
-    columns = [place for place, name in enumerate(FEATURE_NAMES) if name.startswith(RACE_PREFIXES)]
-    return np.asarray(table)[:, columns]
+    return np.asarray(table)[:, [name.startswith(RACE_PREFIXES) for name in FEATURE_NAMES]]
+
+
+def _spall_columns(table: Array) -> Array:
+    return np.asarray(table)[:, [name.startswith(RACE_PREFIXES) or name in SPALL_NAMES for name in FEATURE_NAMES]]
 
 
 def _ends_with(names: NDArray[Any], ending: str) -> NDArray[np.bool_]:

@@ -52,6 +52,7 @@ def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
                 axes.plot(spot + shift, found["value"], "o", color=COLOURS[place % 6], markersize=4)
         axes.plot([], [], "o-", color=COLOURS[place % 6], label=name)
     axes.set_xticks(range(len(keys)), list(keys))
+    axes.set_xlim(-0.5, len(keys) - 0.5)
     axes.set_ylim(0.0, 1.03)
     axes.set_title(f"{Path(test['corpus']).name}: {test['records']} records")
     axes.legend(loc="lower left")
@@ -76,17 +77,15 @@ def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
 
 def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
     """Share of spalls against the probability predicted."""
+    if not any("reliability" in scores for scores in test["models"].values()):
+        axes.axis("off")
+        return
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
-    drawn = False
     for place, (name, scores) in enumerate(test["models"].items()):
         if "reliability" in scores:
             curve = scores["reliability"]
             axes.plot(curve["predicted"], curve["observed"], "o-", color=COLOURS[place % 6], markersize=3, label=name)
-            drawn = True
-    if drawn:
-        axes.legend(loc="upper left")
-    else:
-        axes.text(0.5, 0.5, "conditions unknown", ha="center", color=GREY)
+    axes.legend(loc="upper left")
     axes.set_xlabel("predicted probability of a spall")
     axes.set_ylabel("share of spalls")
     axes.set_title("reliability")
@@ -94,6 +93,9 @@ def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
 
 def draw_against(axes: Axes, test: dict[str, Any]) -> None:
     """Accuracy over fault records against the first quantity that varies."""
+    if not any(scores["accuracy_against"] for scores in test["models"].values()):
+        axes.axis("off")
+        return
     axes.set_title("accuracy over faults")
     axes.set_ylim(0.0, 1.03)
     faint_grid(axes)

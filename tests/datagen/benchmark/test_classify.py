@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.benchmark.classify import tested_records as records_to_test
-from datagen.benchmark.rows import LONGEST_WINDOW, UNKNOWN_MACHINE, Reading, record_rows, windows
+from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, windows
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import class_probability, load_estimator, training_records
 from datagen.benchmark.votes import averaged, joined
@@ -134,10 +134,10 @@ def test_votes_are_geometric_means_of_the_rows_of_a_record():
 
 
 def test_long_records_are_cut_into_equal_windows_that_lose_nothing():
-    pieces = list(windows(np.arange(25_000.0), 1000.0, LONGEST_WINDOW))
+    pieces = list(windows(np.arange(25_000.0), 1000.0, 10.0))
     assert [piece.size for piece in pieces] == [8334, 8333, 8333]
     np.testing.assert_array_equal(np.concatenate(pieces), np.arange(25_000.0))
-    assert len(list(windows(np.arange(10_210.0), 1000.0, LONGEST_WINDOW))) == 1
+    assert len(list(windows(np.arange(1290.0), 1000.0, 1.25))) == 1  # 3 % longer is still one
 
 
 def test_a_record_without_a_speed_is_rejected_with_its_reason(tiny_corpus):

@@ -13,6 +13,12 @@ from labels.features.families import HARMONICS, Family, Lines, find_family, line
 from labels.features.kinematics import Kinematics
 from labels.features.speed import Speed, refine_speed, vibration_lines
 
+NARROWEST_BAND = 3.5
+"""Width of the narrowest band, in BPFI: what holds three harmonics of either race's family."""
+OUTER_WINDOW = (-0.027, 0.013)
+"""Share of BPFO by which the line may lie off: a slipping cage lowers it, a contact angle of up to 15° raises it."""
+INNER_WINDOW = (-0.012, 0.020)
+"""The same of BPFI, which slip raises and a contact angle lowers."""
 SLIP_TOLERANCE = 0.025
 SLIP_PRIOR = 0.012
 VIBRATION_ORDERS = 12.0
@@ -36,7 +42,12 @@ class Analysis:
     @cached_property
     def envelopes(self) -> EnvelopeSpectra:
         """Squared envelope spectra of all bands."""
-        return envelope_spectra(self.record, self.given.shaft_hz, min(self.top_hz, 0.45 * self.record.bandwidth))
+        return envelope_spectra(
+            self.record,
+            self.given.shaft_hz,
+            min(self.top_hz, 0.45 * self.record.bandwidth),
+            NARROWEST_BAND * self.given.bpfi * self.given.shaft_hz,
+        )
 
     @cached_property
     def _vibration(self) -> tuple[Lines, Array]:
@@ -72,25 +83,29 @@ class Analysis:
 
     def envelope_family(self, order: float, harmonics: int = HARMONICS) -> Family:
         """The strongest family near an order of the refined speed, in every band's envelope."""
-        return self._family(self.envelope_lines, order, harmonics)
-
-    def vibration_family(self, order: float) -> Family:
-        """The strongest family near an order of the refined speed in the vibration itself."""
-        return self._family(self.vibration, order, HARMONICS)
-
-    def _family(self, lines: Lines, order: float, harmonics: int) -> Family:
         shaft_hz = self.speed.shaft_hz
-        return find_family(lines, order * shaft_hz, SLIP_TOLERANCE, shaft_hz, SLIP_PRIOR, harmonics)
+        return find_family(self.envelope_lines, order * shaft_hz, SLIP_TOLERANCE, shaft_hz, SLIP_PRIOR, harmonics)
+
+    def race_family(self, lines: Lines, race: str) -> Family:
+        """The strongest family of the race "outer" or "inner" in `lines`, within what slip and contact angle allow."""
+        centre, tolerance = self.race_window(race)
+        return find_family(lines, centre, tolerance, self.speed.shaft_hz, SLIP_PRIOR)
+
+    def race_window(self, race: str) -> tuple[float, float]:
+        """Centre (Hz) and half width (a share) of where the first line of the race "outer" or "inner" may lie."""
+        order, window = (self.given.bpfo, OUTER_WINDOW) if race == "outer" else (self.given.bpfi, INNER_WINDOW)
+        centre = 1.0 + 0.5 * (window[0] + window[1])
+        return centre * order * self.speed.shaft_hz, 0.5 * (window[1] - window[0])
 
     @cached_property
     def outer(self) -> Family:
         """Outer-race family in the envelopes."""
-        return self.envelope_family(self.given.bpfo)
+        return self.race_family(self.envelope_lines, "outer")
 
     @cached_property
     def inner(self) -> Family:
         """Inner-race family in the envelopes."""
-        return self.envelope_family(self.given.bpfi)
+        return self.race_family(self.envelope_lines, "inner")
 
     @cached_property
     def decoys(self) -> Array:

@@ -13,6 +13,7 @@ from labels.features.conditioning import Array, Conditioned, Spectrum, local_mea
 LEVELS = 4
 ENVELOPE_HARMONICS = 4.0
 FLOOR_ORDERS = 3.0
+FULL_SHARE = 0.85
 FEWEST_FLOOR_BINS = 16
 
 
@@ -44,13 +45,15 @@ def band_edges(bandwidth: float, narrowest: float) -> Array:
     return np.array(edges)
 
 
-def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float) -> EnvelopeSpectra:
-    """Envelope spectra of the flattened record up to `top_hz`; bands are at least twice as wide as that.
+def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrowest: float) -> EnvelopeSpectra:
+    """Envelope spectra of the flattened record up to `top_hz`, of bands no narrower than `narrowest` (Hz).
+
+    A band holds no difference of frequencies above its width; there the spectrum is set to its floor.
 
     The floor is the median over stretches of three shaft orders, so it follows the slow fall of an envelope spectrum
     and passes under lines.
     """
-    edges = band_edges(record.bandwidth, 2.0 * top_hz)
+    edges = band_edges(record.bandwidth, narrowest)
     count = max(FEWEST_FLOOR_BINS, int(top_hz / record.step) + 1)
     power = np.zeros((len(edges), count))
     square_mean, kurtosis = np.zeros(len(edges)), np.zeros(len(edges))
@@ -61,6 +64,9 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float) -> Env
     floor = local_mean_power(power[:, 1:], block)
     excess = np.zeros_like(power)
     excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    widths = (edges[:, 1] - edges[:, 0]) * record.bandwidth
+    beyond = np.arange(count) * record.step > FULL_SHARE * widths[:, None]
+    excess[beyond] = 1.0
     depth = np.sqrt(power) / square_mean[:, None]
     depth[:, 0] = 0.0
     return EnvelopeSpectra(record.step, excess, depth, kurtosis, edges)

@@ -6,13 +6,12 @@ import numpy as np
 
 from labels.features.analysis import Analysis
 from labels.features.conditioning import Array
-from labels.features.families import Family, Lines, find_family, sideband_evidence
+from labels.features.families import Lines, find_family, sideband_evidence
 from labels.features.feature import Feature
 
 SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope spectrum)"
 RACES = ("outer", "inner")
 STRENGTH_HARMONICS = 3
-STRENGTH_TOLERANCE = 0.025
 
 
 def _race_rows(race: str, line: str) -> tuple[Feature, ...]:
@@ -55,8 +54,8 @@ def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
     known, shaft = analysis.kinematics, analysis.speed.shaft_hz
     found: dict[str, float] = {}
-    for race, family, order in (("outer", analysis.outer, known.bpfo), ("inner", analysis.inner, known.bpfi)):
-        found |= {f"{race}_{name}": value for name, value in _race(analysis, family, order).items()}
+    for race, order in (("outer", known.bpfo), ("inner", known.bpfi)):
+        found |= {f"{race}_{name}": value for name, value in _race(analysis, race, order).items()}
     for name in ("evidence", "spread", "strength", "depth", "others"):
         found[f"race_{name}"] = found[f"outer_{name}"] - found[f"inner_{name}"]
     turning = find_family(analysis.all_envelope_lines, shaft, 0.002, shaft)
@@ -70,7 +69,8 @@ def measure(analysis: Analysis) -> dict[str, float]:
     }
 
 
-def _race(analysis: Analysis, family: Family, order: float) -> dict[str, float]:
+def _race(analysis: Analysis, race: str, order: float) -> dict[str, float]:
+    family = analysis.outer if race == "outer" else analysis.inner
     shaft, best = analysis.speed.shaft_hz, int(family.evidence.argmax())
     others = family.parts.sum(axis=1) - family.parts.max(axis=1)
     fundamental = family.fundamental
@@ -84,18 +84,18 @@ def _race(analysis: Analysis, family: Family, order: float) -> dict[str, float]:
             sideband_evidence(analysis.envelope_lines, fundamental, analysis.kinematics.ftf * shaft, shaft).max()
         ),
         "depth": _depth(analysis, fundamental),
-        "strength": float(np.log(max(line_strength(analysis.envelope_lines, order * shaft), 1e-3))),
+        "strength": float(np.log(max(line_strength(analysis.envelope_lines, *analysis.race_window(race)), 1e-3))),
         "slip": 100.0 * abs(float(fundamental[best]) / (order * shaft) - 1.0),
     }
 
 
-def line_strength(lines: Lines, centre: float) -> float:
+def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
     """Mean height of a family's first three lines over the floor, both as amplitudes, in the best band.
 
-    The lines share a fundamental within 2.5 % of `centre` (Hz); each is read at the resolution of the whole record.
+    The lines share a fundamental within `tolerance` (a share) of `centre` (Hz); each is read at the resolution of the whole record.
     """
-    count = int(np.ceil(2.0 * STRENGTH_TOLERANCE * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
-    grid = centre * np.linspace(1.0 - STRENGTH_TOLERANCE, 1.0 + STRENGTH_TOLERANCE, max(9, min(count, 1200)))
+    count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
+    grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))
     half = np.asarray(0.75 * lines.step)
     heights = [np.sqrt(lines.mean(k * grid, half)) for k in range(1, STRENGTH_HARMONICS + 1)]
     return float(np.mean(heights, axis=0).max())

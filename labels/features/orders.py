@@ -31,8 +31,8 @@ ROWS = (
 
 def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
-    known, shaft = analysis.kinematics, analysis.speed.shaft_hz
-    outer, inner = analysis.vibration_family(known.bpfo), analysis.vibration_family(known.bpfi)
+    shaft = analysis.speed.shaft_hz
+    outer, inner = (analysis.race_family(analysis.vibration, race) for race in ("outer", "inner"))
     lines = {
         "outer_vibration": float(np.log1p(outer.evidence[0])),
         "inner_vibration": float(np.log1p(inner.evidence[0])),

@@ -29,7 +29,7 @@ def test_the_line_of_amplitude_modulated_noise_stands_as_high_as_computed():
     time = np.arange(size) / rate
     noise = generator.standard_normal(size) * np.sqrt(1.0 + depth * np.cos(2.0 * np.pi * frequency * time))
     record = condition(noise, rate)
-    spectra = envelope_spectra(record, 25.0, 300.0)
+    spectra = envelope_spectra(record, 25.0, 300.0, 600.0)
     place = round(frequency / spectra.step)
     # Hann: a line on a component keeps its height, the floor of squared Gaussian noise of bandwidth B over time T has a
     # mean power of 6 mean² / (B T) near 0 Hz: (2/N)² · N · mean², times 3/2 for the window.

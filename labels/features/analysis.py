@@ -19,6 +19,10 @@ OUTER_WINDOW = (-0.027, 0.013)
 """Share of BPFO by which the line may lie off: a slipping cage lowers it, a contact angle of up to 15° raises it."""
 INNER_WINDOW = (-0.012, 0.020)
 """The same of BPFI, which slip raises and a contact angle lowers."""
+UNCERTAIN_WINDOW = (-0.025, 0.025)
+"""The same where no harmonics of the shaft tell its speed."""
+CERTAIN_SPEED = 15.0
+"""Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records."""
 SLIP_TOLERANCE = 0.025
 SLIP_PRIOR = 0.012
 VIBRATION_ORDERS = 12.0
@@ -94,6 +98,8 @@ class Analysis:
     def race_window(self, race: str) -> tuple[float, float]:
         """Centre (Hz) and half width (a share) of where the first line of the race "outer" or "inner" may lie."""
         order, window = (self.given.bpfo, OUTER_WINDOW) if race == "outer" else (self.given.bpfi, INNER_WINDOW)
+        if self.speed.evidence < CERTAIN_SPEED:
+            window = UNCERTAIN_WINDOW
         centre = 1.0 + 0.5 * (window[0] + window[1])
         return centre * order * self.speed.shaft_hz, 0.5 * (window[1] - window[0])
 

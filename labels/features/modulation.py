@@ -92,7 +92,8 @@ def _race(analysis: Analysis, race: str, order: float) -> dict[str, float]:
 def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
     """Mean height of a family's first three lines over the floor, both as amplitudes, in the best band.
 
-    The lines share a fundamental within `tolerance` (a share) of `centre` (Hz); each is read at the resolution of the whole record.
+    The lines share a fundamental within `tolerance` (a share) of `centre` (Hz); each is read at the resolution of the
+    whole record.
     """
     count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
     grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))

@@ -1,5 +1,7 @@
 """The feature table: named, documented, blind to scale, nearly blind to rate, and pointing at the right race."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -73,3 +75,9 @@ def test_noise_shows_no_race():
     table = [features(np.random.default_rng(seed).standard_normal(20_000), 20_000.0, KNOWN) for seed in range(8)]
     evidence = np.array(table)[:, FEATURE_NAMES.index("outer_evidence")]
     assert np.median(evidence) < 2.0  # ln(1 + nats): faults in noise of equal power give 5 to 9
+
+
+def test_the_page_of_features_is_written_from_the_table():
+    page = (Path(__file__).parents[3] / "docs" / "features.md").read_text(encoding="utf-8")
+    for feature in FEATURES:
+        assert f"| `{feature.name}` | {feature.dimension} | {feature.sentence} |" in page

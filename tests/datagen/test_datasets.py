@@ -24,7 +24,7 @@ def scenarios(name: str) -> list[Scenario]:
 
 
 def test_the_promised_datasets_are_shipped() -> None:
-    assert {"corpus", "fan_rig", "gearbox_rig", "quickstart"} <= set(shipped_recipes())
+    assert {"corpus", "fan_rig", "gearbox_rig", "quickstart", "transfer"} <= set(shipped_recipes())
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
@@ -14,6 +14,7 @@ Positive = Annotated[Distribution, Between(0.0, above=True)]
 NotNegative = Annotated[Distribution, Between(0.0)]
 Order = Annotated[int, Field(ge=1, le=2000)]
 Degrees = Annotated[Distribution, Between()]
+CLEAN = "clean"
 
 
 class MachineSettings(Table):
@@ -95,8 +96,30 @@ class ImperfectionSettings(Table):
     """Diameter of each ball minus the nominal one, µm; drawn for each ball."""
 
 
+class _OrClean(Between):
+    """A number as `Between`, or the word "clean"."""
+
+    def allowed(self) -> str:
+        return f'{super().allowed()}, or "{CLEAN}"'
+
+    def accepts(self, value: Any) -> bool:
+        return value == CLEAN or super().accepts(value)
+
+    def value_schema(self) -> dict[str, Any]:
+        return {"anyOf": [super().value_schema(), {"const": CLEAN}]}
+
+
 class BackgroundSettings(Table):
     """Noise that belongs to the virtual machine, the same in all its records, in absolute units."""
 
     white_rms_m_s2: NotNegative = Fixed(0.0)
     """Standard deviation of white noise on each axis, from 0 to half the sampling rate, m/s²."""
+    white_snr_db: Annotated[Distribution, _OrClean(-100.0, 200.0)] | None = None
+    """Drawn for each record: power of the clean y axis over that of its white noise, from 0 to half the sampling rate,
+    in dB, or "clean" for no noise. It replaces white_rms_m_s2 for size studies; a real machine's floor is absolute."""
+
+    @model_validator(mode="after")
+    def _one_level(self) -> BackgroundSettings:
+        if self.white_snr_db is not None and self.white_rms_m_s2 != Fixed(0.0):
+            raise refuse("the noise has two levels", "white_snr_db", "only one of white_rms_m_s2, white_snr_db")
+        return self

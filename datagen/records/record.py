@@ -59,7 +59,7 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     """The record of `scenario` with the optional signals named in `stored`; raises SimulationFailed."""
     scene, rate = scenario.scene, scenario.rate
     trace = simulate(scene, rate, keep_force="contact_force" in stored)
-    noise = background_noise(scenario)
+    noise = background_noise(scenario, trace.acceleration[:, 1])
     acceleration = (trace.acceleration + noise).astype(np.float32)
     stiffness_time = stiffness_axis(scenario)
     stiffness = stiffness_trace(scene, stiffness_time).T
@@ -84,10 +84,13 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     )
 
 
-def background_noise(scenario: Scenario) -> NDArray[np.float64]:
-    """The record's own draw of its machine's white noise (T, 2), m/s²."""
-    shape = (scenario.samples, 2)
-    return scenario.background.white_rms * scenario.generator("white_noise").standard_normal(shape)
+def background_noise(scenario: Scenario, signal: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The record's own draw of white noise (T, 2), m/s²: its machine's, or relative to its clean `signal` (T,)."""
+    shape, floor = (scenario.samples, 2), scenario.background
+    drawn = scenario.generator("white_noise").standard_normal(shape)
+    if floor.white_snr_db is None:
+        return floor.white_rms * drawn
+    return float(signal.std() / drawn[:, 1].std()) * 10.0 ** (-floor.white_snr_db / 20.0) * drawn
 
 
 def signal_to_noise(signal: NDArray[np.float64], noise: NDArray[np.float64]) -> float:

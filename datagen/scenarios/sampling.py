@@ -9,8 +9,10 @@ from functools import lru_cache
 import numpy as np
 
 from datagen.recipes.distributions import Distribution, Fixed
+from datagen.recipes.machine_settings import CLEAN
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Part, Recipe
+from datagen.records.background import Background
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.feasibility import require_equilibrium
 from datagen.scenarios.machine import DEGREES_PER_RADIAN, Machine, draw_machine
@@ -77,9 +79,16 @@ def _draw(
         envelope_band=recipe.signal.envelope_band_hz or _default_band(rig, machine.rate),
         slip_deviation=slip.deviation,
         slip_correlation_time=slip.correlation_time,
-        background=machine.background,
+        background=_draw_background(part, machine, open_stream("background")),
         redraws=redraws,
     )
+
+
+def _draw_background(part: Part, machine: Machine, generator: np.random.Generator) -> Background:
+    """The machine's noise floor, or the record's own noise where the part states its signal-to-noise ratio."""
+    setting = part.background.white_snr_db
+    level = CLEAN if setting is None else setting.draw(generator)
+    return machine.background if level == CLEAN else Background(white_snr_db=float(level))
 
 
 _default_band = lru_cache(maxsize=256)(default_band)

@@ -145,11 +145,16 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         "defects": [_defect(spall) for spall in scene.spalls],
         "waviness": [asdict(wave) for wave in scene.imperfections.waviness],
         "ball_deviation": [list(row) for row in scene.imperfections.ball_deviation],
-        "background": {"white_rms_m_s2": scenario.background.white_rms},
+        "background": _background(scenario.background),
         "seeds": asdict(scenario.seeds) | {"rule": RULE, "scopes": list(SCOPES), "purposes": list(PURPOSES)},
         "redraws": [asdict(redraw) for redraw in scenario.redraws],
         "rules": SCENE_RULES,
     }
+
+
+def _background(floor: Background) -> dict[str, float]:
+    level = {} if floor.white_snr_db is None else {"white_snr_db": floor.white_snr_db}
+    return {"white_rms_m_s2": floor.white_rms} | level
 
 
 def _parameters(scene: Scene) -> dict[str, float]:
@@ -205,7 +210,10 @@ def _from_data(data: dict[str, Any]) -> Scenario:
         envelope_band=(sampling["envelope_band_hz"][0], sampling["envelope_band_hz"][1]),
         slip_deviation=slip["deviation"],
         slip_correlation_time=slip["correlation_time_s"],
-        background=Background(white_rms=data["background"]["white_rms_m_s2"]),
+        background=Background(
+            white_rms=data["background"]["white_rms_m_s2"],
+            white_snr_db=data["background"].get("white_snr_db"),
+        ),
         redraws=tuple(Redraw(**redraw) for redraw in data["redraws"]),
     )
 

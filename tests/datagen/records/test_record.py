@@ -77,6 +77,15 @@ def test_without_background_the_sensor_shows_the_clean_signal(scenario: Scenario
     assert math.isnan(silent.labels["snr_db"])
 
 
+def test_noise_set_relative_to_the_record_has_its_signal_to_noise_ratio(scenario: Scenario) -> None:
+    noisy = make_record(replace(scenario, background=Background(white_snr_db=5.0)), ("acceleration_clean",))
+    assert noisy.labels["snr_db"] == pytest.approx(5.0, abs=1e-3)  # float32 rounding of what is stored
+    assert noisy.acceleration_clean is not None
+    noise = noisy.acceleration.astype(float) - noisy.acceleration_clean
+    # The level is set on y; x gets the same: 1638 samples, 1/sqrt(1638) = 2.5 % between two draws, four of them.
+    assert noise[:, 0].std() == pytest.approx(noise[:, 1].std(), rel=0.1)
+
+
 def test_the_envelope_follows_from_the_stored_acceleration_and_band(record: Record) -> None:
     again = band_envelope(record.acceleration[:, 1], record.labels["rate_hz"], record.labels["envelope_band"])
     assert np.array_equal(record.envelope, again.astype(np.float32))

@@ -295,6 +295,23 @@ def test_the_duration_is_rounded_to_whole_samples() -> None:
     assert scenario.duration == 26214 / 65536
 
 
+def test_a_stated_signal_to_noise_ratio_is_drawn_for_each_record_and_clean_means_no_noise() -> None:
+    levels = {"white_snr_db": {"choice": ["clean", 10, 0]}}
+    drawn = [scenario.background for scenario in draw(records=30, records_per_machine=10, background=levels)]
+    assert {one.white_snr_db for one in drawn} == {None, 10.0, 0.0}
+    assert all(one.white_rms == 0.0 for one in drawn)
+
+
+def test_noise_cannot_have_two_levels_nor_an_unknown_word() -> None:
+    for wrong, words in (
+        ({"white_snr_db": 5, "white_rms_m_s2": 0.1}, "two levels"),
+        ({"white_snr_db": "loud"}, "clean"),
+    ):
+        with pytest.raises(BadInput) as caught:
+            draw(background=wrong)
+        assert words in str(caught.value)
+
+
 def test_the_numbers_drawn_for_a_seed_never_change() -> None:
     (scenario,) = draw(
         machine={"rig": "fan", "clearance_um": {"uniform": [0, 9]}},

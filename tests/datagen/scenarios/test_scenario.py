@@ -59,7 +59,7 @@ def full_scenario() -> Scenario:
         envelope_band=(9000.1, 9999.9),
         slip_deviation=0.0123,
         slip_correlation_time=0.0345,
-        background=Background(0.0678),
+        background=Background(0.0678, 7.6),
         redraws=(Redraw("record", 0, "extent", "too long"),),
     )
 

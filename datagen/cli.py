@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from datagen.commands import catalog, check, generate, info, preview
+from datagen.commands import catalog, check, generate, info, preview, size
 from datagen.commands.program import app
 
-COMMANDS = (generate, check, info, preview, catalog)
+COMMANDS = (generate, check, info, preview, size, catalog)
 
 
 def main() -> None:

@@ -11,17 +11,13 @@ import numpy as np
 
 from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, house_style
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.summary import NOISE_LEVELS, RULES, extent_error, noise_level
+from datagen.sizing.summary import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from datagen.sizing.score import SizeScores
 
-DEPENDENCES = (
-    ("noise", "Noise"), ("size", "Size"), ("lag", "True lag"),
-    ("speed", "Speed"), ("load", "Load"), ("race", "Race"), ("profile", "Profile"), ("rig", "Rig"),
-)  # fmt: skip
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)
 
 
@@ -37,8 +33,9 @@ def draw_size_report(scores: SizeScores, path: Path) -> None:
         _against_truth(panels[0], told, "lag")
         _against_truth(panels[1], told, "extent")
         _rules(panels[2], told)
-        for panel, (key, title) in zip(panels[3:11], DEPENDENCES, strict=True):
-            _bars(panel, summary["by"][key], title)
+        dependences = [name for name in summary["by"] if name != "size, mm"]
+        for panel, name in zip(panels[3:11], dependences, strict=True):
+            _bars(panel, summary["by"][name], name.capitalize())
         _abstention(panels[11], scores.records)
         figure.savefig(path, dpi=130)
         plt.close(figure)
@@ -64,8 +61,8 @@ def _rules(axes: Axes, told: list[ScoredRecord]) -> None:
     for k, ((name, error), colour) in enumerate(zip(methods.items(), (BLUE, *RULE_COLOURS), strict=True)):
         means = [_mean([error(one) for one in told if noise_level(one) == level]) for level in NOISE_LEVELS]
         axes.bar(place + (k - 2) * width, means, width, color=colour, label=name)
-    axes.set_xticks(place, ["clean" if level == math.inf else f"{level:g} dB" for level in NOISE_LEVELS])
-    axes.set(title="Arc against simple rules", ylabel="mean |error| / true")
+    axes.set_xticks(place, [noise_name(level) for level in NOISE_LEVELS])
+    axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
     axes.set_ylim(0.0, 1.3)
     axes.legend(ncols=2, fontsize=6.5, loc="upper left")
     faint_grid(axes)
@@ -82,9 +79,9 @@ def _bars(axes: Axes, table: list[dict[str, Any]], title: str) -> None:
         (("lag_error", BLUE, "lag"), ("arc_error", ORANGE, "arc"), ("no_estimate", GREY, "no estimate, share"))
     ):
         axes.bar(place + (k - 1) * 0.27, [row[column] for row in table], 0.27, color=colour, label=name)
-    axes.set_xticks(place, [f"{row['value']}\n({row['records']})" for row in table], fontsize=6.5)
+    axes.set_xticks(place, [f"{row['value']}\n({row['records']})" for row in table], fontsize=7)
     axes.set(title=f"{title} (records)", ylabel="mean |error| / true")
-    if title == "Noise":
+    if title.startswith("Noise"):
         axes.legend(fontsize=6.5)
     faint_grid(axes)
 

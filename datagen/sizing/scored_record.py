@@ -32,6 +32,7 @@ class ScoredRecord:
     """
 
     record: int
+    bearing_id: str
     rig: str
     race: str
     profile: str
@@ -103,7 +104,7 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator) -> ScoredRecord:
     if told.found and situation.load_known and situation.load is not None:
         static = arc_with_static_release(told.lag_arc, situation.bearing(), told.race, situation.load)
     return ScoredRecord(
-        record=sized.record,
+        record=sized.record, bearing_id=str(labels["bearing_id"]),
         rig=str(labels["rig"]), race=str(labels["location"]), profile=str(labels["profile"]),
         split=str(labels["split"]), snr_db=float(labels["snr_db"]), speed_rpm=float(labels["speed_rpm"]),
         load_n=float(labels["load_n"]), extent_mm=float(labels["extent_mm"]),

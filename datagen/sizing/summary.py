@@ -11,6 +11,7 @@ import numpy as np
 
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from labels.event_scores import EventScores
+from labels.spall_size.known_size import known_size_factor
 
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
 RESAMPLES = 2000
@@ -41,8 +42,11 @@ def summarise(records: list[ScoredRecord], load_known: bool) -> dict[str, Any]:
         "events": {
             "within_100_us": _event_scores(one.events_in_time for one in records),
             "within_0.5_degrees": _event_scores(one.events_in_arc for one in records),
+            "within_100_us, told records": _event_scores(one.events_in_time for one in records if one.found),
+            "within_0.5_degrees, told records": _event_scores(one.events_in_arc for one in records if one.found),
         },
         "long": _long(records),
+        "known_size_of_another_record": _known_size(records),
         "seconds_per_record": {
             "mean": float(np.mean([one.seconds for one in records])) if records else math.nan,
             "largest_after_first": max((one.seconds for one in records[1:]), default=math.nan),
@@ -82,7 +86,7 @@ def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     told = [one for one in scorable if one.found]
     figures: list[Figure] = []
     for level in NOISE_LEVELS:
-        name = "clean" if level == math.inf else f"{level:g} dB"
+        name = noise_name(level) + ("" if level == math.inf else " dB")
         own = [one for one in told if noise_level(one) == level]
         asked = [one for one in scorable if noise_level(one) == level]
         figures.append(_figure(f"lag error, {name}", map(lag_error, own), {math.inf: 0.05, 10.0: 0.10}.get(level)))
@@ -125,35 +129,41 @@ def _bootstrap(sample: np.ndarray) -> tuple[float, float]:
     return float(low), float(high)
 
 
+Bin = tuple[float, str]
+
+
 def _tables(records: list[ScoredRecord]) -> dict[str, list[dict[str, Any]]]:
     scorable = [one for one in records if one.scorable]
-    keys: dict[str, Callable[[ScoredRecord], str]] = {
-        "noise": lambda one: "clean" if noise_level(one) == math.inf else f"{noise_level(one):g} dB",
-        "race": lambda one: one.race,
-        "profile": lambda one: one.profile,
-        "rig": lambda one: one.rig,
-        "size": _binned(lambda one: one.extent_spacing, (0.0, 0.05, 0.1, 0.2, 0.4, 0.9), "spacings"),
-        "size_mm": _binned(lambda one: one.extent_mm, (0.0, 0.5, 1.0, 2.0, 4.0, 16.0), "mm"),
-        "speed": _binned(lambda one: one.speed_rpm, (0.0, 600.0, 1200.0, 1800.0, 2400.0, 1e5), "rpm"),
-        "load": _binned(lambda one: one.load_n, (0.0, 50.0, 200.0, 800.0, 1e9), "N"),
-        "lag": _binned(lambda one: one.true_lag * one.rate, (0.0, 10.0, 20.0, 50.0, 150.0, 1e9), "samples"),
+    keys: dict[str, Callable[[ScoredRecord], Bin]] = {
+        "noise, dB": lambda one: (-noise_level(one), noise_name(noise_level(one))),
+        "size, spacings": _binned(lambda one: one.extent_spacing, (0.0, 0.05, 0.1, 0.2, 0.4, 0.9)),
+        "size, mm": _binned(lambda one: one.extent_mm, (0.0, 0.5, 1.0, 2.0, 4.0, 16.0)),
+        "true lag, samples": _binned(lambda one: one.true_lag * one.rate, (0.0, 10.0, 20.0, 50.0, 150.0, 1e9)),
+        "speed, rpm": _binned(lambda one: one.speed_rpm, (0.0, 600.0, 1200.0, 1800.0, 2400.0, 1e9)),
+        "load, N": _binned(lambda one: one.load_n, (0.0, 50.0, 200.0, 800.0, 1e9)),
+        "race": lambda one: (0.0, one.race),
+        "profile": lambda one: (0.0, one.profile),
+        "rig": lambda one: (0.0, one.rig),
     }
     return {name: _table(scorable, key) for name, key in keys.items()}
 
 
-def _binned(of: Callable[[ScoredRecord], float], edges: tuple[float, ...], unit: str) -> Callable[[ScoredRecord], str]:
-    def name(one: ScoredRecord) -> str:
-        place = int(np.clip(np.searchsorted(edges, of(one), side="right") - 1, 0, len(edges) - 2))
-        if place == len(edges) - 2:
-            return f"over {edges[place]:g} {unit}"
-        return f"{edges[place]:g} to {edges[place + 1]:g} {unit}"
-
-    return name
+def noise_name(level: float) -> str:
+    """ "clean" or the level in dB."""
+    return "clean" if level == math.inf else f"{level:g}"
 
 
-def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], str]) -> list[dict[str, Any]]:
-    groups: dict[str, list[ScoredRecord]] = {}
-    for one in sorted(records, key=lambda one: (one.extent_spacing, one.record)):
+def _binned(of: Callable[[ScoredRecord], float], edges: tuple[float, ...]) -> Callable[[ScoredRecord], Bin]:
+    def place(one: ScoredRecord) -> Bin:
+        k = int(np.clip(np.searchsorted(edges, of(one), side="right") - 1, 0, len(edges) - 2))
+        return edges[k], f"over {edges[k]:g}" if k == len(edges) - 2 else f"{edges[k]:g}–{edges[k + 1]:g}"
+
+    return place
+
+
+def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], Bin]) -> list[dict[str, Any]]:
+    groups: dict[Bin, list[ScoredRecord]] = {}
+    for one in records:
         groups.setdefault(key(one), []).append(one)
     return [
         {
@@ -165,7 +175,7 @@ def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], str]) -> l
             "arc_error": _mean([extent_error(one) for one in own if one.found]),
             "arc_error_median": _median([extent_error(one) for one in own if one.found]),
         }
-        for name, own in groups.items()
+        for (_, name), own in sorted(groups.items())
     ]
 
 
@@ -184,6 +194,21 @@ def _long(records: list[ScoredRecord]) -> dict[str, Any]:
     errors = [min(abs(c - one.true_extent) for c in one.candidates) / one.true_extent for one in told if one.candidates]
     return {"records": len(own), "told": len(told), "error_of_nearest_candidate": _mean(errors),
             "median": _median(errors)}  # fmt: skip
+
+
+def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
+    """Arc error of told records before and after correction by one other told record of the same virtual bearing."""
+    told = [one for one in records if one.scorable and one.found]
+    before, after = [], []
+    for one in told:
+        others = [other for other in told if other.bearing_id == one.bearing_id and other.record != one.record]
+        if others:
+            known = max(others, key=lambda other: (noise_level(other), other.trust))
+            factor = known_size_factor(known.extent, known.true_extent)
+            before.append(extent_error(one))
+            after.append(abs(one.extent * factor - one.true_extent) / one.true_extent)
+    return {"records": len(before), "arc_error_without": _mean(before), "arc_error_with": _mean(after),
+            "median_without": _median(before), "median_with": _median(after)}  # fmt: skip
 
 
 def _event_scores(scores: Iterable[EventScores]) -> dict[str, float]:

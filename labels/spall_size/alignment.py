@@ -21,6 +21,7 @@ ROUNDS = 4
 BLUR = 1.0
 PRIOR_WIDTH = 0.6
 PRIOR_WEIGHT = 0.25
+LEAST_WEIGHT = 0.02  # a pass of less weight is not heard
 
 
 @dataclass(frozen=True)

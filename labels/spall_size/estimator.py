@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.spall_size.alignment import LEAST_WEIGHT
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.measurement import Measurement, measure
-from labels.spall_size.single_passes import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 

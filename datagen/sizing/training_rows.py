@@ -1,8 +1,9 @@
-"""What the calibration is fitted to: pairs and chosen pairs of the training records, clean and with several noises."""
+"""What the calibration is fitted to: pairs of candidates of the training records, clean and with two noises."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,8 +18,7 @@ from labels.spall_size.situation import Situation
 
 Array = NDArray[np.float64]
 
-NOISY_COPIES = 2
-LOUDEST_DB, FAINTEST_DB = -2.0, 26.0
+LEVELS_DB = (math.inf, 20.0, 10.0, 5.0, 0.0)
 ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
 SHORTEST_LAG = 1.5  # samples
 LAG_SCALE = 0.12
@@ -54,21 +54,22 @@ def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Tria
 
 def _of_record(sized: SizedRecord) -> list[Trial]:
     made = []
-    for copy in range(1 + NOISY_COPIES):
-        evidence = gather_evidence(_noisy(sized, copy), sized.rate, sized.situation.pass_periods())
+    for signal in _signals(sized):
+        evidence = gather_evidence(signal, sized.rate, sized.situation.pass_periods())
         if evidence is not None:
-            lean = replace(evidence, whitened=evidence.whitened.astype(np.float32))
-            made.append(_trial(sized, lean))
+            made.append(_trial(sized, replace(evidence, whitened=np.zeros(0))))  # the fit needs no signals
     return made
 
 
-def _noisy(sized: SizedRecord, copy: int) -> Array:
-    clean = (sized.acceleration if sized.clean is None else sized.clean)[:, 1]
-    if copy == 0:
-        return clean
-    generator = stream(0, "record", sized.record, "white_noise", item=copy)
-    level = generator.uniform(LOUDEST_DB, FAINTEST_DB)
-    return np.asarray(clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size))
+def _signals(sized: SizedRecord) -> Iterator[Array]:
+    """The y axis clean, as stored, and with noise of a level drawn from those of the size ladder."""
+    stored = sized.acceleration[:, 1]
+    clean = stored if sized.clean is None else sized.clean[:, 1]
+    generator = stream(0, "record", sized.record, "white_noise", item=1)
+    level = LEVELS_DB[int(generator.integers(len(LEVELS_DB)))]
+    yield clean
+    yield stored
+    yield clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size)
 
 
 def _trial(sized: SizedRecord, evidence: Evidence) -> Trial:

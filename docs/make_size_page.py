@@ -93,7 +93,7 @@ def sentences(known: dict[str, Any]) -> list[str]:
             f"{percent(scores['recall'])}, F1 {percent(scores['f1'])} of {scores['true']} true ones."
         )
     lines.append(
-        f"- One record of a second took {known['seconds_per_record']['mean']:.2f} s on average on a busy machine."
+        f"- One record of a second took {known['seconds_per_record']['mean']:.2f} s of one processor on average."
     )
     return lines
 

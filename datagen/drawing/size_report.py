@@ -35,7 +35,7 @@ def draw_size_report(scores: SizeScores, path: Path) -> None:
         _rules(panels[2], told)
         dependences = [name for name in summary["by"] if name != "size, mm"]
         for panel, name in zip(panels[3:11], dependences, strict=True):
-            _bars(panel, summary["by"][name], name.capitalize())
+            _bars(panel, summary["by"][name], name[0].upper() + name[1:])
         _abstention(panels[11], scores.records)
         figure.savefig(path, dpi=130)
         plt.close(figure)

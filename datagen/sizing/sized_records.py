@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from labels.spall_size.situation import Situation
 Array = NDArray[np.float64]
 PASS_COLUMNS = ("entry_time", "exit_time", "release_time", "regain_time", "fall_time", "rise_time")
 SPEED_ERROR = 0.02
+NEEDED = ("balls", "pitch_diameter", "ball_diameter", "speed_rpm", "rate_hz")
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class SizedRecord:
 def sized_records(
     folder: Path, *, load_known: bool, splits: tuple[str, ...] | None = None, seed: int = 0
 ) -> Iterator[SizedRecord]:
-    """The records of a corpus, in order, one shard in memory at a time.
+    """The records of a corpus whose geometry and speed are known, in order, one in memory at a time.
 
     The stated shaft speed is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean on it.
     """
@@ -49,11 +50,16 @@ def sized_records(
 
     table = read_index(folder)
     chosen = table if splits is None else table[table["split"].isin(splits)]
+    chosen = chosen[[_geometry_known(labels) for labels in chosen.to_dict("records")]]
     for shard, rows in chosen.groupby("shard", sort=True):
         with netCDF4.Dataset(folder / str(shard)) as file:
             file.set_auto_mask(False)
             for labels in rows.to_dict("records"):
                 yield _read(file, {str(key): value for key, value in labels.items()}, load_known, seed)
+
+
+def _geometry_known(labels: Mapping[Any, Any]) -> bool:
+    return all(math.isfinite(float(labels.get(name, math.nan))) for name in NEEDED)
 
 
 def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:

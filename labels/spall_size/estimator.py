@@ -17,7 +17,7 @@ from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
 Array = NDArray[np.float64]
 
-LOAD_AXIS = 1
+LOAD_AXIS = -1  # y, or the only axis of a recording
 ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
 LONGEST_EXTENT = math.pi
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
@@ -30,7 +30,7 @@ class SizeEstimator:
     calibration: Calibration
 
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
-        """Size of the spall in `acceleration` (T,) or (T, 2: x, y), m/s², sampled at `rate` (Hz)."""
+        """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz)."""
         signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
         method = WITH_LOAD if situation.load_known else BLIND
         shortest = 6.0 * min(situation.pass_periods().values())

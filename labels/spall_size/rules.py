@@ -43,9 +43,11 @@ class EnvelopeLagRule:
     share: float = 1.0
 
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
-        """Size of the spall in `acceleration` (T,) or (T, 2: x, y), m/s², sampled at `rate` (Hz); race: outer if not
-        known."""
-        signal = acceleration if acceleration.ndim == 1 else acceleration[:, 1]
+        """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
+
+        If the race is not known, it is taken for the outer one.
+        """
+        signal = acceleration if acceleration.ndim == 1 else acceleration[:, -1]
         race = situation.race or "outer"
         period, bearing = situation.pass_periods()[race], situation.bearing()
         lag = envelope_lag(signal, rate, LONGEST_SHARE * period)

@@ -31,7 +31,10 @@ class Trees:
     base: float
 
     def predict(self, rows: Array) -> Array:
-        """Sums (P,) for `rows` (P, F)."""
+        """Sums (P,) for `rows` (P, F); ValueError if they have too few columns."""
+        needed = int(self.feature.max(initial=-1)) + 1
+        if rows.shape[1] < needed:
+            raise ValueError(f"rows have {rows.shape[1]} columns; the trees need {needed}")
         single = np.ascontiguousarray(rows, dtype=np.float32)
         return self.base + _sums(single, self.feature, self.threshold, self.left, self.right, self.value, self.root)
 

@@ -80,5 +80,10 @@ def test_a_label_of_several_components_becomes_as_many_columns():
     assert LABEL["depth"].columns == ("depth",)
 
 
-def test_only_release_and_regain_may_be_missing_from_a_pass():
-    assert [variable.name for variable in PASSES if variable.missing] == ["release_time", "regain_time"]
+def test_only_what_happens_to_its_load_may_be_missing_from_a_pass():
+    assert [variable.name for variable in PASSES if variable.missing] == [
+        "release_time",
+        "regain_time",
+        "fall_time",
+        "rise_time",
+    ]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from datagen.commands import catalog, check, generate, info, preview, size
+from datagen.commands import catalog, check, generate, import_recordings, info, preview, schema, size
 from datagen.commands.program import app
 
-COMMANDS = (generate, check, info, preview, size, catalog)
+COMMANDS = (generate, import_recordings, check, info, preview, size, catalog, schema)
 
 
 def main() -> None:

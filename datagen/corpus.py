@@ -75,8 +75,9 @@ def _close_all(files: OrderedDict[str, netCDF4.Dataset], owner: int) -> None:
 
 
 class Corpus:
-    """A corpus in a folder: a sequence of (acceleration (T, 2) in m/s², labels), in the order of the record indices.
+    """A corpus in a folder: a sequence of (acceleration (T, axes) in m/s², labels), in the order of the record indices.
 
+    Simulated records have the axes x and y, imported ones those that were recorded.
     Fit for `torch.utils.data.DataLoader` as it is. Raises BadInput if the folder holds no corpus.
     """
 
@@ -114,6 +115,16 @@ class Corpus:
         found: NDArray[Any] = file.variables[variable][position]
         return found
 
+    def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
+        """Acceleration (T,) along one axis of a record, m/s²; BadInput if there is no such record or axis."""
+        shard, position = self._place(record)
+        file = self._shards.file(shard)
+        axes = [str(name) for name in file.variables["axis"][:]]
+        if axis not in axes:
+            raise BadInput(f"record {record} has no such axis", shard, "axis", axis, ", ".join(axes))
+        found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
+        return found.astype(np.float64)
+
     def _place(self, record: int) -> tuple[str, int]:
         try:
             return self._places[int(record)]
@@ -130,12 +141,13 @@ class Corpus:
 
         shard, position = self._place(record)
         with xarray.open_dataset(self.folder / shard, engine="netcdf4") as opened:
+            tables = {"ball_pass": "pass_record", "defect": "defect_record"}
             own = {
-                "record": position,
-                "ball_pass": np.flatnonzero(opened["pass_record"].values == record),
-                "defect": np.flatnonzero(opened["defect_record"].values == record),
+                table: np.flatnonzero(opened[column].values == record)
+                for table, column in tables.items()
+                if column in opened
             }
-            return opened.isel(own).load()
+            return opened.isel(own | {"record": position}).load()
 
     def scenario(self, record: int) -> dict[str, Any]:
         """The scenario of one record: every number that is needed to simulate it again."""

@@ -14,20 +14,21 @@ if TYPE_CHECKING:
 
 def info_tables(info: Info) -> list[Table]:
     """The facts of a corpus, as `spallgen info` shows them."""
-    return [_summary(info), _counts(info), _ranges(info)]
+    crossed = [_crossed(info, title) for title in info.crossed]
+    return [_summary(info), _counts(info), *crossed, *([_refused(info)] if info.refused else []), _ranges(info)]
 
 
 def _summary(info: Info) -> Table:
     table = Table(title=f"{info.name}: {info.title}" if info.title else info.name, show_header=False)
-    size = info.bytes / max(info.records, 1)
     rows = {
         "records": f"{info.records} of {info.asked} asked for; the recipe has {info.recipe_records}",
         "could not be made": str(info.failed),
-        "virtual bearings": str(info.bearings),
+        "virtual bearings": _bearings(info),
         "outside the model's range": f"{info.outside_validity} records",
-        "shards": f"{info.shards}, together {for_people(info.bytes)}, {size / 1e6:.2f} MB a record",
+        "shards": f"{info.shards}, together {for_people(info.bytes)}, {info.record_bytes / 1e6:.2f} MB a record",
         "length": f"{info.signal_seconds:.1f} s of signal",
-        "cost": f"{info.worker_seconds:.1f} s of one worker, {info.made_per_second:.1f} times real time",
+        "cost": f"{info.worker_seconds:.1f} s of one worker, {info.record_seconds:.2f} s a record, "
+        f"{info.made_per_second:.1f} times real time",
         "recipe, model, format, program": ", ".join(info.identity.values()),
         "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),
     }
@@ -36,10 +37,39 @@ def _summary(info: Info) -> Table:
     return table
 
 
+def _bearings(info: Info) -> str:
+    by_split = ", ".join(f"{split} {count}" for split, count in info.bearings_in_split.items())
+    return f"{info.bearings} ({by_split})"
+
+
 def _counts(info: Info) -> Table:
     table = Table("label", "records by value", title="balance")
     for name, counts in info.counts.items():
         table.add_row(name, ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items()))
+    return table
+
+
+def _crossed(info: Info, title: str) -> Table:
+    """Records by two labels, with the share of each row."""
+    rows = info.crossed[title]
+    columns = list(dict.fromkeys(value for counts in rows.values() for value in counts))
+    table = Table(title.split(" x ")[0], title=f"records by {title.replace(' x ', ' and ')}")
+    for heading in (*columns, "all", "share"):
+        table.add_column(heading, justify="right")
+    for value, counts in rows.items():
+        total = sum(counts.values())
+        numbers = (str(counts.get(column, "")) for column in columns)
+        table.add_row(value, *numbers, str(total), f"{total / max(info.records, 1):.1%}")
+    return table
+
+
+def _refused(info: Info) -> Table:
+    table = Table("parameter", title="impossible draws, drawn again")
+    for heading in ("refused", "per record"):
+        table.add_column(heading, justify="right")
+    table.add_column("for example")
+    for what, refused in info.refused.items():
+        table.add_row(what, str(refused.count), f"{refused.count / max(info.records, 1):.3f}", refused.example)
     return table
 
 

@@ -17,16 +17,23 @@ BAND_SHARE = 0.05
 FALLBACK_SHARES = (0.3, 0.45)
 
 
-def default_band(rig: Rig, rate: float) -> Band:
+def resonance_band(rig: Rig) -> Band:
     """Lower and upper edge (Hz) of the band around the rig's coupled resonator mode in the y direction, ± 5 %.
 
     The mode is that of the healthy bearing at the rig's rated load.
-    If that band does not lie below half the sampling `rate` (Hz), the mode is not in the record and the band is
-    0.3 to 0.45 of the rate: the upper part of what was recorded, clear of the roll-off before half the rate.
     """
     stiffness, _ = rated_matrices(rig)
     centre = coupled_resonator_frequency(rig, stiffness)
-    low, high = centre * (1.0 - BAND_SHARE), centre * (1.0 + BAND_SHARE)
+    return centre * (1.0 - BAND_SHARE), centre * (1.0 + BAND_SHARE)
+
+
+def default_band(rig: Rig, rate: float) -> Band:
+    """Lower and upper edge (Hz) of the band of a recording at `rate` (Hz) of a machine like `rig`: `resonance_band`.
+
+    If that band does not lie below half the sampling `rate` (Hz), the mode is not in the record and the band is
+    0.3 to 0.45 of the rate: the upper part of what was recorded, clear of the roll-off before half the rate.
+    """
+    low, high = resonance_band(rig)
     if high < rate / 2.0:
         return low, high
     return FALLBACK_SHARES[0] * rate, FALLBACK_SHARES[1] * rate

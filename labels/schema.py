@@ -12,8 +12,10 @@ LOCATIONS = ("none", "outer", "inner")
 PROFILES = ("none", "tukey", "ball_path", "table")
 CONTACT_LAWS = ("paper", "no_tension")
 SPLITS = ("train", "validation", "test")
+SPEED_BASES = ("set", "measured", "tach", "nominal")
 UNKNOWN = "unknown"
 BAND_EDGES = ("low", "high")
+LAYERS = ("white", "pink", "shaft_harmonics", "gear_mesh", "mains_hum", "impulses", "recording")
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,8 @@ class Label:
     `values` are the allowed texts of a generated record (None: any text); an imported recording may also say one of
     `imported`. `missing` says in words when NaN stands for "not applicable" ("" if it never does); an imported
     recording may have NaN for any number that is unknown, and then leaves unknown truth values and counts out.
-    `source` says who computes it: "scene" (labels.description), "run" (the simulation) or "record" (the corpus).
+    `source` says who computes it: "scene" (labels.description), "run" (the simulation), "record" (the corpus) or
+    "recording" (an imported file; empty in a simulated record).
     `components` name the values of a label that has several; in a flat table each becomes `name_component`.
     """
 
@@ -63,6 +66,9 @@ def _count(name: str, source: str, sentence: str) -> Label:
 LABELS: tuple[Label, ...] = (
     _count("record", "record", "Index of the record in the whole corpus, from 0."),
     _text("part", "record", "Name of the recipe's part that the record belongs to."),
+    _text("recording", "recording", "Name of the recording; empty for a simulated record."),
+    _text("channel", "recording", "Name of the sensor's channel; empty if it has none or was simulated."),
+    _text("source_file", "recording", "File that the recording was read from; empty for a simulated record."),
     _text("split", "record", "Share of the corpus, chosen by virtual bearing and never by record.", SPLITS, (UNKNOWN,)),
     _text("rig", "scene", "Name of the machine around the bearing."),
     _text("bearing", "scene", "Designation of the bearing."),
@@ -95,10 +101,23 @@ LABELS: tuple[Label, ...] = (
         "profile", "scene", "Rule by which the path of the ball's centre follows from the spall.", PROFILES, (UNKNOWN,)
     ),
     _number("speed_rpm", "rpm", "scene", "Mean speed of the shaft in revolutions per minute."),
+    _text(
+        "speed_basis",
+        "record",
+        "How the speed is known: set (simulated), measured beside the vibration, from a tach, or nominal.",
+        SPEED_BASES[:1],
+        (*SPEED_BASES[1:], UNKNOWN),
+    ),
     _number("load_n", "N", "scene", "Static radial load on the shaft, along -y."),
     _number("mean_slip", "1", "scene", "Mean slip of the cage, as a share of its speed without slip."),
     _number("slip_deviation", "1", "scene", "Standard deviation of the cage's slip about its mean over the record."),
-    _text("contact_law", "scene", "Whether the oil film may pull a ball (paper) or not (no_tension).", CONTACT_LAWS),
+    _text(
+        "contact_law",
+        "scene",
+        "Whether the oil film may pull a ball (paper) or not (no_tension).",
+        CONTACT_LAWS,
+        (UNKNOWN,),
+    ),
     _count("balls", "scene", "Rolling elements in one row."),
     _count("rows", "scene", "Rows of rolling elements."),
     _number("pitch_diameter", "m", "scene", "Diameter of the circle through the balls' centres."),
@@ -114,9 +133,37 @@ LABELS: tuple[Label, ...] = (
         "snr_db",
         "dB",
         "record",
-        "Power of the clean acceleration over that of the background, y axis, 0 to half the sampling rate.",
+        "Power of the sensor's signal over that of the background, y axis, 0 to half the sampling rate.",
         "the record has no background",
     ),
+    _number(
+        "snr_band_db",
+        "dB",
+        "record",
+        "Power of the sensor's signal over that of the background, y axis, over snr_band.",
+        "the record has no background in that band",
+    ),
+    _number("snr_band", "Hz", "record", "Lower and upper edge of the band of snr_band_db.", components=BAND_EDGES),
+    _text("background_layers", "record", "Names of the background's layers, joined by ', '; empty without background."),
+    _number(
+        "background_rms",
+        "m s-2",
+        "record",
+        "RMS of each layer of the background, y axis; 0 where the layer is absent.",
+        components=LAYERS,
+    ),
+    _count("sensor_modes", "record", "Resonances between outer ring and sensor, besides the resonator."),
+    _number(
+        "mounting_cutoff_hz", "Hz", "record", "Half-power frequency of the sensor's mounting.", "it passes everything"
+    ),
+    _number(
+        "recorder_step",
+        "m s-2",
+        "record",
+        "Distance between two values that the recorder holds.",
+        "the recorder does not round",
+    ),
+    _number("clipped_share", "1", "record", "Share of samples, both axes, beyond the recorder's range."),
     _number(
         "envelope_band",
         "Hz",
@@ -124,8 +171,8 @@ LABELS: tuple[Label, ...] = (
         "Lower and upper edge of the band of the stored envelope.",
         components=BAND_EDGES,
     ),
-    _text("model", "run", "Model that made the signal."),
-    _text("method", "run", "Integrator that solved it."),
+    _text("model", "run", 'Model that made the signal; "measured" if a real machine did.'),
+    _text("method", "run", 'Integrator that solved it; "none" if nothing was solved.'),
     _number("step", "s", "run", "Longest time step of the integrator.", "the model takes no steps"),
     _number(
         "error_estimate",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
-from labels.schema import BAND_EDGES, LOCATIONS
+from labels.schema import BAND_EDGES, LAYERS, LOCATIONS
 
 AXES = ("x", "y")
 COMPONENTS = ("xx", "yy", "xy")
@@ -14,8 +15,9 @@ COMPONENTS = ("xx", "yy", "xy")
 class Variable:
     """One array of a corpus.
 
-    `dims` and UDUNITS `unit`; `stored` is "always" or the key of the recipe's table `store` that asks for it;
-    `missing` as for labels.
+    `dims` and UDUNITS `unit`; `stored` says which records have it: "always" all, "simulated" all simulated ones (an
+    imported recording perhaps), "imported" all imported ones, any other word those whose recipe asks for it by that
+    key of its table `store`. `missing` as for labels.
     """
 
     name: str
@@ -28,6 +30,12 @@ class Variable:
     values: tuple[str, ...] | None = None
     missing: str = ""
 
+    def required(self, imported: bool) -> bool:
+        """True if every record of a simulated (or an imported) corpus has it."""
+        return self.stored in ("always", "imported" if imported else "simulated")
+
+
+_simulated = partial(Variable, stored="simulated")
 
 COORDINATES: tuple[Variable, ...] = (
     Variable("record", ("record",), "int64", "1", "record", "Index of the record in the whole corpus, from 0."),
@@ -50,6 +58,7 @@ COORDINATES: tuple[Variable, ...] = (
         "Angle fixed to the defective race and equal to the angle in space at t = 0; from -pi to pi, end excluded.",
     ),
     Variable("band_edge", ("band_edge",), "str", "", "band edge", "Edge of a frequency band.", values=BAND_EDGES),
+    Variable("layer", ("layer",), "str", "", "layer", "Layer of the background.", values=LAYERS),
 )
 
 SIGNALS: tuple[Variable, ...] = (
@@ -68,6 +77,7 @@ SIGNALS: tuple[Variable, ...] = (
         "m s-2",
         "envelope of the acceleration",
         "Magnitude of the analytic signal of the y axis in the record's envelope_band.",
+        stored="simulated",
     ),
     Variable(
         "stiffness",
@@ -76,6 +86,7 @@ SIGNALS: tuple[Variable, ...] = (
         "N m-1",
         "stiffness of the bearing",
         "Quasi-static stiffness at each instant's load, cage angle and spall position; read by linear interpolation.",
+        stored="simulated",
     ),
     Variable(
         "acceleration_clean",
@@ -85,6 +96,24 @@ SIGNALS: tuple[Variable, ...] = (
         "clean acceleration",
         "Acceleration of the resonator's mass before any sensor path, filter or background.",
         stored="clean",
+    ),
+    Variable(
+        "acceleration_sensor",
+        ("record", "time", "axis"),
+        "float32",
+        "m s-2",
+        "acceleration at the sensor",
+        "Acceleration after sensor paths and mounting, before background and recorder.",
+        stored="sensor",
+    ),
+    Variable(
+        "background",
+        ("record", "layer", "time", "axis"),
+        "float32",
+        "m s-2",
+        "background",
+        "Layers of the background; their sum plus acceleration_sensor is what the recorder is given.",
+        stored="background",
     ),
     Variable(
         "cage_angle",
@@ -117,14 +146,30 @@ SIGNALS: tuple[Variable, ...] = (
 )
 
 SCENARIO = Variable(
-    "scenario", ("record",), "str", "", "scenario", "JSON text with every number that is needed to simulate the record."
+    "scenario",
+    ("record",),
+    "str",
+    "",
+    "scenario",
+    "JSON text with every number that is needed to simulate the record.",
+    stored="simulated",
+)
+
+PROVENANCE = Variable(
+    "provenance",
+    ("record",),
+    "str",
+    "",
+    "provenance",
+    "JSON text: which numbers of which file the record is, how they were scaled, and notes that came with them.",
+    stored="imported",
 )
 
 PASSES: tuple[Variable, ...] = (
-    Variable("pass_record", ("ball_pass",), "int64", "1", "record of the pass", "Record in which the ball passes."),
-    Variable("pass_row", ("ball_pass",), "int16", "1", "row of the pass", "Row of the ball, from 1."),
-    Variable("pass_ball", ("ball_pass",), "int16", "1", "ball of the pass", "Ball of its row, from 1."),
-    Variable(
+    _simulated("pass_record", ("ball_pass",), "int64", "1", "record of the pass", "Record in which the ball passes."),
+    _simulated("pass_row", ("ball_pass",), "int16", "1", "row of the pass", "Row of the ball, from 1."),
+    _simulated("pass_ball", ("ball_pass",), "int16", "1", "ball of the pass", "Ball of its row, from 1."),
+    _simulated(
         "pass_defect",
         ("ball_pass",),
         "int16",
@@ -132,7 +177,7 @@ PASSES: tuple[Variable, ...] = (
         "defect of the pass",
         "Which spall of the record is passed: place among the record's rows of the defect table, from 0.",
     ),
-    Variable(
+    _simulated(
         "entry_time",
         ("ball_pass",),
         "float64",
@@ -140,7 +185,7 @@ PASSES: tuple[Variable, ...] = (
         "time of entry",
         "The ball's centre reaches the edge met first; below 0 if the pass began before the record.",
     ),
-    Variable(
+    _simulated(
         "deepest_time",
         ("ball_pass",),
         "float64",
@@ -148,10 +193,10 @@ PASSES: tuple[Variable, ...] = (
         "time at the deepest point",
         "The ball's centre is at the deepest point of its path, or at the middle of a flat floor.",
     ),
-    Variable(
+    _simulated(
         "exit_time", ("ball_pass",), "float64", "s", "time of exit", "The ball's centre reaches the edge met last."
     ),
-    Variable(
+    _simulated(
         "release_time",
         ("ball_pass",),
         "float64",
@@ -160,7 +205,7 @@ PASSES: tuple[Variable, ...] = (
         "First loss of contact between entry and exit.",
         missing="the ball never lost contact during the pass, or did not touch at entry",
     ),
-    Variable(
+    _simulated(
         "regain_time",
         ("ball_pass",),
         "float64",
@@ -169,7 +214,7 @@ PASSES: tuple[Variable, ...] = (
         "Contact begins again after the last loss between entry and exit; may lie after exit.",
         missing="the ball was not released, or takes no load again within the record",
     ),
-    Variable(
+    _simulated(
         "loaded",
         ("ball_pass",),
         "bool",
@@ -177,7 +222,7 @@ PASSES: tuple[Variable, ...] = (
         "loaded",
         "True if the ball touches both races at some moment of the pass.",
     ),
-    Variable(
+    _simulated(
         "complete",
         ("ball_pass",),
         "bool",
@@ -206,8 +251,10 @@ PASSES: tuple[Variable, ...] = (
 )
 
 DEFECTS: tuple[Variable, ...] = (
-    Variable("defect_record", ("defect",), "int64", "1", "record of the defect", "Record to which the spall belongs."),
-    Variable(
+    _simulated(
+        "defect_record", ("defect",), "int64", "1", "record of the defect", "Record to which the spall belongs."
+    ),
+    _simulated(
         "defect_race",
         ("defect",),
         "str",
@@ -216,8 +263,8 @@ DEFECTS: tuple[Variable, ...] = (
         "Race that carries the spall.",
         values=LOCATIONS[1:],
     ),
-    Variable("defect_row", ("defect",), "int16", "1", "row of the defect", "Row of balls that meets it, from 1."),
-    Variable(
+    _simulated("defect_row", ("defect",), "int16", "1", "row of the defect", "Row of balls that meets it, from 1."),
+    _simulated(
         "defect_angle",
         ("defect",),
         "float64",
@@ -225,8 +272,8 @@ DEFECTS: tuple[Variable, ...] = (
         "angle of the defect",
         "Centre of the spall at t = 0, counter-clockwise from +x; an inner one turns with the shaft.",
     ),
-    Variable("defect_extent", ("defect",), "float64", "rad", "extent of the defect", "Arc covered by the spall."),
-    Variable("defect_depth", ("defect",), "float64", "m", "depth of the defect", "Depth of the floor of the spall."),
+    _simulated("defect_extent", ("defect",), "float64", "rad", "extent of the defect", "Arc covered by the spall."),
+    _simulated("defect_depth", ("defect",), "float64", "m", "depth of the defect", "Depth of the floor of the spall."),
 )
 
-VARIABLES: tuple[Variable, ...] = (*COORDINATES, *SIGNALS, SCENARIO, *PASSES, *DEFECTS)
+VARIABLES: tuple[Variable, ...] = (*COORDINATES, *SIGNALS, SCENARIO, PROVENANCE, *PASSES, *DEFECTS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +112,7 @@ def crossing_times(
     return time
 
 
+@lru_cache(maxsize=16)
 def slip_knot_scale(correlation: float) -> float:
     """Factor that gives the spline through unit-variance AR(1) knots of neighbour `correlation` unit mean variance."""
     knots = np.arange(41)

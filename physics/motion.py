@@ -80,11 +80,17 @@ def resonator_acceleration(motion: MotionModel, state: Array, axis: int) -> floa
 
 
 @njit
-def relative_acceleration(motion: MotionModel, state: Array, axis: int, load: float, force: float) -> float:
-    """Acceleration of the inner relative to the outer ring along one axis, m/s², under load and contact force (N)."""
+def outer_ring_acceleration(motion: MotionModel, state: Array, axis: int, force: float) -> float:
+    """Acceleration of the outer ring along one axis, m/s², under the contact force (N) on it [P14 Eq. 13-14]."""
     outer = force - motion.support_stiffness[axis] * state[2 + axis] - motion.support_damping[axis] * state[8 + axis]
     outer -= motion.resonator_mass * resonator_acceleration(motion, state, axis)
-    return (load - force) / motion.inner_mass - outer / motion.outer_mass
+    return outer / motion.outer_mass
+
+
+@njit
+def relative_acceleration(motion: MotionModel, state: Array, axis: int, load: float, force: float) -> float:
+    """Acceleration of the inner relative to the outer ring along one axis, m/s², under load and contact force (N)."""
+    return (load - force) / motion.inner_mass - outer_ring_acceleration(motion, state, axis, force)
 
 
 def starting_state(motion: MotionModel, displacement: Array) -> Array:

@@ -20,6 +20,9 @@ class Outcome(Enum):
     NO_START = "give a load that the bearing can carry, or fewer or smaller gaps in the loaded race"
     NOT_FINITE = "use a shorter step (more substeps), or check masses, stiffness and damping for extreme values"
     TOO_MANY_CHANGES = "use the no-tension contact law, more film damping or a shorter step"
+    TOO_MANY_STEPS = (
+        "ask for less accuracy, or use an implicit or exponential method, whose step stiffness does not limit"
+    )
     BAD_REQUEST = "correct the argument named in the message"
 
 

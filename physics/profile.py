@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -25,6 +26,8 @@ CELLS_PER_ROUGHNESS_STEP = 4
 # Cells of 5 µm round the corners of a path over a rough surface and move the acceleration by 1.2 %, these by 0.3 %.
 ROLLED_STEP = 2e-6
 TOUCHING_SHARE = 0.02
+# A record asks for the path of each of its spalls about eight times.
+PATHS_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -94,8 +97,12 @@ def sample_path(breaks: Array, cells: NDArray[np.int64], cubics: Array, arcs: Ar
     return depth, slope
 
 
+@lru_cache(maxsize=PATHS_KEPT)
 def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
-    """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface."""
+    """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface.
+
+    The same spall and bearing give the same object, so its arrays are for reading only.
+    """
     if spall.profile == "tukey":
         return _tukey_path(spall)
     smooth_gap = spall.entry_taper == 0.0 and spall.exit_taper == 0.0 and not spall.roughness_values

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics.assembly import assemble
 from physics.contact import ContactModel
-from physics.integrators.exponential_rk4 import march_exponential_rk4
+from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, UNLOCATED, Grid, Output
+from physics.integrators.methods import MARCHES
 from physics.integrators.propagator import power_series
 from physics.kinks import known_kinks
 from physics.motion import motion_model, resonator_acceleration
@@ -22,13 +22,19 @@ from physics.trace import ContactChanges, Trace
 Array = NDArray[np.float64]
 
 MODEL = "nonlinear 6-DOF"
-MARCHES: Mapping[str, Callable[..., int]] = {"exponential_rk4": march_exponential_rk4}
 FIRST_CHANGE_LOG = 4096
 LARGEST_CHANGE_LOG = 2_097_152
 
 
 def respond(
-    scene: Scene, start: Array, grid: Grid, method: str, *, keep_state: bool = False, keep_force: bool = False
+    scene: Scene,
+    start: Array,
+    grid: Grid,
+    method: str,
+    *,
+    keep_state: bool = False,
+    keep_force: bool = False,
+    keep_outer: bool = False,
 ) -> Trace:
     """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, without an error estimate.
 
@@ -43,13 +49,17 @@ def respond(
             raise SimulationFailed(
                 Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
             )
-        output = _empty_output(contact, grid.samples, capacity, keep_state, keep_force)
+        output = _empty_output(contact, grid.samples, capacity, keep_state, keep_force, keep_outer)
         status = MARCHES[method](
             contact.balls, contact.frames, contact.law, contact.track, motion, series, grid, stops, start, output
         )
         capacity *= 8
     if status == NOT_FINITE:
         raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps of {grid.step:.3g} s")
+    if status == OUT_OF_STEPS:
+        raise SimulationFailed(
+            Outcome.TOO_MANY_STEPS, f"the method {method} used up its steps within {scene.duration:g} s"
+        )
     return _trace(scene, contact, grid, output, method)
 
 
@@ -82,12 +92,15 @@ def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, 
     )
 
 
-def _empty_output(contact: ContactModel, samples: int, capacity: int, keep_state: bool, keep_force: bool) -> Output:
+def _empty_output(
+    contact: ContactModel, samples: int, capacity: int, keep_state: bool, keep_force: bool, keep_outer: bool
+) -> Output:
     balls = contact.ball.size
     return Output(
         acceleration=np.zeros((samples, 2)),
         state=np.zeros((samples if keep_state else 0, 12)),
         force=np.zeros((samples if keep_force else 0, balls)),
+        outer=np.zeros((samples if keep_outer else 0, 6)),
         change_time=np.zeros(capacity),
         change_ball=np.zeros(capacity, dtype=np.int64),
         change_made=np.zeros(capacity, dtype=np.bool_),
@@ -126,4 +139,7 @@ def _trace(scene: Scene, contact: ContactModel, grid: Grid, output: Output, meth
         unlocated_changes=int(output.tally[UNLOCATED]),
         state=output.state if output.state.shape[0] else None,
         contact_force=force,
+        outer_displacement=output.outer[:, 0:2] if output.outer.shape[0] else None,
+        outer_velocity=output.outer[:, 2:4] if output.outer.shape[0] else None,
+        outer_acceleration=output.outer[:, 4:6] if output.outer.shape[0] else None,
     )

@@ -12,12 +12,13 @@ from physics._jit import discard_cache
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
+from physics.integrators.methods import METHODS, REFERENCE
 from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.resampling import decimate
-from physics.response import MARCHES, respond, respond_by_reference
+from physics.response import respond, respond_by_reference
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics import equilibrium
@@ -25,8 +26,6 @@ from physics.trace import Trace
 
 Array = NDArray[np.float64]
 
-REFERENCE = "reference"
-METHODS = (*MARCHES, REFERENCE)
 STEPS_PER_FAST_PERIOD = 6.2
 SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0
@@ -47,6 +46,7 @@ def simulate(
     accuracy: float = 1e-3,
     keep_state: bool = False,
     keep_force: bool = False,
+    keep_outer: bool = False,
     estimate_error: bool = True,
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
@@ -54,10 +54,11 @@ def simulate(
     `substeps` is the number of steps a sample. None starts from the fewest that resolve the fastest mode and doubles
     them until a pilot of a few ball passes differs from one at half the step by no more than the relative RMS
     `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate too low to hold
-    the resonator is simulated at a multiple of it and decimated without aliasing (states and forces stay samples). The
-    reference method has no estimate. Raises SimulationFailed with a typed outcome.
+    the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer ring's motion kept by
+    `keep_outer` (states and forces stay samples). The reference method has no estimate. Raises SimulationFailed with a
+    typed outcome.
     """
-    _check_request(scene, rate, method, substeps, keep_force)
+    _check_request(scene, rate, method, substeps, keep_force or keep_outer)
     start = _starting_state(scene)
     samples = round(scene.duration * rate)
     if method == REFERENCE:
@@ -68,7 +69,7 @@ def simulate(
         most = steps if substeps else max(MOST_SUBSTEPS, steps)
         steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
     grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
-    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force)
+    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force, keep_outer=keep_outer)
     return replace(_lowered(trace, rate, factor), error_estimate=error)
 
 
@@ -97,7 +98,7 @@ def warm_up() -> None:
         simulate(scene, 65536.0)
 
 
-def _check_request(scene: Scene, rate: float, method: str, substeps: int | None, keep_force: bool) -> None:
+def _check_request(scene: Scene, rate: float, method: str, substeps: int | None, keeps: bool) -> None:
     problem = ""
     if method not in METHODS:
         problem = f'method = "{method}"; allowed: {", ".join(METHODS)}'
@@ -107,8 +108,8 @@ def _check_request(scene: Scene, rate: float, method: str, substeps: int | None,
         problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
     elif substeps is not None and (substeps != int(substeps) or substeps < 1):
         problem = f"substeps = {substeps!r}; it must be a whole number, 1 or more"
-    elif method == REFERENCE and keep_force:
-        problem = "keep_force = True; the reference method keeps no forces"
+    elif method == REFERENCE and keeps:
+        problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
@@ -165,4 +166,11 @@ def _lowered(trace: Trace, rate: float, factor: int) -> Trace:
         acceleration=decimate(trace.acceleration, factor),
         state=None if trace.state is None else trace.state[::factor],
         contact_force=None if trace.contact_force is None else trace.contact_force[::factor],
+        outer_displacement=_decimated(trace.outer_displacement, factor),
+        outer_velocity=_decimated(trace.outer_velocity, factor),
+        outer_acceleration=_decimated(trace.outer_acceleration, factor),
     )
+
+
+def _decimated(signal: Array | None, factor: int) -> Array | None:
+    return None if signal is None else decimate(signal, factor)

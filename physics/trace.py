@@ -31,7 +31,9 @@ class Trace:
 
     `time` (T,) s from 0; `acceleration` (T, 2) of the resonator's mass along x and y, m/s²;
     `state` (T, 12): displacements (xi, yi, xo, yo, xr, yr) in m, then velocities in m/s, or None if not asked for;
-    `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for.
+    `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for;
+    `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring
+    along x and y, or None if not asked for.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
     `unlocated_changes` counts changes of contact that were taken at a step's end because one step held too many.
@@ -49,3 +51,6 @@ class Trace:
     unlocated_changes: int = 0
     state: Array | None = None
     contact_force: Array | None = None
+    outer_displacement: Array | None = None
+    outer_velocity: Array | None = None
+    outer_acceleration: Array | None = None

@@ -33,7 +33,7 @@ def check(
 def _tell_verdict(verdict: Verdict, remake: int) -> None:
     state = "sound" if verdict.sound else f"NOT sound: {len(verdict.problems)} problems"
     print(f"{verdict.folder}: {verdict.records} records in {verdict.shards} shards, {state}")
-    if not verdict.remade and verdict.sound and remake:
+    if not verdict.remade and verdict.sound and remake and not verdict.imported:
         print("not simulated again: this program's physics are another version than the corpus's")
     if verdict.remade:
         names = ", ".join(map(str, verdict.remade))

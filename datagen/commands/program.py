@@ -32,8 +32,9 @@ CorpusFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a c
 Command = Callable[..., None]
 
 
-def command(example: str) -> Callable[[Command], Command]:
-    """Add a command to the program: bad input and Ctrl-C end it with a sentence and their exit code."""
+def command(example: str, name: str | None = None) -> Callable[[Command], Command]:
+    """Add a command to the program, called `name` or like its function: bad input and Ctrl-C end it with a sentence
+    and their exit code."""
 
     def register(function: Command) -> Command:
         @functools.wraps(function)
@@ -48,7 +49,7 @@ def command(example: str) -> Callable[[Command], Command]:
                 complain("interrupted; nothing that was finished is lost")
                 raise typer.Exit(INTERRUPTED) from None
 
-        return app.command(epilog=f"Example: {example}")(guarded)
+        return app.command(name, epilog=f"Example: {example}")(guarded)
 
     return register
 

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from datagen.corpora.conformity import violations
-from datagen.corpora.format import FORMAT, content_hash, format_hash
+from datagen.corpora.format import FORMAT, content_hash, data_hash, format_hash
 from datagen.corpora.index import LABEL_COLUMNS, read_index
 from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
 from datagen.records.versions import program_hash
+from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
     import pandas
@@ -38,6 +39,7 @@ class Verdict:
     folder: str
     shards: int
     records: int
+    imported: bool
     remade: tuple[int, ...]
     largest_difference: float
     problems: tuple[str, ...]
@@ -63,8 +65,8 @@ def check_corpus(folder: Path, remake: int = 0) -> Verdict:
     check.whole()
     check.remake(remake)
     return Verdict(
-        str(folder), len(check.sidecars), len(check.records), tuple(check.remade), check.difference,
-        tuple(check.problems),
+        str(folder), len(check.sidecars), len(check.records), manifest.imported, tuple(check.remade),
+        check.difference, tuple(check.problems),
     )  # fmt: skip
 
 
@@ -89,9 +91,12 @@ class _Check:
             return None
 
     def _read_recipe(self) -> Recipe | None:
-        """The recipe, if it can be read and is the one that made the corpus."""
+        """The recipe, if it can be read and is the one that made the corpus; None for imported recordings."""
         from datagen.recipes.recipe import parse_recipe
 
+        if self.manifest.imported:
+            self._check_import()
+            return None
         try:
             recipe = parse_recipe(self.manifest.recipe, self.folder / "manifest.json")
         except BadInput as problem:
@@ -101,6 +106,10 @@ class _Check:
             self.problems.append("manifest.json: its recipe is not the one whose hash it states")
             return None
         return recipe
+
+    def _check_import(self) -> None:
+        if data_hash(self.manifest.recipe) != self.manifest.identity.recipe_hash:
+            self.problems.append("manifest.json: its SPEC and files are not those whose hash it states")
 
     def files(self) -> None:
         """Read every sidecar, and find files that do not belong together."""
@@ -205,7 +214,8 @@ class _Check:
             return
         if set(self.index["record"]) != self.records or not self.index["record"].is_unique:
             self.problems.append("index.csv does not list every record of the shards once")
-        splits = self.index.groupby("bearing_id")["split"].nunique()
+        known = self.index[self.index["bearing_id"] != UNKNOWN]
+        splits = known.groupby("bearing_id")["split"].nunique()
         if (splits > 1).any():
             self.problems.append(f"the records of bearing {splits.idxmax()} are in more than one split")
 
@@ -215,7 +225,7 @@ class _Check:
         from physics._jit import fingerprint
 
         if not count or not self.records or self.problems or self.manifest.identity.model_hash != fingerprint():
-            return
+            return  # imported recordings have no model and so end here too
         ordered = sorted(self.records)
         corpus = Corpus(self.folder)
         for place in np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int)):

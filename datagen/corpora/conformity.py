@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from datagen.corpora.format import LABEL_VARIABLES
+from datagen.corpora.format import LABEL_VARIABLES, is_imported
+from labels.schema import LABEL
 from labels.variables import VARIABLES, Variable
 
 if TYPE_CHECKING:
@@ -15,18 +16,24 @@ if TYPE_CHECKING:
 
 
 def violations(dataset: xarray.Dataset) -> Iterator[str]:
-    """Every way in which the decoded `dataset` of a shard departs from the format or contradicts itself."""
+    """Every way in which the decoded `dataset` of a shard departs from the format or contradicts itself.
+
+    Imported recordings may leave labels unknown and have no tables of passes and defects.
+    """
     wrong = [sentence for variable in (*VARIABLES, *LABEL_VARIABLES) for sentence in _wrong_variable(dataset, variable)]
     yield from wrong
     if not wrong:
         yield from _wrong_times(dataset)
         yield from _wrong_labels(dataset)
-        yield from _wrong_tables(dataset)
+        if not is_imported(dataset):
+            yield from _wrong_tables(dataset)
 
 
 def _is_optional(variable: Variable, dataset: xarray.Dataset) -> bool:
+    imported = is_imported(dataset)
     coordinate_of_nothing = variable.dims == (variable.name,) and variable.name not in dataset.dims
-    return variable.stored != "always" or coordinate_of_nothing
+    unknown = imported and variable.name in LABEL and variable.dtype in ("int64", "bool")
+    return not variable.required(imported) or coordinate_of_nothing or unknown
 
 
 def _wrong_variable(dataset: xarray.Dataset, variable: Variable) -> Iterator[str]:
@@ -45,13 +52,15 @@ def _wrong_variable(dataset: xarray.Dataset, variable: Variable) -> Iterator[str
     if found.attrs.get("units", "") != variable.unit:
         yield f'{name} has the unit "{found.attrs.get("units", "")}"; it must be "{variable.unit}"'
     if kind.startswith("float"):
-        bad = ~np.isfinite(found.values) if not variable.missing else np.isinf(found.values)
+        may_be_unknown = variable.missing or (name in LABEL and is_imported(dataset))
+        bad = np.isinf(found.values) if may_be_unknown else ~np.isfinite(found.values)
         if bad.any():
             yield f"{name} has {int(bad.sum())} values that are not finite"
     if variable.values is not None:
-        strange = sorted(set(found.values.ravel().tolist()) - set(variable.values))
+        allowed = variable.values + (LABEL[name].imported if name in LABEL and is_imported(dataset) else ())
+        strange = sorted(set(found.values.ravel().tolist()) - set(allowed))
         if strange:
-            yield f'{name} has the value "{strange[0]}"; allowed: {", ".join(variable.values)}'
+            yield f'{name} has the value "{strange[0]}"; allowed: {", ".join(allowed)}'
 
 
 def _wrong_times(dataset: xarray.Dataset) -> Iterator[str]:
@@ -69,14 +78,16 @@ def _wrong_labels(dataset: xarray.Dataset) -> Iterator[str]:
     extended = dataset["condition"].values == "extended"
     relative = dataset["extent_spacing"].values
     low, high = dataset["envelope_band"].values.T
+    unbanded = np.isnan(low) & np.isnan(high)
     rules = {
         "condition and location disagree": healthy != (dataset["location"].values == "none"),
-        "condition and spalls disagree": healthy != (dataset["spalls"].values == 0),
         "condition and extent disagree": healthy != (dataset["extent"].values == 0.0),
-        "condition and extent_spacing disagree": extended != (relative >= 1.0 - 1e-9),
-        "envelope_band is not below half the rate": ~((low < high) & (high <= dataset["rate_hz"].values / 2.0)),
+        "condition and extent_spacing disagree": (extended != (relative >= 1.0 - 1e-9)) & ~np.isnan(relative),
+        "envelope_band is not below half the rate": ~(unbanded | ((low < high) & (high <= _half_rate(dataset)))),
         "tension_share is not a share": ~_within(dataset["tension_share"].values, 0.0, 1.0),
     }
+    if "spalls" in dataset:
+        rules["condition and spalls disagree"] = healthy != (dataset["spalls"].values == 0)
     for sentence, broken in rules.items():
         if broken.any():
             yield f"{sentence} in record {int(dataset['record'].values[broken][0])}"
@@ -102,6 +113,10 @@ def _wrong_tables(dataset: xarray.Dataset) -> Iterator[str]:
     counts = [(dataset["defect_record"].values == one).sum() for one in record]
     if not np.array_equal(counts, dataset["spalls"].values):
         yield "the defect table and the label spalls disagree"
+
+
+def _half_rate(dataset: xarray.Dataset) -> np.ndarray:
+    return dataset["rate_hz"].values / 2.0
 
 
 def _within(values: np.ndarray, low: float, high: float) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from datagen.errors import BadInput
 from datagen.records.versions import program_versions
-from labels.schema import BAND_EDGES, LABELS, Label
+from labels.schema import BAND_EDGES, LABELS, LAYERS, Label
 from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
 
 if TYPE_CHECKING:
@@ -21,13 +21,24 @@ if TYPE_CHECKING:
     from datagen.records.record import Record
 
 FORMAT = "spallgen corpus 1"
+SIMULATED, IMPORTED = "simulated", "imported"
 COMPRESSIONS = ("zlib", "none")
+COMPONENT_DIMENSIONS = {BAND_EDGES: ("band_edge",), LAYERS: ("layer",)}
 LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
+SIMULATED_ATTRIBUTES = {
+    "summary": "Simulated vibration of rolling bearings, healthy or with a raceway spall, with exact labels.",
+    "keywords": "rolling bearing, raceway spall, vibration, condition monitoring, simulation",
+    "source": "six-degree-of-freedom bearing model with nonlinear contact, simulated by spallgen",
+    "references": "Petersen, Howard, Sawalhi, Moazen Ahmadi, Singh (2014)",
+    "processing_level": SIMULATED,
+}
 ROUNDED = "Rounded from float64 to float32: relative error of each value at most 6e-8."
 # Stored over raw size with zlib, as measured on both test rigs; for saying beforehand what disk a corpus needs.
 ZLIB_SHARE = {
     "acceleration": 0.85,
     "acceleration_clean": 0.85,
+    "acceleration_sensor": 0.85,
+    "background": 0.25,
     "envelope": 0.75,
     "stiffness": 0.5,
     "cage_angle": 0.6,
@@ -40,7 +51,8 @@ ZLIB_SHARE = {
 class Identity:
     """What made a corpus, as hashes of 16 hexadecimal digits: a corpus never mixes two identities.
 
-    `model_hash` is of the physics, `program_hash` of everything else that draws, describes and stores.
+    `model_hash` is of the physics, `program_hash` of everything else that draws, describes and stores. An imported
+    corpus has the hash of its SPEC and of the files that it names as `recipe_hash`, and no `model_hash` ("").
     """
 
     recipe_hash: str
@@ -59,9 +71,14 @@ def format_hash() -> str:
     return hashlib.sha256(json.dumps(rows, sort_keys=True).encode()).hexdigest()[:16]
 
 
+def data_hash(data: dict[str, Any]) -> str:
+    """Hash of plain data, 16 hexadecimal digits."""
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]
+
+
 def label_variable(label: Label) -> Variable:
     """The variable that holds a label: one value a record, or one a record and component."""
-    dims = ("record", "band_edge") if label.components else ("record",)
+    dims = ("record", *COMPONENT_DIMENSIONS.get(label.components, ()))
     return Variable(
         label.name, dims, label.dtype, label.unit, label.name.replace("_", " "), label.sentence,
         values=label.values, missing=label.missing,
@@ -77,8 +94,6 @@ def to_dataset(records: Sequence[Record], attributes: dict[str, str]) -> xarray.
 
     `attributes` are added to the global ones. Variables absent from the records are absent from the dataset.
     """
-    import xarray
-
     first = records[0]
     columns: dict[str, Any] = {"scenario": [record.scenario for record in records]}
     for variable in SIGNALS:
@@ -87,9 +102,21 @@ def to_dataset(records: Sequence[Record], attributes: dict[str, str]) -> xarray.
     for label in LABELS:
         columns[label.name] = [record.labels[label.name] for record in records]
     columns |= _pass_columns(records) | _defect_columns(records) | _coordinates(first, columns)
+    return from_columns(columns, global_attributes(first.labels) | SIMULATED_ATTRIBUTES | attributes)
+
+
+def from_columns(columns: dict[str, Any], attributes: dict[str, str]) -> xarray.Dataset:
+    """The dataset of values by name of variable or label, with the dimensions, types and units of the tables."""
+    import xarray
+
     data = {name: _array(VARIABLE[name], values) for name, values in columns.items()}
     coordinates = {name: data.pop(name) for name in list(data) if VARIABLE[name].dims == (name,)}
-    return xarray.Dataset(data, coordinates, _global_attributes(first) | attributes)
+    return xarray.Dataset(data, coordinates, attributes)
+
+
+def is_imported(dataset: xarray.Dataset) -> bool:
+    """True if the records of a shard's `dataset` are imported recordings."""
+    return dataset.attrs.get("processing_level") == IMPORTED
 
 
 def _array(variable: Variable, values: Any) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
@@ -106,7 +133,7 @@ def _array(variable: Variable, values: Any) -> tuple[tuple[str, ...], np.ndarray
 
 def _coordinates(first: Record, columns: dict[str, Any]) -> dict[str, Any]:
     known = {"time": first.time, "axis": AXES, "component": COMPONENTS, "stiffness_time": first.stiffness_time,
-             "band_edge": BAND_EDGES}  # fmt: skip
+             "band_edge": BAND_EDGES, "layer": LAYERS}  # fmt: skip
     for dim in ("row", "ball", "profile_angle"):
         owner = next((v for v in SIGNALS if dim in v.dims and v.name in columns), None)
         if owner is not None:
@@ -140,17 +167,13 @@ def _repeated(records: Sequence[Record], counts: list[int]) -> np.ndarray:
     return np.repeat(np.array([record.index for record in records], dtype=np.int64), counts)
 
 
-def _global_attributes(first: Record) -> dict[str, str]:
-    duration, rate = first.labels["duration_s"], first.labels["rate_hz"]
+def global_attributes(labels: Mapping[str, Any]) -> dict[str, str]:
+    """The attributes of a shard that every corpus has; `labels` are those of one of its records."""
+    duration, rate = labels["duration_s"], labels["rate_hz"]
     return {
         "Conventions": "CF-1.11, ACDD-1.3",
         "format": FORMAT,
-        "summary": "Simulated vibration of rolling bearings, healthy or with a raceway spall, with exact labels.",
-        "keywords": "rolling bearing, raceway spall, vibration, condition monitoring, simulation",
-        "source": "six-degree-of-freedom bearing model with nonlinear contact, simulated by spallgen",
-        "references": "Petersen, Howard, Sawalhi, Moazen Ahmadi, Singh (2014)",
         "product_version": f"spallgen {program_versions()['spallgen']}",
-        "processing_level": "simulated",
         "time_coverage_duration": f"PT{float(duration):.12g}S",
         "time_coverage_resolution": f"PT{1.0 / float(rate):.12g}S",
     }

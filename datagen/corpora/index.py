@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import heapq
 import io
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -79,7 +80,10 @@ def _rows(sidecar: Sidecar, folder: Path) -> Iterator[Row]:
 
 
 def read_index(folder: Path) -> pandas.DataFrame:
-    """The index as a table of `labels.schema`'s columns and types, in the order of the records; raises BadInput."""
+    """The index as a table of `labels.schema`'s columns and types, in the order of the records; raises BadInput.
+
+    A column of counts that are not all known holds floats with NaN, one of truth values objects with NaN.
+    """
     import pandas
 
     path = index_path(folder)
@@ -99,6 +103,8 @@ def read_index(folder: Path) -> pandas.DataFrame:
 def _typed(texts: tuple[str, ...], kind: str) -> NDArray[Any] | list[str]:
     if kind == "str":
         return list(texts)
+    unknown = "NaN" in texts
     if kind == "bool":
-        return np.array([{"True": True, "False": False}[text] for text in texts], dtype=np.bool_)
-    return np.array(texts, dtype=np.str_).astype(kind)
+        values = [{"True": True, "False": False, "NaN": math.nan}[text] for text in texts]
+        return np.array(values, dtype=object if unknown else np.bool_)
+    return np.array(texts, dtype=np.str_).astype("float64" if unknown else kind)

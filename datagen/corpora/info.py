@@ -7,12 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from datagen.corpus import Corpus
+from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 
 if TYPE_CHECKING:
     import pandas
 
 COUNTED = ("condition", "location", "rig", "bearing", "profile", "contact_law", "split", "part")
+CROSSED = (("condition", "location"), ("condition", "split"), ("rig", "split"))
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,8 @@ class Info:
     """Facts of a corpus: records by value of each worded label, ranges of each numeric one, size and cost.
 
     `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
-    a second.
+    a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
+    records by two labels at once, `bearings_in_split` virtual bearings; `refused` are the impossible draws.
     """
 
     name: str
@@ -45,9 +48,14 @@ class Info:
     signal_seconds: float
     worker_seconds: float
     made_per_second: float
+    record_seconds: float
+    record_bytes: float
     bearings: int
     outside_validity: int
+    bearings_in_split: dict[str, int]
     counts: dict[str, dict[str, int]]
+    crossed: dict[str, dict[str, dict[str, int]]]
+    refused: dict[str, Refused]
     ranges: dict[str, Range]
     identity: dict[str, str]
     made_with: dict[str, str]
@@ -60,7 +68,7 @@ def corpus_info(folder: Path) -> Info:
     signal_seconds = float(table["duration_s"].sum())
     return Info(
         name=manifest.name,
-        title=str(manifest.recipe.get("title") or ""),
+        title=manifest.title,
         records=len(table),
         asked=manifest.asked_records,
         recipe_records=manifest.recipe_records,
@@ -70,9 +78,14 @@ def corpus_info(folder: Path) -> Info:
         signal_seconds=signal_seconds,
         worker_seconds=manifest.seconds,
         made_per_second=signal_seconds / manifest.seconds if manifest.seconds else 0.0,
+        record_seconds=manifest.seconds / max(len(table), 1),
+        record_bytes=manifest.bytes / max(len(table), 1),
         bearings=int(table["bearing_id"].nunique()),
         outside_validity=int((table["validity"] != "").sum()),
+        bearings_in_split=_counts(table.drop_duplicates("bearing_id")["split"]),
         counts={name: _counts(table[name]) for name in COUNTED},
+        crossed={f"{one} x {other}": _crossed(table, one, other) for one, other in CROSSED},
+        refused=manifest.refused,
         ranges=_ranges(table),
         identity=manifest.identity.to_dict(),
         made_with=manifest.made_with,
@@ -81,6 +94,10 @@ def corpus_info(folder: Path) -> Info:
 
 def _counts(column: pandas.Series) -> dict[str, int]:
     return {str(value): int(count) for value, count in column.value_counts().items()}
+
+
+def _crossed(table: pandas.DataFrame, one: str, other: str) -> dict[str, dict[str, int]]:
+    return {str(value): _counts(part[other]) for value, part in table.groupby(one)}
 
 
 def _ranges(table: pandas.DataFrame) -> dict[str, Range]:

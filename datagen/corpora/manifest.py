@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from datagen.corpora.atomic import write_atomically
-from datagen.corpora.format import FORMAT, Identity
+from datagen.corpora.format import FORMAT, IMPORTED, SIMULATED, Identity
 from datagen.corpora.shard import Failure, Sidecar, shard_path
 from datagen.errors import BadInput
+from datagen.scenarios.redraw import Refused, add_refused
 
 Span = tuple[int, int]
 
@@ -33,8 +34,9 @@ class ShardEntry:
 class Manifest:
     """What a corpus is. `asked` are the spans [start, stop) of records that runs were asked for, over all runs.
 
-    `recipe` is the whole recipe as data; `shards`, `failed`, `bytes` and `seconds` (of work, summed over workers) are
-    what the sidecars of the shards say.
+    `recipe` is the whole recipe as data, or the SPEC of imported recordings with its files; `origin` says which
+    ("simulated", "imported"). `shards`, `failed`, `bytes`, `seconds` (of work, summed over workers) and `refused`
+    (impossible draws, by parameter) are what the sidecars of the shards say.
     """
 
     name: str
@@ -47,6 +49,19 @@ class Manifest:
     failed: tuple[Failure, ...] = ()
     bytes: int = 0
     seconds: float = 0.0
+    refused: dict[str, Refused] = field(default_factory=dict)
+    origin: str = SIMULATED
+
+    @property
+    def imported(self) -> bool:
+        """True if its records are recordings of real machines."""
+        return self.origin == IMPORTED
+
+    @property
+    def title(self) -> str:
+        """One line for people, "" if there is none."""
+        said = self.recipe["spec"] if self.imported else self.recipe
+        return str(said.get("title") or "")
 
     @property
     def records(self) -> int:
@@ -67,6 +82,7 @@ class Manifest:
             failed=tuple(failure for sidecar in found for failure in sidecar.failed),
             bytes=sum(sidecar.bytes for sidecar in found),
             seconds=round(sum(sidecar.seconds for sidecar in found), 3),
+            refused=add_refused(sidecar.refused for sidecar in found),
         )
 
 
@@ -97,6 +113,8 @@ def read_manifest(folder: Path) -> Manifest:
             failed=tuple(Failure(**failure) for failure in found["failed"]),
             bytes=int(found["bytes"]),
             seconds=float(found["seconds"]),
+            refused={str(what): Refused(**counted) for what, counted in found["refused"].items()},
+            origin=str(found["origin"]),
         )
     except FileNotFoundError:
         raise BadInput("this folder has no manifest.json, so it is no corpus", str(folder)) from None

@@ -6,12 +6,13 @@ import hashlib
 import json
 import threading
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from datagen.corpora.atomic import write_atomically
 from datagen.corpora.format import Identity, content_hash, encoding
+from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ class Sidecar:
 
     `sha256` is of the file's bytes, `content` of its decoded arrays; `seconds` is what making it took.
     `labels` holds a list per column of the labels' flat table, in the order of `records`; None stands for NaN.
+    `refused` counts the impossible draws of its records by parameter; those of a machine count with its first record.
     A shard whose every record failed has no file: `bytes` is 0 and both hashes are empty.
     """
 
@@ -47,6 +49,7 @@ class Sidecar:
     content: str
     seconds: float
     labels: dict[str, list[Any]]
+    refused: dict[str, Refused] = field(default_factory=dict)
 
     @property
     def settled(self) -> frozenset[int]:
@@ -72,10 +75,11 @@ def write_shard(
     failed: tuple[Failure, ...],
     compression: str,
     seconds: float,
+    refused: dict[str, Refused] | None = None,
 ) -> Sidecar:
     """Write `dataset` (None: every record failed) whole or not at all, then its sidecar; OSError on a full disk."""
     if dataset is None:
-        sidecar = Sidecar(shard, identity, (), failed, 0, "", "", seconds, {})
+        sidecar = Sidecar(shard, identity, (), failed, 0, "", "", seconds, {}, refused or {})
     else:
         content = serialise(dataset, compression)
         sidecar = Sidecar(
@@ -88,6 +92,7 @@ def write_shard(
             content=content_hash(dataset),
             seconds=seconds,
             labels=label_columns(dataset),
+            refused=refused or {},
         )
         write_atomically(shard_path(folder, shard), content)
     write_atomically(sidecar_path(folder, shard), json.dumps(asdict(sidecar), allow_nan=False).encode())
@@ -104,9 +109,12 @@ def serialise(dataset: xarray.Dataset, compression: str) -> memoryview:
 
 
 def label_columns(dataset: xarray.Dataset) -> dict[str, list[Any]]:
-    """The labels of a shard's `dataset` as a flat table: a list of plain values per column."""
+    """The labels of a shard's `dataset` as a flat table: a list of plain values per column, None where unknown."""
     columns: dict[str, list[Any]] = {}
     for label in LABELS:
+        if label.name not in dataset.variables:
+            columns |= {column: [None] * dataset.sizes["record"] for column in label.columns}
+            continue
         values = dataset[label.name].values
         for place, column in enumerate(label.columns):
             chosen = (values[:, place] if label.components else values).tolist()
@@ -128,6 +136,7 @@ def read_sidecar(path: Path) -> Sidecar | None:
             content=str(found["content"]),
             seconds=float(found["seconds"]),
             labels={str(name): list(column) for name, column in found["labels"].items()},
+            refused={str(what): Refused(**counted) for what, counted in found["refused"].items()},
         )
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, outside_legend
@@ -14,24 +15,28 @@ from labels.spectrum import amplitude_spectrum
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+Array = NDArray[np.float64]
+
 HARMONICS = 6
 CURSOR_TOLERANCE = 0.012
 RESOLVED_BINS = 2.5
 DECADES = 4.5
 
 
-def draw_spectrum(axes: Axes, portrait: Portrait) -> None:
-    """Amplitude spectrum of the acceleration along y, m/s² against kHz, with the band of the envelope."""
-    frequency, amplitude = amplitude_spectrum(portrait.acceleration[:, 1], portrait.rate)
+def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, float], axis: str = "y") -> None:
+    """Amplitude spectrum of an acceleration (T,), m/s² against kHz, with the band of its envelope (Hz)."""
+    frequency, amplitude = amplitude_spectrum(signal, rate)
     axes.semilogy(frequency[1:] * 1e-3, amplitude[1:], color=BLUE, linewidth=0.5)
-    low, high = envelope_band(portrait)
+    low, high = band
     axes.axvspan(low * 1e-3, high * 1e-3, color=ORANGE, alpha=0.3, linewidth=0, zorder=0)
+    left = high > 0.75 * rate / 2.0
     axes.annotate(
-        f"envelope band\n{low * 1e-3:.2f} to {high * 1e-3:.2f} kHz", (high * 1e-3, 1.0), (3, -2),
-        xycoords=("data", "axes fraction"), textcoords="offset points", va="top", fontsize=7.5, color=INK,
+        f"envelope band\n{low * 1e-3:.2f} to {high * 1e-3:.2f} kHz", ((low if left else high) * 1e-3, 1.0),
+        (-3 if left else 3, -2), xycoords=("data", "axes fraction"), textcoords="offset points", va="top",
+        ha="right" if left else "left", fontsize=7.5, color=INK,
     )  # fmt: skip
-    axes.set(xlim=(0.0, portrait.rate / 2e3), ylim=_decades(amplitude[1:]), xlabel="frequency (kHz)", ylabel="m/s²")
-    axes.set_title("Amplitude spectrum, y axis")
+    axes.set(xlim=(0.0, rate / 2e3), ylim=decades(amplitude[1:]), xlabel="frequency (kHz)", ylabel="m/s²")
+    axes.set_title(f"Amplitude spectrum, {axis} axis")
     faint_grid(axes)
 
 
@@ -48,10 +53,10 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
     main = known[portrait.defect_frequency]
     top = (HARMONICS + 0.6) * main
     shown = (frequency > 0.0) & (frequency <= top)
-    limits = _decades(amplitude[shown])
+    limits = decades(amplitude[shown])
     axes.semilogy(frequency[shown], amplitude[shown], color=BLUE, linewidth=0.8)
     for name, marker, colour, targets in cursors(portrait):
-        lines = [_height(frequency, amplitude, target, known["FTF"]) for target in targets if 0.0 < target < top]
+        lines = [line_height(frequency, amplitude, target, known["FTF"]) for target in targets if 0.0 < target < top]
         heights = [line for line in lines if line[1] > limits[0]]
         axes.plot(
             [line[0] for line in heights], [line[1] for line in heights], marker, color=colour, label=name,
@@ -95,14 +100,16 @@ def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
     return families
 
 
-def _height(frequency: np.ndarray, amplitude: np.ndarray, target: float, spacing: float) -> tuple[float, float]:
+def line_height(frequency: Array, amplitude: Array, target: float, spacing: float) -> tuple[float, float]:
+    """Frequency and height of the largest line near `target` (Hz), where other lines lie `spacing` (Hz) apart."""
     reach = max(min(CURSOR_TOLERANCE * target, spacing / 3.0), frequency[1])
     near = np.flatnonzero(np.abs(frequency - target) <= reach)
     best = near[int(np.argmax(amplitude[near]))]
     return float(frequency[best]), float(amplitude[best])
 
 
-def _decades(amplitude: np.ndarray) -> tuple[float, float]:
+def decades(amplitude: Array) -> tuple[float, float]:
+    """Limits of a logarithmic axis that show the amplitudes without the deepest gaps between lines."""
     top = float(amplitude.max()) if amplitude.size and amplitude.max() > 0.0 else 1.0
     bottom = max(float(np.quantile(amplitude, 0.02)) / 2.0, top * 10.0**-DECADES) if amplitude.size else 1e-3 * top
     return bottom, 2.0 * top

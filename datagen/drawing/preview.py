@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.corpora.atomic import write_atomically
-from datagen.corpora.manifest import manifest_path
+from datagen.corpora.manifest import manifest_path, read_manifest
 from datagen.errors import BadInput
 from labels.schema import LABELS
 from labels.truth import PassTable
@@ -18,6 +18,7 @@ from physics.outcome import SimulationFailed
 if TYPE_CHECKING:
     import xarray
 
+    from datagen.drawing.measured_portrait import MeasuredPortrait
     from datagen.drawing.portrait import Portrait
 
 
@@ -31,9 +32,43 @@ def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, 
 
     picture = _writable(Path(out))
     folder = Path(source)
+    if manifest_path(folder).is_file() and read_manifest(folder).imported:
+        return _draw_measured(folder, record, picture)
     portrait = _of_corpus(folder, record) if manifest_path(folder).is_file() else _of_recipe(source, record)
     write_atomically(picture, sheet_png(portrait))
     return _facts(portrait)
+
+
+def _draw_measured(folder: Path, record: int, picture: Path) -> dict[str, Any]:
+    from datagen.drawing.measured_sheet import measured_sheet_png
+
+    portrait = measured_portrait(folder, record)
+    write_atomically(picture, measured_sheet_png(portrait))
+    return {
+        "labels": dict(portrait.labels),
+        "frequencies_hz": portrait.frequencies,
+        "close_up_s": list(portrait.window),
+        "axis": portrait.axis,
+    }
+
+
+def measured_portrait(folder: Path, record: int) -> MeasuredPortrait:
+    """What a sheet shows of a record of the imported corpus in `folder`; raises BadInput if it is not there."""
+    from datagen.corpus import Corpus
+    from datagen.drawing.measured_portrait import MeasuredPortrait
+
+    corpus = Corpus(folder)
+    try:
+        found = corpus.dataset(record)
+    finally:
+        corpus.close()
+    return MeasuredPortrait(
+        corpus=corpus.manifest.name,
+        labels={label.name: _plain(found[label.name].values) for label in LABELS if label.name in found},
+        rate=float(found["rate_hz"]),
+        axes=tuple(str(axis) for axis in found["axis"].values),
+        acceleration=found["acceleration"].values.astype(np.float64),
+    )
 
 
 def _writable(picture: Path) -> Path:

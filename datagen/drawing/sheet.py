@@ -6,7 +6,7 @@ import io
 import math
 from typing import TYPE_CHECKING
 
-from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum
+from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum, envelope_band
 from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import GREY, INK, house_style, plt
@@ -51,7 +51,8 @@ def draw_sheet(portrait: Portrait) -> Figure:
     draw_ball_load(figure.add_subplot(place_rows[1], sharex=path), portrait)
     path.set_xlim(*_ends(portrait))
     frequency_rows = right[1].subgridspec(2, 1, hspace=0.62)
-    draw_spectrum(figure.add_subplot(frequency_rows[0]), portrait)
+    band = envelope_band(portrait)
+    draw_spectrum(figure.add_subplot(frequency_rows[0]), portrait.acceleration[:, 1], portrait.rate, band)
     draw_envelope_spectrum(figure.add_subplot(frequency_rows[1]), portrait)
     figure.text(0.06, 0.972, heading(portrait), fontsize=13, fontweight="bold", color=INK)
     figure.text(0.06, 0.948, summary(portrait), fontsize=9, color=GREY)

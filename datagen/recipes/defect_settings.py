@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import product
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, WithJsonSchema, model_validator
+from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
 from datagen.recipes.distributions import Distribution, Fixed, Uniform
 from datagen.recipes.profile_table import ProfileTable
@@ -28,8 +28,8 @@ IN_THE_LOAD_ZONE = Fixed(270.0)
 class SpallSettings(Table):
     """Place, size and shape of the spalls of a race; each further spall draws its own size and shape."""
 
-    row: Annotated[Distribution, OneOf((1, 2, "both"))] | None = None
-    """Row of the spall; "both" puts the same one on both rows. 1 if not given."""
+    row: Annotated[Distribution, OneOf((1, 2, "both", "any"))] | None = None
+    """Row of the spall; "both" puts the same one on both rows, "any" on one of the bearing's. 1 if not given."""
     count: Annotated[Distribution, Whole(1, 20)] | None = None
     """Spalls on the race. 1 if not given."""
     angle_deg: Annotated[Distribution, Between()] | None = None
@@ -77,6 +77,10 @@ class DefectSettings(SpallSettings):
     """The defective race."""
     profile: Annotated[Distribution, OneOf(("tukey", "ball_path", "table"))] = Fixed("tukey")
     """How the path of the ball's centre follows from the settings."""
+    drawn_for: Literal["record", "machine"] = "record"
+    """record: each record draws its own spalls; machine: all records of a virtual machine have the same ones."""
+    healthy_records: Annotated[int, Field(ge=0, le=10_000_000)] = 0
+    """First records of each virtual machine that are healthy whatever is drawn: before the damage."""
     line: SpallSettings | None = None
     """Settings of line spalls."""
     extended: SpallSettings | None = None

@@ -1,29 +1,87 @@
-"""What a recipe says of a virtual machine: its rig, its bearing's imperfections and its noise floor."""
+"""What a recipe says of a virtual machine: its rig and bearing, from the catalogue, altered, or drawn."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from datagen.recipes.distributions import Distribution, Fixed, Uniform
-from datagen.recipes.settings import Between, OneOf, Table, Whole, refuse
+from datagen.recipes.distributions import Distribution, Fixed
+from datagen.recipes.settings import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
+from physics.bearing import SMALLEST_CONFORMITY
 from physics.catalog import BEARINGS, RIGS
 
+DRAWN = "drawn"
 Positive = Annotated[Distribution, Between(0.0, above=True)]
 NotNegative = Annotated[Distribution, Between(0.0)]
-Order = Annotated[int, Field(ge=1, le=2000)]
 Degrees = Annotated[Distribution, Between()]
-CLEAN = "clean"
+Conformity = Annotated[Distribution, Between(SMALLEST_CONFORMITY, 1e3)]
+DampingRatio = Annotated[Distribution, Between(0.0, 2.0)]
+# Of each group at most one may be given, and a drawn bearing or rig needs one.
+BEARING_GROUPS = (
+    ("balls", "fill"),
+    ("rows",),
+    ("pitch_diameter_mm",),
+    ("ball_diameter_mm", "ball_diameter_of_pitch"),
+)
+RIG_GROUPS = (
+    ("bearing",),
+    ("inner_mass_kg",),
+    ("outer_mass_kg",),
+    ("resonator_mass_kg",),
+    ("support_stiffness_x_n_per_m", "support_frequency_hz"),
+    ("support_stiffness_y_n_per_m", "support_frequency_hz"),
+    ("support_damping_x_n_s_per_m", "support_damping_ratio"),
+    ("support_damping_y_n_s_per_m", "support_damping_ratio"),
+    ("resonator_stiffness_n_per_m", "resonator_frequency_hz"),
+    ("resonator_damping_n_s_per_m", "resonator_damping_ratio"),
+    ("film_damping_n_s_per_m", "film_damping_us"),
+    ("rated_speed_rpm",),
+    ("rated_load_n", "rated_load_of_static_rating"),
+)
+OTHER_GROUPS = (("exponent", "elements"),)
+
+
+class FactorSettings(Table):
+    """Deviations: each number is multiplied by a drawn factor; 1 if not given."""
+
+    pitch_diameter: Positive | None = None
+    """Factor on the pitch diameter."""
+    ball_diameter: Positive | None = None
+    """Factor on the diameter of a rolling element."""
+    load_deflection: Positive | None = None
+    """Factor on K, after K has followed the geometry."""
+    clearance: NotNegative | None = None
+    """Factor on the radial clearance."""
+    inner_mass: Positive | None = None
+    """Factor on the mass of inner ring and shaft."""
+    outer_mass: Positive | None = None
+    """Factor on the mass of outer ring and support."""
+    resonator_mass: Positive | None = None
+    """Factor on the mass of the resonator."""
+    support_stiffness: Positive | None = None
+    """Factor on the stiffness of the support along x and y."""
+    support_damping: NotNegative | None = None
+    """Factor on the damping of the support along x and y."""
+    resonator_stiffness: Positive | None = None
+    """Factor on the stiffness of the resonator."""
+    resonator_damping: NotNegative | None = None
+    """Factor on the damping of the resonator."""
+    film_damping: NotNegative | None = None
+    """Factor on the damping of one loaded contact."""
 
 
 class MachineSettings(Table):
-    """A rig of the catalogue and what differs from it; drawn once for each virtual machine."""
+    """A rig of the catalogue and what differs from it, or a drawn one; drawn once for each virtual machine.
 
-    rig: Annotated[Distribution, OneOf(tuple(RIGS))]
-    """Name of a rig in the catalogue."""
-    bearing: Annotated[Distribution, OneOf(tuple(BEARINGS))] | None = None
-    """Name of another bearing of the catalogue to mount in the rig."""
+    `rig = "drawn"` and `bearing = "drawn"` take every number from these settings. Numbers given here replace those of
+    the catalogue.
+    """
+
+    rig: Annotated[Distribution, OneOf((*RIGS, DRAWN))]
+    """Name of a rig in the catalogue, or "drawn"."""
+    bearing: Annotated[Distribution, OneOf((*BEARINGS, DRAWN))] | None = None
+    """Name of another bearing of the catalogue to mount in the rig, or "drawn"."""
     balls: Annotated[Distribution, Whole(3, 200)] | None = None
     """Rolling elements in each row."""
     rows: Annotated[Distribution, Whole(1, 2)] | None = None
@@ -37,7 +95,8 @@ class MachineSettings(Table):
     row_offset_deg: Degrees | None = None
     """Angle by which row 2 is ahead of row 1, degrees; half a ball spacing if not given."""
     load_deflection: Positive | None = None
-    """Factor K of F = K δⁿ for one rolling element between both races, N/mⁿ."""
+    """Factor K of F = K δⁿ for one rolling element between both races, N/mⁿ; if not given, the catalogue's, scaled as
+    Hertz's factor of the geometry, or Hertz's own for a drawn bearing."""
     exponent: Annotated[Distribution, Between(1.0, 2.0)] | None = None
     """Exponent n of the load-deflection law: 1.5 for balls, 1.1111 for rollers."""
     clearance_um: Annotated[Distribution, Between(-1000.0, 1000.0)] | None = None
@@ -64,62 +123,56 @@ class MachineSettings(Table):
     """Viscous damping of one loaded contact, N s/m."""
     separate_cages: Annotated[Distribution, OneOf((False, True))] = Fixed(False)
     """True gives each row of a two-row bearing its own cage, with its own slip."""
-
-
-class WavinessSettings(Table):
-    """Harmonics of one race: order by order a drawn amplitude, which falls with the order."""
-
-    race: Annotated[Distribution, OneOf(("outer", "inner"))]
-    """The wavy race."""
-    orders: tuple[Order, Order] = Field(strict=False)
-    """First and last order (waves round the race)."""
-    amplitude_um: NotNegative
-    """Amplitude of the first order, µm; drawn anew for each order."""
-    decay: Annotated[Distribution, Between(-4.0, 4.0)] = Fixed(1.0)
-    """The amplitude of order k is multiplied by (first order / k) to this power."""
-    phase_deg: Degrees = Uniform(0.0, 360.0)
-    """Phase of each order, degrees."""
-
-    @model_validator(mode="after")
-    def _rising_orders(self) -> WavinessSettings:
-        if self.orders[0] > self.orders[1]:
-            raise refuse("the first order comes first", "orders", "[first order, last order]")
-        return self
-
-
-class ImperfectionSettings(Table):
-    """What a perfect bearing lacks; drawn once for each virtual machine."""
-
-    waviness: tuple[WavinessSettings, ...] = Field(default=(), strict=False)
-    """Waviness of the races."""
-    ball_deviation_um: Annotated[Distribution, Between(-1000.0, 1000.0)] = Fixed(0.0)
-    """Diameter of each ball minus the nominal one, µm; drawn for each ball."""
-
-
-class _OrClean(Between):
-    """A number as `Between`, or the word "clean"."""
-
-    def allowed(self) -> str:
-        return f'{super().allowed()}, or "{CLEAN}"'
-
-    def accepts(self, value: Any) -> bool:
-        return value == CLEAN or super().accepts(value)
-
-    def value_schema(self) -> dict[str, Any]:
-        return {"anyOf": [super().value_schema(), {"const": CLEAN}]}
-
-
-class BackgroundSettings(Table):
-    """Noise that belongs to the virtual machine, the same in all its records, in absolute units."""
-
-    white_rms_m_s2: NotNegative = Fixed(0.0)
-    """Standard deviation of white noise on each axis, from 0 to half the sampling rate, m/s²."""
-    white_snr_db: Annotated[Distribution, _OrClean(-100.0, 200.0)] | None = None
-    """Drawn for each record: power of the clean y axis over that of its white noise, from 0 to half the sampling rate,
-    in dB, or "clean" for no noise. It replaces white_rms_m_s2 for size studies; a real machine's floor is absolute."""
+    inner_conformity: Conformity | None = None
+    """Groove radius of the inner race over ball diameter."""
+    outer_conformity: Conformity | None = None
+    """Groove radius of the outer race over ball diameter."""
+    elements: Annotated[Distribution, OneOf(("balls", "rollers"))] | None = None
+    """Kind of rolling element, which sets the exponent to 3/2 or 10/9 and K to the law of that contact."""
+    ball_diameter_of_pitch: Annotated[Distribution, Between(0.01, 0.9)] | None = None
+    """Diameter of a rolling element as a share of the pitch diameter."""
+    fill: Annotated[Distribution, Between(0.0, 1.0, above=True)] | None = None
+    """Rolling elements in each row as a share of the most that fit, rounded down."""
+    roller_length_of_diameter: Annotated[Distribution, Between(0.1, 20.0)] = Fixed(1.0)
+    """Effective length of a roller over its diameter, where `elements` says rollers."""
+    support_frequency_hz: Positive | None = None
+    """Natural frequency of the outer ring's mass alone on its support along y, Hz: gives the stiffness for the mass."""
+    support_stiffness_x_over_y: Positive = Fixed(1.0)
+    """Stiffness of the support along x over that along y, where support_frequency_hz is given."""
+    support_damping_ratio: DampingRatio | None = None
+    """Damping of the outer ring's mass alone on its support over the critical one, along x and y."""
+    resonator_frequency_hz: Positive | None = None
+    """Natural frequency of the resonator alone, Hz: gives the stiffness for the mass."""
+    resonator_damping_ratio: DampingRatio | None = None
+    """Damping of the resonator alone over the critical one."""
+    film_damping_us: NotNegative | None = None
+    """Damping of the healthy bearing along y over its stiffness at the rated load, µs: gives that of one contact."""
+    rated_speed_rpm: Positive | None = None
+    """Rated speed of the machine, rpm."""
+    rated_load_n: Positive | None = None
+    """Rated radial load of the machine, N."""
+    rated_load_of_static_rating: Annotated[Distribution, Between(0.0, 1.0, above=True)] | None = None
+    """Rated load as a share of the bearing's static load rating (ISO 76)."""
+    factors: FactorSettings = FactorSettings()
+    """Deviations from the numbers above or those of the catalogue."""
 
     @model_validator(mode="after")
-    def _one_level(self) -> BackgroundSettings:
-        if self.white_snr_db is not None and self.white_rms_m_s2 != Fixed(0.0):
-            raise refuse("the noise has two levels", "white_snr_db", "only one of white_rms_m_s2, white_snr_db")
+    def _one_of_each(self) -> MachineSettings:
+        for group in (*BEARING_GROUPS, *RIG_GROUPS, *OTHER_GROUPS):
+            at_most_one(self, *group)
         return self
+
+    @model_validator(mode="after")
+    def _drawn_ones_are_complete(self) -> MachineSettings:
+        if DRAWN in possible_words(self.rig):
+            self._require("a drawn rig", RIG_GROUPS)
+        if self.bearing is not None and DRAWN in possible_words(self.bearing):
+            self._require("a drawn bearing", BEARING_GROUPS)
+            if self.exponent is not None and self.load_deflection is None:
+                raise refuse("a drawn bearing with an exponent of its own needs its factor K", "load_deflection")
+        return self
+
+    def _require(self, what: str, groups: tuple[tuple[str, ...], ...]) -> None:
+        for group in groups:
+            if all(getattr(self, name) is None for name in group):
+                raise refuse(f"{what} needs this setting", group[-1], f"one of {', '.join(group)}" if group[1:] else "")

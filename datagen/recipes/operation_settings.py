@@ -34,8 +34,10 @@ class OperationSettings(Table):
     """Standard deviation of the cage's slip, as a share of its speed."""
     slip_correlation_passes: Annotated[Distribution, Between(0.1, 1e4)] = Fixed(1.0)
     """Correlation time of the slip, in nominal ball passes of the outer race."""
-    unbalance_n: Annotated[Distribution, Between(0.0, 1e7)] = Fixed(0.0)
-    """Load that turns with the shaft, N."""
+    unbalance_n: Annotated[Distribution, Between(0.0, 1e7)] | None = None
+    """Load that turns with the shaft, N; none if neither this nor unbalance_grade_mm_per_s is given."""
+    unbalance_grade_mm_per_s: Annotated[Distribution, Between(0.0, 1e4)] | None = None
+    """Balance quality grade G of ISO 21940, mm/s: the load is G times mass of inner ring and shaft times speed."""
     unbalance_phase_deg: Degrees = ANY_ANGLE
     """Its angle at the start, degrees; anywhere if not given."""
     load_fluctuation: Annotated[Distribution, Between(0.0, 10.0)] = Fixed(0.0)
@@ -47,4 +49,5 @@ class OperationSettings(Table):
     def _one_of_each(self) -> OperationSettings:
         at_most_one(self, "speed_rpm", "speed_of_rated")
         at_most_one(self, "load_n", "load_of_rated")
+        at_most_one(self, "unbalance_n", "unbalance_grade_mm_per_s")
         return self

@@ -9,22 +9,27 @@ from bisect import bisect_right
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from datagen.errors import BadInput
+from datagen.recipes.background_settings import BackgroundSettings
+from datagen.recipes.chain_settings import ChainSettings
 from datagen.recipes.defect_settings import DefectSettings
 from datagen.recipes.distributions import Distribution, Fixed
-from datagen.recipes.machine_settings import BackgroundSettings, ImperfectionSettings, MachineSettings
+from datagen.recipes.imperfection_settings import ImperfectionSettings
+from datagen.recipes.machine_settings import MachineSettings
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.recipe_files import find_recipe
+from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.recipes.settings import Between, OneOf, Table, refuse
 from physics.scene import CONTACT_LAWS
 
 FEWEST_SAMPLES = 16
+LARGEST_HYPERCUBE = 100_000
 Count = Annotated[int, Field(ge=1, le=10_000_000)]
 
 
@@ -66,6 +71,10 @@ class Store(Table):
     """Most records in one shard."""
     clean: bool = False
     """Store the acceleration without sensor path and background too."""
+    sensor: bool = False
+    """Store the acceleration after sensor path and mounting, without background, too."""
+    background: bool = False
+    """Store every layer of the background too."""
     cage_angle: bool = False
     """Store the cage angle too."""
     profile: bool = False
@@ -101,6 +110,8 @@ class Part(Table):
     """Number of records."""
     records_per_machine: Count = 1
     """Records made on each virtual machine, with the same bearing, imperfections and noise floor."""
+    design: Literal["random", "latin_hypercube", "sobol"] = "random"
+    """How the drawn settings are spread: freely, or evenly over their joint space."""
     contact_law: Annotated[Distribution, OneOf(CONTACT_LAWS)] = Fixed("paper")
     """paper: the oil film may pull a ball; no_tension: it may not."""
     machine: MachineSettings
@@ -111,13 +122,38 @@ class Part(Table):
     """Their state of health; healthy if not given."""
     imperfections: ImperfectionSettings = ImperfectionSettings()
     """What their bearings lack."""
-    background: BackgroundSettings = BackgroundSettings()
-    """Their noise."""
+    chain: ChainSettings | None = None
+    """Their measurement chain; the recipe's if not given."""
+    background: BackgroundSettings | None = None
+    """Their noise and other layers; the recipe's if not given."""
+
+    @model_validator(mode="after")
+    def _leaves_room_for_damage(self) -> Part:
+        if self.defect is not None and self.defect.healthy_records > self.records_per_machine:
+            most = f"at most {self.records_per_machine}, the records of each machine"
+            raise refuse("a machine has fewer records", "defect.healthy_records", most)
+        return self
+
+    @model_validator(mode="after")
+    def _small_enough_a_hypercube(self) -> Part:
+        if self.design == "latin_hypercube" and self.records > LARGEST_HYPERCUBE:
+            raise refuse(f"a Latin hypercube holds at most {LARGEST_HYPERCUBE} records; sobol any number", "design")
+        return self
 
     @property
     def machines(self) -> int:
         """Number of virtual machines."""
         return -(-self.records // self.records_per_machine)
+
+
+class Place(NamedTuple):
+    """Where a record stands, all from 0: its part, its machine in the corpus; it in its part, its machine there."""
+
+    part: int
+    machine: int
+    record_in_part: int
+    machine_in_part: int
+    record_in_machine: int
 
 
 class Recipe(Table):
@@ -133,6 +169,10 @@ class Recipe(Table):
     """Seed of every random number."""
     signal: Signal
     """How records are sampled."""
+    chain: ChainSettings = ChainSettings()
+    """Measurement chain of every part that says nothing of its own."""
+    background: BackgroundSettings = BackgroundSettings()
+    """Background of every part that says nothing of its own."""
     store: Store = Store()
     """What is written."""
     split: Split = Split()
@@ -149,6 +189,14 @@ class Recipe(Table):
         if twice is not None:
             raise refuse(f'two parts are called "{twice}"', "part", "a different name for each part")
         return self
+
+    def chain_of(self, part: Part) -> ChainSettings:
+        """Measurement chain of one of its parts."""
+        return part.chain or self.chain
+
+    def background_of(self, part: Part) -> BackgroundSettings:
+        """Background of one of its parts."""
+        return part.background or self.background
 
     @property
     def source(self) -> str:
@@ -174,13 +222,14 @@ class Recipe(Table):
     def _first_machines(self) -> list[int]:
         return list(accumulate((part.machines for part in self.part), initial=0))
 
-    def place(self, record: int) -> tuple[int, int]:
-        """Index of the part that `record` (0 ≤ record < count) belongs to, and its machine's number in the corpus."""
+    def place(self, record: int) -> Place:
+        """Where `record` (0 ≤ record < count) stands in the corpus."""
         if not 0 <= record < self.count:
             raise BadInput(file=self.source, field="record", value=record, allowed=f"0 to {self.count - 1}")
         part = bisect_right(self._first_records, record) - 1
         local = record - self._first_records[part]
-        return part, self._first_machines[part] + local // self.part[part].records_per_machine
+        machine, in_machine = divmod(local, self.part[part].records_per_machine)
+        return Place(part, self._first_machines[part] + machine, local, machine, in_machine)
 
 
 def load_recipe(path_or_name: str | Path) -> Recipe:
@@ -203,9 +252,5 @@ def parse_recipe(content: dict[str, Any], path: Path, text: str = "") -> Recipe:
     except ValidationError as error:
         raise bad_recipe(error, Recipe, path, text) from None
     recipe._source = str(path)
+    require_sampled_fast_enough(recipe, path, text)
     return recipe
-
-
-def recipe_schema() -> dict[str, Any]:
-    """JSON Schema of a recipe, for editors."""
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | Recipe.model_json_schema()

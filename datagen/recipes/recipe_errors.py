@@ -11,6 +11,7 @@ from datagen.errors import BadInput
 from datagen.recipes.spelling import suggestion
 from datagen.recipes.toml_lines import Location, line_of
 
+MOST_LISTED = 16
 EXPECTED = {
     "string_type": "a text in quotes",
     "int_type": "a whole number",
@@ -31,7 +32,7 @@ EXPECTED = {
 }
 
 
-def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path, text: str) -> BadInput:
+def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
     errors = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
     first: dict[str, Any] = dict(errors[0])
@@ -41,7 +42,7 @@ def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path, text:
     return BadInput(
         _problem(first, location, model),
         f"{path}, line {line}" if line else str(path),
-        _dotted(location),
+        dotted(location),
         _value(first, location, context.get("field", "")),
         context.get("allowed") or EXPECTED.get(first["type"], "").format(**context),
     )
@@ -53,7 +54,9 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
         return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
     if kind == "extra_forbidden":
         known = _keys_beside(location, model)
-        return f"unknown key{suggestion(str(location[-1]), known)} (known here: {', '.join(known)})"
+        hint = suggestion(str(location[-1]), known)
+        listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
+        return f"unknown key{hint}{listed}"
     problem = first.get("ctx", {}).get("problem")
     return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
 
@@ -82,7 +85,8 @@ def _table_type(annotation: Any) -> type[BaseModel] | None:
     return next((found for inner in get_args(annotation) if (found := _table_type(inner))), None)
 
 
-def _dotted(location: Location) -> str:
+def dotted(location: Location) -> str:
+    """The setting at `location` as a message names it: part[2].defect.depth_um."""
     text = ""
     for step in location:
         text += f"[{step + 1}]" if isinstance(step, int) else f".{step}" if text else step

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -74,7 +74,7 @@ class _Setting:
         )
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return distribution_schema(self.value_schema())
+        return {"setting": self.allowed()} | distribution_schema(self.value_schema())
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class Between(_Setting):
             return Fixed(float(distribution.value))
         if isinstance(distribution, Choice):
             options = tuple(float(v) if type(v) is int else v for v in distribution.options)
-            return Choice(options, distribution.weights)
+            return replace(distribution, options=options)
         return distribution
 
     def confined(self, distribution: Distribution) -> Distribution:
@@ -129,7 +129,7 @@ class Whole(_Setting):
 
     def normal_form(self, distribution: Distribution) -> Distribution:
         if not isinstance(distribution, Fixed | Choice):
-            raise DistributionError("a whole number is fixed or drawn by choice")
+            raise DistributionError("a whole number is fixed or drawn by choice or balanced")
         return distribution
 
     def value_schema(self) -> dict[str, Any]:
@@ -150,7 +150,7 @@ class OneOf(_Setting):
 
     def normal_form(self, distribution: Distribution) -> Distribution:
         if not isinstance(distribution, Fixed | Choice):
-            raise DistributionError("a word is fixed or drawn by choice")
+            raise DistributionError("a word is fixed or drawn by choice or balanced")
         return distribution
 
     def _hint(self, value: object) -> str:

@@ -11,20 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpora.format import profile_grid
+from datagen.records.layers import Layers, background_layers
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis
 from datagen.scenarios.scenario import Scenario
 from labels.description import label_values
 from labels.envelope import band_envelope
-from labels.schema import LABELS
+from labels.noise import signal_to_noise
+from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
 from physics.profile import race_depth
 from physics.scene import Scene
+from physics.sensor.chain import SensorChain, sensed
+from physics.sensor.recorder import recorded
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.stiffness import stiffness_trace
 from physics.trace import Trace
 
 Rounded = NDArray[np.float32]
+RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
 # Read by linear interpolation this moves the acceleration of every reference scene by less than 1e-3 (measured: 1.7e-3
 # with 65 536 points and 5e-4 with 131 072 on the outer race, 2.1e-3 with 131 072 on the inner one, 6e-4 with these).
 PROFILE_POINTS = 262_144
@@ -35,8 +40,9 @@ class Record:
     """The arrays of one record, as they are stored (units and meanings: labels.variables).
 
     `acceleration` (T, 2), `envelope` (T,), `stiffness` (3, S) at `stiffness_time` (S,); `labels` has every label of
-    labels.schema by name; the optional signals are None unless asked for: `acceleration_clean` (T, 2), `cage_angle`
-    (T,), `profile_depth` (rows, A) and `contact_force` (T, rows, balls).
+    labels.schema by name; the optional signals are None unless asked for: `acceleration_clean` and
+    `acceleration_sensor` (T, 2), `background` (layers, T, 2), `cage_angle` (T,), `profile_depth` (rows, A) and
+    `contact_force` (T, rows, balls).
     """
 
     index: int
@@ -50,6 +56,8 @@ class Record:
     labels: dict[str, Any]
     scenario: str
     acceleration_clean: Rounded | None = None
+    acceleration_sensor: Rounded | None = None
+    background: Rounded | None = None
     cage_angle: NDArray[np.float64] | None = None
     profile_depth: Rounded | None = None
     contact_force: Rounded | None = None
@@ -58,13 +66,19 @@ class Record:
 def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     """The record of `scenario` with the optional signals named in `stored`; raises SimulationFailed."""
     scene, rate = scenario.scene, scenario.rate
-    trace = simulate(scene, rate, keep_force="contact_force" in stored)
-    noise = background_noise(scenario, trace.acceleration[:, 1])
-    acceleration = (trace.acceleration + noise).astype(np.float32)
+    chain = scenario.chain
+    trace = simulate(scene, rate, keep_force="contact_force" in stored, keep_outer=chain.needs_outer_ring)
+    signal = sensed(chain, trace)
+    layers = background_layers(scenario, signal)
+    acceleration, clipped = _recorded(chain, sum(layers.values(), signal))
     stiffness_time = stiffness_axis(scenario)
     stiffness = stiffness_trace(scene, stiffness_time).T
+    labels = _labels(scenario, trace, interpolation_error(scenario, stiffness))
+    labels |= sensor_labels(scenario, signal, layers, clipped)
     optional: dict[str, Callable[[], NDArray[Any]]] = {
         "acceleration_clean": lambda: trace.acceleration.astype(np.float32),
+        "acceleration_sensor": lambda: signal.astype(np.float32),
+        "background": lambda: _stacked(layers, signal.shape),
         "cage_angle": lambda: scene.cage.angle(trace.time),
         "profile_depth": lambda: _profile_depth(scene),
         "contact_force": lambda: np.asarray(trace.contact_force, dtype=np.float32),
@@ -78,27 +92,22 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
         stiffness=stiffness.astype(np.float32),
         passes=ball_passes(scene, trace.changes, scenario.duration),
         spalls=scene.spalls,
-        labels=_labels(scenario, trace, noise, interpolation_error(scenario, stiffness)),
+        labels={label.name: labels[label.name] for label in LABELS},
         scenario=scenario.to_json(),
         **{name: optional[name]() for name in stored},
     )
 
 
-def background_noise(scenario: Scenario, signal: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The record's own draw of white noise (T, 2), m/s²: its machine's, or relative to its clean `signal` (T,)."""
-    shape, floor = (scenario.samples, 2), scenario.background
-    drawn = scenario.generator("white_noise").standard_normal(shape)
-    if floor.white_snr_db is None:
-        return floor.white_rms * drawn
-    return float(signal.std() / drawn[:, 1].std()) * 10.0 ** (-floor.white_snr_db / 20.0) * drawn
+def _recorded(chain: SensorChain, signal: NDArray[np.float64]) -> tuple[Rounded, float]:
+    """What the recorder keeps of `signal` (T, 2), m/s², and the share of samples beyond its range."""
+    kept, clipped = (signal, 0.0) if chain.recorder is None else recorded(chain.recorder, signal)
+    return kept.astype(np.float32), clipped
 
 
-def signal_to_noise(signal: NDArray[np.float64], noise: NDArray[np.float64]) -> float:
-    """Power of `signal` (T,) over that of `noise` (T,), each without its mean, in dB; NaN if there is no noise."""
-    if not noise.any():
-        return math.nan
-    tiny = np.finfo(np.float64).tiny
-    return 10.0 * math.log10(max(float(signal.var()), tiny) / float(noise.var()))
+def _stacked(layers: Layers, shape: tuple[int, ...]) -> Rounded:
+    """All layers (L, T, 2) in the order of the schema, zeros where one is absent."""
+    absent = np.zeros(shape)
+    return np.stack([layers.get(name, absent) for name in LAYERS]).astype(np.float32)
 
 
 def _profile_depth(scene: Scene) -> Rounded:
@@ -106,16 +115,17 @@ def _profile_depth(scene: Scene) -> Rounded:
     return np.stack([race_depth(scene, row + 1, grid) for row in range(scene.rig.bearing.rows)]).astype(np.float32)
 
 
-def _labels(scenario: Scenario, trace: Trace, noise: NDArray[np.float64], stiffness_error: float) -> dict[str, Any]:
-    """Every label of the record, in the order of the schema."""
-    known: dict[str, Any] = label_values(scenario.scene) | {
+def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:
+    """Labels of scene, run and place in the corpus."""
+    return label_values(scenario.scene) | {
         "record": scenario.record,
         "part": scenario.part,
+        **dict.fromkeys(RECORDING_LABELS, ""),
+        "speed_basis": "set",
         "split": scenario.split,
         "bearing_id": scenario.bearing_id,
         "rate_hz": scenario.rate,
         "duration_s": scenario.duration,
-        "snr_db": signal_to_noise(trace.acceleration[:, 1], noise[:, 1]),
         "envelope_band": scenario.envelope_band,
         "model": trace.model,
         "method": trace.method,
@@ -124,4 +134,22 @@ def _labels(scenario: Scenario, trace: Trace, noise: NDArray[np.float64], stiffn
         "tension_share": trace.tension_share,
         "stiffness_error": stiffness_error,
     }
-    return {label.name: known[label.name] for label in LABELS}
+
+
+def sensor_labels(scenario: Scenario, signal: NDArray[np.float64], layers: Layers, clipped: float) -> dict[str, Any]:
+    """Labels of chain and background of a record with this sensor `signal` (T, 2) and these layers, m/s²."""
+    chain = scenario.chain
+    noise = sum(layers.values(), np.zeros_like(signal))
+    ratios = [signal_to_noise(signal[:, 1], noise[:, 1], scenario.rate, band) for band in (None, scenario.noise_band)]
+    levels = {name: float(np.sqrt(np.mean(layer[:, 1] ** 2))) for name, layer in layers.items()}
+    return {
+        "snr_db": ratios[0],
+        "snr_band_db": ratios[1],
+        "snr_band": scenario.noise_band,
+        "background_layers": ", ".join(layers),
+        "background_rms": tuple(levels.get(name, 0.0) for name in LAYERS),
+        "sensor_modes": len(chain.modes),
+        "mounting_cutoff_hz": math.nan if chain.mounting is None else chain.mounting.cutoff,
+        "recorder_step": math.nan if chain.recorder is None else chain.recorder.step,
+        "clipped_share": clipped,
+    }

@@ -16,6 +16,7 @@ from datagen.records.record import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from labels.schema import LAYERS
 from labels.variables import AXES, COMPONENTS, SIGNALS
 
 
@@ -72,6 +73,8 @@ def signals_of_every_record(recipe: Recipe) -> tuple[str, ...]:
     store = recipe.store
     asked = {
         "acceleration_clean": store.clean,
+        "acceleration_sensor": store.sensor,
+        "background": store.background,
         "cage_angle": store.cage_angle,
         "profile_depth": store.profile,
         "contact_force": store.contact_force == "all",
@@ -87,6 +90,7 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
         "time": scenario.samples,
         "axis": len(AXES),
         "component": len(COMPONENTS),
+        "layer": len(LAYERS),
         "stiffness_time": stiffness_axis(scenario).size,
         "profile_angle": PROFILE_POINTS,
         "row": bearing.rows,
@@ -94,7 +98,7 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
     }
     total = 0.0
     for signal in SIGNALS:
-        if signal.stored == "always" or signal.name in stored:
+        if signal.required(imported=False) or signal.name in stored:
             raw = math.prod(sizes[dim] for dim in signal.dims) * np.dtype(signal.dtype).itemsize
             total += raw * (ZLIB_SHARE[signal.name] if compression == "zlib" else 1.0)
     return total

@@ -14,7 +14,9 @@ from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
 from datagen.runs.progress import Reporter
+from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario
 from physics.outcome import SimulationFailed
 
 
@@ -53,15 +55,31 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
     began = time.perf_counter()
     records: list[Record] = []
     failed: list[Failure] = []
+    redraws: list[Redraw] = []
     for index in planned.records:
+        scenario = draw_scenario(recipe, index)
+        redraws += _own_redraws(recipe, scenario)
         try:
-            records.append(make_record(draw_scenario(recipe, index), planned.stored))
+            records.append(make_record(scenario, planned.stored))
         except SimulationFailed as problem:
             failed.append(Failure(index, str(problem)))
     title = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
     dataset = to_dataset(records, title) if records else None
     seconds = time.perf_counter() - began
     written = write_shard(
-        folder, planned.number, identity, dataset, tuple(failed), recipe.store.compression, round(seconds, 3)
+        folder,
+        planned.number,
+        identity,
+        dataset,
+        tuple(failed),
+        recipe.store.compression,
+        round(seconds, 3),
+        count_refused(redraws),
     )
     return ShardRow(planned.number, len(records), len(failed), written.bytes)
+
+
+def _own_redraws(recipe: Recipe, scenario: Scenario) -> list[Redraw]:
+    """The record's redraws; those of its machine only if it is the machine's first record, so that each counts once."""
+    first = recipe.place(scenario.record).record_in_machine == 0
+    return [redraw for redraw in scenario.redraws if first or redraw.scope == "record"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
@@ -12,52 +12,59 @@ import numpy as np
 from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, DefectSettings, SpallSettings
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.profile_table import ProfileTable
-from datagen.scenarios.machine import DEGREES_PER_RADIAN
-from datagen.scenarios.picker import Picker
+from datagen.scenarios.draw import Draw
+from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter, require
 from physics.hertz import contact_width
 from physics.roughness import draw_roughness
 from physics.spall import Spall, is_extended
 
-Streams = Callable[[str, int], np.random.Generator]
 TURN = 2.0 * math.pi
 DEFAULT_TAPER_SHARE = {"tukey": 0.1, "ball_path": 0.0, "table": 0.0}
-ROWS = {"1": (1,), "2": (2,), "both": (1, 2)}
+ROWS: dict[str, tuple[int, ...]] = {"1": (1,), "2": (2,), "both": (1, 2)}
 
 
-def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, streams: Streams) -> tuple[Spall, ...]:
-    """Spalls of one record under `load` (N); `streams` opens the stream of a purpose and item.
+def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, draw: Draw) -> tuple[Spall, ...]:
+    """Spalls of one record under `load` (N), which only sets the width of contact that smooths their roughness.
 
     Raises InvalidParameter if what was drawn cannot be; the caller draws again.
     """
     if settings is None:
         return ()
-    pick = Picker.of(streams("defect", 0))
+    pick = draw.picker("defect")
     condition, race, profile = (pick.word(word) for word in (settings.condition, settings.race, settings.profile))
     if condition == "healthy":
         return ()
-    spalls = list(_draw_all(settings.refined[condition, race, profile], race, profile, bearing, load, streams))
+    spalls = list(_draw_all(settings.refined[condition, race, profile], race, profile, bearing, load, draw))
     _require_condition(condition, max(spall.extent for spall in spalls), bearing)
     _require_apart(spalls)
     return tuple(spalls)
 
 
 def _draw_all(
-    settings: SpallSettings, race: str, profile: str, bearing: Bearing, load: float, streams: Streams
+    settings: SpallSettings, race: str, profile: str, bearing: Bearing, load: float, draw: Draw
 ) -> Iterator[Spall]:
-    pick = Picker.of(streams("spall", 0))
-    rows = ROWS[pick.word(settings.row or Fixed(1))]
+    pick = draw.picker("spall")
+    word = pick.word(settings.row or Fixed(1))
+    rows: tuple[int, ...] = ()
     count = pick.whole(settings.count) or 1
     angle = pick.number(settings.angle_deg or IN_THE_LOAD_ZONE, DEGREES_PER_RADIAN)
     for item in range(count):
         if item > 0:
-            pick = Picker.of(streams("spall", item))
+            pick = draw.picker("spall", item)
             angle += pick.number(settings.separation_deg or ANYWHERE, DEGREES_PER_RADIAN)
         shape = _draw_shape(settings, race, profile, bearing, pick)
-        rough = _draw_roughness(shape, bearing, load, streams("roughness", item))
+        if item == 0:
+            rows = _rows(word, bearing, pick)
+        rough = _draw_roughness(shape, bearing, load, draw.stream("roughness", item))
         for row in rows:
             yield replace(rough, row=row, angle=angle % TURN)
+
+
+def _rows(word: str, bearing: Bearing, pick: Picker) -> tuple[int, ...]:
+    share = pick.share()
+    return (1 + int(share * bearing.rows),) if word == "any" else ROWS[word]
 
 
 def _draw_shape(settings: SpallSettings, race: str, profile: str, bearing: Bearing, pick: Picker) -> Spall:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from datagen.errors import BadInput
+from datagen.recipes.toml_lines import line_of_setting
 
 if TYPE_CHECKING:
     from datagen.recipes.recipe import Part, Recipe
@@ -27,13 +30,46 @@ class Redraw:
     reason: str
 
 
+@dataclass(frozen=True)
+class Refused:
+    """How many draws were refused for one parameter, and the sentence that one of them gave as its reason."""
+
+    count: int
+    example: str
+
+
+def count_refused(redraws: Iterable[Redraw]) -> dict[str, Refused]:
+    """Refused draws by "scope: parameter"."""
+    return add_refused({f"{redraw.scope}: {redraw.field or 'other'}": Refused(1, redraw.reason)} for redraw in redraws)
+
+
+def add_refused(counted: Iterable[dict[str, Refused]]) -> dict[str, Refused]:
+    """The sums of several counts, the most frequent first; of the reasons the first is kept."""
+    total: dict[str, Refused] = {}
+    for counts in counted:
+        for what, more in counts.items():
+            before = total.get(what, Refused(0, more.example))
+            total[what] = replace(before, count=before.count + more.count)
+    return dict(sorted(total.items(), key=lambda item: (-item[1].count, item[0])))
+
+
 def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw]) -> BadInput:
     """The error of a part that can hardly be drawn: says how often each parameter was refused and the last reason."""
     counts = Counter(redraw.field or "other" for redraw in redraws)
     refused = ", ".join(f"{field} {count} times" for field, count in counts.most_common())
+    place = ("part", recipe.part.index(part))
+    line = line_of_setting(_text(recipe.source), place, redraws[-1].field)
     return BadInput(
         f'part "{part.name}", {what}: {len(redraws)} draws in a row were impossible (refused: {refused}); '
         f"the last: {redraws[-1].reason}",
-        file=recipe.source,
-        field=f"part[{recipe.part.index(part) + 1}]",
+        file=f"{recipe.source}, line {line}" if line else recipe.source,
+        field=f"part[{place[1] + 1}]",
     )
+
+
+def _text(path: str) -> str:
+    """What the recipe's file says now, for the number of a line; empty if it is gone."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return ""

@@ -2,102 +2,107 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from datagen.recipes.distributions import Distribution, Fixed
-from datagen.recipes.machine_settings import CLEAN
 from datagen.recipes.operation_settings import OperationSettings
-from datagen.recipes.recipe import Part, Recipe
-from datagen.records.background import Background
+from datagen.recipes.recipe import Place, Recipe
+from datagen.scenarios.backgrounds import draw_noise_target, draw_stretch
 from datagen.scenarios.defect import draw_spalls
+from datagen.scenarios.draw import Draw
+from datagen.scenarios.drawn_rig import RPM
 from datagen.scenarios.feasibility import require_equilibrium
-from datagen.scenarios.machine import DEGREES_PER_RADIAN, Machine, draw_machine
-from datagen.scenarios.picker import Picker
+from datagen.scenarios.machine import Machine, draw_machine
+from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
 from datagen.scenarios.scenario import Scenario, Seeds
-from datagen.scenarios.streams import stream
-from labels.envelope import default_band
 from physics.bearing import Bearing
 from physics.cage import CagePath, draw_slip_knots
 from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.rig import Rig
 from physics.scene import Scene
-
-RPM = 60.0 / (2.0 * math.pi)
+from physics.spall import Spall
 
 
 def draw_scenario(recipe: Recipe, record: int) -> Scenario:
     """Scenario of `record` (0 ≤ record < recipe.count); BadInput if its part can hardly be drawn."""
-    part_index, machine_number = recipe.place(record)
-    part = recipe.part[part_index]
-    machine = draw_machine(recipe, part, machine_number)
+    place = recipe.place(record)
+    part = recipe.part[place.part]
+    machine = draw_machine(recipe, place.part, place.machine, place.machine_in_part)
     redraws = list(machine.redraws)
     for attempt in range(MOST_ATTEMPTS):
+        draw = Draw(recipe, place.part, "record", record, place.record_in_part, attempt)
         try:
-            return _draw(recipe, part, machine, record, attempt, tuple(redraws))
+            return _draw(draw, machine, place, tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("record", attempt, refused.field, str(refused)))
     raise given_up(recipe, part, f"record {record}", redraws)
 
 
-def _draw(
-    recipe: Recipe, part: Part, machine: Machine, record: int, attempt: int, redraws: tuple[Redraw, ...]
-) -> Scenario:
-    def open_stream(purpose: str, item: int = 0) -> np.random.Generator:
-        return stream(recipe.seed, "record", record, purpose, attempt, item)
-
-    rig, run, pick = machine.rig, part.operation, Picker.of(open_stream("operation"))
+def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...]) -> Scenario:
+    recipe, part = draw.recipe, draw.recipe.part[draw.part]
+    rig, run, pick = machine.rig, part.operation, draw.picker("operation")
     operation = _draw_operation(run, rig, pick)
     slip = _draw_slip(run, rig.bearing, operation.shaft_speed, pick)
     contact_law = pick.word(part.contact_law)
-    spalls = draw_spalls(part.defect, rig.bearing, operation.load, open_stream)
     duration = machine.samples / machine.rate
     scene = Scene(
         rig=rig,
         operation=operation,
-        cage=slip.path(duration, slip.start_angle, open_stream("slip")),
-        spalls=spalls,
+        cage=slip.path(duration, slip.start_angle, draw.stream("slip")),
+        spalls=_spalls(draw, machine, place, operation.load),
         imperfections=machine.imperfections,
         contact_law=contact_law,
-        second_cage=slip.path(duration, slip.second_start_angle, open_stream("slip", 1))
+        second_cage=slip.path(duration, slip.second_start_angle, draw.stream("slip", 1))
         if machine.separate_cages
         else None,
     )
     require_equilibrium(scene)
+    background = recipe.background_of(part)
     return Scenario(
         scene=scene,
         rate=machine.rate,
-        seeds=Seeds(recipe.seed, record, attempt, machine.number, machine.attempt),
+        seeds=Seeds(recipe.seed, draw.number, draw.attempt, machine.number, machine.attempt),
         part=part.name,
         bearing_id=machine.bearing_id,
         split=machine.split,
-        envelope_band=recipe.signal.envelope_band_hz or _default_band(rig, machine.rate),
+        envelope_band=machine.envelope_band,
         slip_deviation=slip.deviation,
         slip_correlation_time=slip.correlation_time,
-        background=_draw_background(part, machine, open_stream("background")),
+        chain=machine.chain,
+        background=machine.background,
+        stretch=draw_stretch(background.recording, machine.samples, draw.stream("recording")),
+        noise_target=draw_noise_target(background, draw.picker("noise_target")),
+        snr_band=background.snr_band_hz or machine.envelope_band,
         redraws=redraws,
     )
 
 
-def _draw_background(part: Part, machine: Machine, generator: np.random.Generator) -> Background:
-    """The machine's noise floor, or the record's own noise where the part states its signal-to-noise ratio."""
-    setting = part.background.white_snr_db
-    level = CLEAN if setting is None else setting.draw(generator)
-    return machine.background if level == CLEAN else Background(white_snr_db=float(level))
-
-
-_default_band = lru_cache(maxsize=256)(default_band)
+def _spalls(draw: Draw, machine: Machine, place: Place, load: float) -> tuple[Spall, ...]:
+    """The record's own spalls, or its machine's, unless the record is from before the damage."""
+    part = draw.recipe.part[draw.part]
+    if part.defect is None or place.record_in_machine < part.defect.healthy_records:
+        return ()
+    if part.defect.drawn_for == "machine":
+        draw = replace(
+            draw,
+            scope="machine",
+            number=machine.number,
+            place=place.machine_in_part,
+            attempt=machine.attempt,
+            turn=machine.turn,
+        )
+    return draw_spalls(part.defect, machine.rig.bearing, load, draw)
 
 
 def _draw_operation(settings: OperationSettings, rig: Rig, pick: Picker) -> Operation:
     speed = _absolute_or_relative(settings.speed_rpm, RPM, settings.speed_of_rated, rig.rated_speed, pick)
     load = _absolute_or_relative(settings.load_n, 1.0, settings.load_of_rated, rig.rated_load, pick)
-    unbalance, unbalance_phase = pick.number(settings.unbalance_n), pick.number(settings.unbalance_phase_deg)
+    unbalance = _draw_unbalance(settings, rig, speed, pick)
+    unbalance_phase = pick.number(settings.unbalance_phase_deg)
     fluctuation, fluctuation_phase = pick.number(settings.load_fluctuation), pick.number(settings.fluctuation_phase_deg)
     return Operation(
         shaft_speed=speed,
@@ -107,6 +112,12 @@ def _draw_operation(settings: OperationSettings, rig: Rig, pick: Picker) -> Oper
         load_fluctuation=fluctuation,
         fluctuation_phase=fluctuation_phase / DEGREES_PER_RADIAN if fluctuation else 0.0,
     )
+
+
+def _draw_unbalance(settings: OperationSettings, rig: Rig, speed: float, pick: Picker) -> float:
+    if settings.unbalance_grade_mm_per_s is not None:
+        return pick.number(settings.unbalance_grade_mm_per_s, 1e3) * rig.inner_mass * speed
+    return pick.number(settings.unbalance_n or Fixed(0.0))
 
 
 def _absolute_or_relative(

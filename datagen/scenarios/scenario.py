@@ -6,13 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from datagen.records.background import Background
+from datagen.records.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.streams import stream
 from labels.description import condition
 from physics.scene import Scene
+from physics.sensor.chain import SensorChain
 
 NO_BACKGROUND = Background()
+PLAIN_CHAIN = SensorChain()
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,9 @@ class Scenario:
     """A physical scene with how it is recorded and where it belongs.
 
     `rate` Hz; `envelope_band` Hz, lower and upper edge; `slip_deviation` and `slip_correlation_time` (s) are the
-    statistics that the slip was drawn from; `redraws` the impossible draws before this one.
+    statistics that the slip was drawn from; `stretch` what it takes of a recording, `noise_target` what its background
+    is scaled to, `snr_band` Hz the band of its second signal-to-noise ratio (None: the envelope's); `redraws` the
+    impossible draws before it.
     """
 
     scene: Scene
@@ -43,7 +47,11 @@ class Scenario:
     envelope_band: tuple[float, float]
     slip_deviation: float = 0.0
     slip_correlation_time: float = 0.0
+    chain: SensorChain = PLAIN_CHAIN
     background: Background = NO_BACKGROUND
+    stretch: Stretch | None = None
+    noise_target: NoiseTarget | None = None
+    snr_band: tuple[float, float] | None = None
     redraws: tuple[Redraw, ...] = ()
 
     @property
@@ -60,6 +68,11 @@ class Scenario:
     def samples(self) -> int:
         """Number of samples."""
         return round(self.rate * self.duration)
+
+    @property
+    def noise_band(self) -> tuple[float, float]:
+        """Band of the second signal-to-noise ratio, Hz."""
+        return self.snr_band or self.envelope_band
 
     @property
     def rig(self) -> str:

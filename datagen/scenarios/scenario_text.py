@@ -7,9 +7,9 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.records.background import Background
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.scenario import Scenario, Seeds
+from datagen.scenarios.sensor_text import background_data, background_of, chain_data, chain_of
 from datagen.scenarios.streams import PURPOSES, RULE, SCOPES
 from labels.description import largest_spall
 from physics.bearing import Bearing
@@ -145,16 +145,12 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         "defects": [_defect(spall) for spall in scene.spalls],
         "waviness": [asdict(wave) for wave in scene.imperfections.waviness],
         "ball_deviation": [list(row) for row in scene.imperfections.ball_deviation],
-        "background": _background(scenario.background),
+        "chain": chain_data(scenario.chain),
+        "background": background_data(scenario),
         "seeds": asdict(scenario.seeds) | {"rule": RULE, "scopes": list(SCOPES), "purposes": list(PURPOSES)},
         "redraws": [asdict(redraw) for redraw in scenario.redraws],
         "rules": SCENE_RULES,
     }
-
-
-def _background(floor: Background) -> dict[str, float]:
-    level = {} if floor.white_snr_db is None else {"white_snr_db": floor.white_snr_db}
-    return {"white_rms_m_s2": floor.white_rms} | level
 
 
 def _parameters(scene: Scene) -> dict[str, float]:
@@ -210,11 +206,9 @@ def _from_data(data: dict[str, Any]) -> Scenario:
         envelope_band=(sampling["envelope_band_hz"][0], sampling["envelope_band_hz"][1]),
         slip_deviation=slip["deviation"],
         slip_correlation_time=slip["correlation_time_s"],
-        background=Background(
-            white_rms=data["background"]["white_rms_m_s2"],
-            white_snr_db=data["background"].get("white_snr_db"),
-        ),
+        chain=chain_of(data["chain"]),
         redraws=tuple(Redraw(**redraw) for redraw in data["redraws"]),
+        **background_of(data["background"]),
     )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-SCOPES = ("record", "machine")
+SCOPES = ("record", "machine", "part")
 PURPOSES = (
     "machine",
     "signal",
@@ -22,6 +22,18 @@ PURPOSES = (
     "slip",
     "roughness",
     "white_noise",
+    "chain",
+    "sensor_modes",
+    "pink_noise",
+    "shaft_harmonics",
+    "gear_mesh",
+    "mains_hum",
+    "impulses",
+    "recording",
+    "noise_target",
+    "design",
+    "balance_machines",
+    "balance_records",
 )
 RULE = "numpy.random.default_rng(SeedSequence(seed, spawn_key=(scope, index, purpose, attempt, item)))"
 LARGEST_INDEX = 2**32 - 1
@@ -36,6 +48,6 @@ def spawn_key(scope: str, index: int, purpose: str, attempt: int = 0, item: int 
 
 
 def stream(seed: int, scope: str, index: int, purpose: str, attempt: int = 0, item: int = 0) -> np.random.Generator:
-    """A fresh generator at the start of the stream of one purpose of one record or one machine (virtual bearing)."""
+    """A fresh generator at the start of the stream of one purpose of one record, machine (virtual bearing) or part."""
     key = spawn_key(scope, index, purpose, attempt, item)
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))

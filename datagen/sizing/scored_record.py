@@ -28,7 +28,8 @@ class ScoredRecord:
     """Truth and estimate of one record, SI units; NaN where there is none.
 
     `true_lag`, `lag` s; `true_extent`, `extent`, `lag_arc`, `static_arc` (lag and static release arcs), `envelope_arc`
-    (plain rule) rad; `pass_period` nominal, s; `seconds` of the processor that the estimate took. The event scores are within 100 µs and within 0.5 degrees.
+    (plain rule) rad; `pass_period` nominal, s; `seconds` of the processor that the estimate took. The event scores are
+    within 100 µs and within 0.5 degrees.
     """
 
     record: int

@@ -14,6 +14,7 @@ from labels.event_scores import EventScores
 from labels.spall_size.known_size import known_size_factor
 
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
+CLEAN_DB = 60.0
 RESAMPLES = 2000
 
 
@@ -55,8 +56,10 @@ def summarise(records: list[ScoredRecord], load_known: bool) -> dict[str, Any]:
 
 
 def noise_level(one: ScoredRecord) -> float:
-    """The nominal noise level of a record, dB; infinite if it is clean."""
-    return min(NOISE_LEVELS, key=lambda level: abs(level - one.snr_db)) if math.isfinite(one.snr_db) else math.inf
+    """The nominal noise level of a record, dB; infinite if it is clean, which is what 60 dB and more count as."""
+    if not one.snr_db < CLEAN_DB:
+        return math.inf
+    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - one.snr_db))
 
 
 def lag_error(one: ScoredRecord) -> float:

@@ -17,7 +17,7 @@ from physics._jit import njit, specialise
 from physics.contact import ACTIVE, FORCE, Law, Track, count_changes, of_ball, press, reset_contact, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
-from physics.motion import MotionModel, resonator_acceleration
+from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
 
 Array = NDArray[np.float64]
 
@@ -50,13 +50,15 @@ class Stops(NamedTuple):
 
 
 class Output(NamedTuple):
-    """Arrays to fill: `acceleration` (T, 2); `state` (T, 12) and `force` (T, M), of zero length if not wanted;
+    """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
+    (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
     `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
     contact set; `tally` (4,)."""
 
     acceleration: Array
     state: Array
     force: Array
+    outer: Array
     change_time: Array
     change_ball: NDArray[np.int64]
     change_made: NDArray[np.bool_]
@@ -116,12 +118,19 @@ def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
 
 
 @njit
-def record(balls: Array, motion: MotionModel, state: Array, sample: int, output: Output) -> bool:
+def record(
+    balls: Array, motion: MotionModel, state: Array, net_force: tuple[float, float], sample: int, output: Output
+) -> bool:
     """Write one sample; False if the response is no longer finite."""
     output.acceleration[sample, 0] = resonator_acceleration(motion, state, 0)
     output.acceleration[sample, 1] = resonator_acceleration(motion, state, 1)
+    if output.outer.shape[0] > 0:
+        for axis in range(2):
+            output.outer[sample, axis] = state[2 + axis]
+            output.outer[sample, 2 + axis] = state[8 + axis]
+            output.outer[sample, 4 + axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
     if output.state.shape[0] > 0:
-        output.state[sample] = state
+        output.state[sample] = state[:12]
     if output.force.shape[0] > 0:
         for ball in range(output.force.shape[1]):
             output.force[sample, ball] = of_ball(balls, FORCE, ball)
@@ -255,8 +264,11 @@ def _march(
     start_state: Array,
     output: Output,
 ) -> int:
-    """Fill `output` from the state (12,) at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
-    now, then = start_state.copy(), np.empty(12)
+    """Fill `output` from the state at t = 0, (12,) or longer by what the method carries along.
+
+    Returns DONE, NOT_FINITE or LOG_FULL.
+    """
+    now, then = start_state.copy(), np.empty(start_state.size)
     weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
     set_step(series, weights, 1.0)
     set_time(balls, frames, track, 0.0)
@@ -268,7 +280,7 @@ def _march(
     place = 0
     pace = np.full(1, grid.step)
     for sample in range(grid.samples):
-        if not record(balls, motion, now, sample, output):
+        if not record(balls, motion, now, force, sample, output):
             return NOT_FINITE
         if sample == grid.samples - 1:
             break

@@ -17,7 +17,7 @@ from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.records.record import Record
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from labels.schema import LABELS
+from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable
 from physics.spall import Spall
 
@@ -111,6 +111,7 @@ def plain_labels(index: int, spall: Spall | None) -> dict[str, Any]:
         "location": spall.race if spall else "none",
         "profile": "tukey" if spall else "none",
         "contact_law": "paper",
+        "speed_basis": "set",
         "spalls": 1 if spall else 0,
         "extent": spall.extent if spall else 0.0,
         "extent_spacing": 0.3 if spall else 0.0,
@@ -118,6 +119,8 @@ def plain_labels(index: int, spall: Spall | None) -> dict[str, Any]:
         "duration_s": SAMPLES / RATE,
         "snr_db": math.nan if index % 2 else 12.5,
         "envelope_band": (100.0, 200.0),
+        "snr_band": (100.0, 200.0),
+        "background_rms": (0.1,) * len(LAYERS),
         "validity": "",
     }
     return labels
@@ -156,6 +159,8 @@ def make_plain_record() -> Callable[..., Record]:
         return replace(
             record,
             acceleration_clean=noise / 2.0,
+            acceleration_sensor=noise / 2.0,
+            background=generator.standard_normal((len(LAYERS), SAMPLES, 2)).astype(np.float32),
             cage_angle=np.cumsum(generator.random(SAMPLES)),
             profile_depth=np.zeros((ROWS, 64), np.float32),
             contact_force=generator.random((SAMPLES, ROWS, BALLS)).astype(np.float32),

@@ -12,7 +12,7 @@ from datagen.cli import app
 from datagen.plain import plain_json
 
 ROOT = Path(__file__).parents[2]
-COMMANDS = ("generate", "check", "info", "preview", "size", "catalog")
+COMMANDS = ("generate", "import", "check", "info", "preview", "size", "catalog", "schema")
 HEAVY = ("numpy", "numba", "xarray", "scipy", "pandas", "netCDF4", "pydantic", "joblib", "matplotlib", "rich")
 
 

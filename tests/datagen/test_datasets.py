@@ -125,10 +125,9 @@ def test_the_size_ladder_spans_lengths_tapers_loads_speeds_and_noises_in_the_sha
     loads = [scenario.scene.operation.load / scenario.scene.rig.rated_load for scenario in drawn]
     speeds = [scenario.scene.operation.shaft_speed * 30.0 / math.pi for scenario in drawn]
     assert (min(loads) >= 0.2, max(loads) <= 5.0, min(speeds) >= 300.0, max(speeds) <= 3000.0) == (True,) * 4
-    noises = Counter(scenario.background.white_snr_db for scenario in drawn)
-    clean = noises.pop(None)
-    assert set(noises) == {20.0, 10.0, 5.0, 0.0}
-    assert 0.1 < clean / len(drawn) < 0.3  # one fifth is clean
+    noises = Counter(scenario.noise_target.ratio_db for scenario in drawn if scenario.noise_target is not None)
+    assert set(noises) == {200.0, 20.0, 10.0, 5.0, 0.0}
+    assert all(0.1 < count / len(drawn) < 0.3 for count in noises.values())  # equal shares, 4 deviations of 240 records
     assert {spall.race for spall in spalls} == {"outer", "inner"}
     assert {spall.profile for spall in spalls} == {"tukey", "ball_path"}
     longest = [draw_scenario(recipe, record) for record in range(1200, 1344, 6)]

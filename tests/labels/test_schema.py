@@ -53,8 +53,8 @@ def test_a_label_whose_name_ends_in_a_unit_has_that_unit(label):
     if ending in units:
         assert label.unit == units[ending]
     else:
-        assert label.unit in ("", "1", "rad", "m", "N", "Hz", "s")
-    assert label.source in ("scene", "run", "record")
+        assert label.unit in ("", "1", "rad", "m", "N", "Hz", "s", "m s-2")
+    assert label.source in ("scene", "run", "record", "recording")
 
 
 def test_no_time_is_in_seconds_by_name_which_readers_turn_into_durations():
@@ -78,6 +78,11 @@ def test_a_label_of_several_components_becomes_as_many_columns():
     assert LABEL["envelope_band"].columns == ("envelope_band_low", "envelope_band_high")
     assert LABEL["envelope_band"].components == BAND_EDGES
     assert LABEL["depth"].columns == ("depth",)
+
+
+def test_every_list_of_components_is_a_dimension_of_the_format():
+    coordinates = {variable.values for variable in COORDINATES if variable.values}
+    assert {label.components for label in LABELS if label.components} <= coordinates
 
 
 def test_only_what_happens_to_its_load_may_be_missing_from_a_pass():

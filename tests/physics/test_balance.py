@@ -36,7 +36,7 @@ def fine_run(reference_scene):
     still = reference_scene("G1", 0.06)
     run = dataclasses.replace(still.operation, unbalance_force=40.0, unbalance_phase=0.7, load_fluctuation=0.2)
     scene = dataclasses.replace(still, operation=run)
-    return scene, simulate(scene, FINE_RATE, keep_state=True, keep_force=True, estimate_error=False)
+    return scene, simulate(scene, FINE_RATE, keep_state=True, keep_force=True, keep_outer=True, estimate_error=False)
 
 
 def outer_loads(scene, time):
@@ -81,6 +81,21 @@ def test_the_recorded_acceleration_is_the_resonators_own(fine_run):
     # Simpson's rule over two samples; where a film force jumps, the rate of the resonator's force does too.
     gained = (trace.acceleration[:-2] + 4.0 * trace.acceleration[1:-1] + trace.acceleration[2:]) / (3.0 * FINE_RATE)
     assert velocity[2:] - velocity[:-2] == pytest.approx(gained, abs=1e-6 * np.abs(velocity).max())
+
+
+def test_the_outer_rings_mass_times_its_acceleration_is_the_sum_of_the_forces_on_it(fine_run):
+    scene, trace = fine_run
+    rig = scene.rig
+    place, speed = trace.state[:, 2:4], trace.state[:, 8:10]
+    support = np.array([rig.support_stiffness_x, rig.support_stiffness_y]) * place
+    support = support + np.array([rig.support_damping_x, rig.support_damping_y]) * speed
+    resonator = rig.resonator_stiffness * (place - trace.state[:, 4:6])
+    resonator = resonator + rig.resonator_damping * (speed - trace.state[:, 10:12])
+    forces = contact_sums(scene, trace) - support - resonator
+    # Rounding, and the nanosecond by which a step that ends at a change of contact stands beside its sample.
+    assert rig.outer_mass * trace.outer_acceleration == pytest.approx(forces, abs=1e-9 * np.abs(forces).max())
+    assert np.array_equal(trace.outer_displacement, place)
+    assert np.array_equal(trace.outer_velocity, speed)
 
 
 def still_scene(reference_scene, law):

@@ -261,3 +261,10 @@ def test_hermite_cells_have_the_values_and_slopes_of_their_nodes():
     assert [np.polyval(c, 1.0) for c in cubics] == pytest.approx(value[1:])
     assert [np.polyval(np.polyder(c), 0.0) for c in cubics] == pytest.approx(rate[:2])
     assert [np.polyval(np.polyder(c), 1.0) for c in cubics] == pytest.approx(rate[1:])
+
+
+def test_the_path_of_a_spall_is_built_once_and_that_of_another_spall_or_bearing_anew(gearbox, fan):
+    path = build_path(tukey(), gearbox.bearing)
+    assert build_path(tukey(), dataclasses.replace(gearbox.bearing)) is path
+    assert build_path(tukey(depth=13e-6), gearbox.bearing) is not path
+    assert build_path(gap(), gearbox.bearing).largest_depth != build_path(gap(), fan.bearing).largest_depth

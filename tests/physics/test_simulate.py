@@ -9,6 +9,7 @@ import pytest
 import physics.response
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
+from physics.resampling import decimate
 from physics.simulate import simulate
 
 RATE = 65536.0
@@ -152,3 +153,17 @@ def test_without_a_number_of_steps_they_are_doubled_until_the_pilot_meets_the_ac
     assert free.step < fixed.step
     assert free.error_estimate < 1e-5
     assert rms(free.acceleration - truth) < 5e-5 * rms(truth)  # the factor of five that an estimate is allowed
+
+
+def test_the_outer_rings_motion_is_kept_on_request_and_lowered_like_the_acceleration(reference_scene):
+    scene = reference_scene("G1", 0.125)
+    low, high = (simulate(scene, rate, keep_outer=True, estimate_error=False) for rate in (16384.0, 49152.0))
+    assert simulate(scene, RATE, estimate_error=False).outer_acceleration is None
+    lowered = decimate(high.outer_acceleration, 3)
+    assert low.outer_acceleration == pytest.approx(lowered, abs=1e-12 * np.abs(lowered).max())  # the same march
+    assert low.outer_velocity.shape == low.outer_displacement.shape == low.acceleration.shape
+
+
+def test_the_reference_method_refuses_to_keep_the_outer_rings_motion(reference_scene):
+    with pytest.raises(SimulationFailed, match="keep_force or keep_outer = True; the reference method keeps no forces"):
+        simulate(reference_scene("G0", 0.02), RATE, method="reference", keep_outer=True)

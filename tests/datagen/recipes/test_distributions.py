@@ -13,6 +13,7 @@ from scipy import stats
 
 from datagen.recipes.distributions import (
     DISTRIBUTIONS,
+    Balanced,
     DistributionError,
     Fixed,
     Normal,
@@ -30,6 +31,7 @@ EXAMPLES: list[Any] = [
     {"normal": [5.0, 1.0], "low": 9.0, "high": 9.5},
     {"choice": ["outer", "inner"], "weights": [3.0, 1.0]},
     {"choice": [1, 2, "both"]},
+    {"balanced": ["healthy", "line"], "weights": [1.0, 2.0]},
 ]
 PROBABILITIES = (0.0, 1e-12, 0.1, 0.25, 0.5, 0.9, 1.0 - 2.0**-53)
 
@@ -104,6 +106,13 @@ def test_equal_choices_come_equally_often() -> None:
     assert [drawn.count(value) for value in (1, 2, 3, 4)] == [100] * 4
 
 
+def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight() -> None:
+    balanced = Balanced(("a", "b", "c"), (1.0, 0.0, 3.0))
+    assert balanced.block == 4
+    for seed in range(5):
+        assert sorted(balanced.shuffled(np.random.default_rng(seed))) == [0, 2, 2, 2]
+
+
 def test_a_bare_value_takes_its_number_too_so_that_fixing_a_setting_moves_no_other() -> None:
     generator = np.random.default_rng(0)
     Fixed(1.0).draw(generator)
@@ -133,7 +142,12 @@ def test_a_bare_value_takes_its_number_too_so_that_fixing_a_setting_moves_no_oth
         ({"choice": [1, 2], "weights": [0, 0]}, "their sum must be above 0"),
         ({"choice": [1, 2], "weights": [-1, 2]}, "below 0"),
         ({"choice": [1, 2], "weights": 3}, "a list of numbers"),
+        ({"balanced": ["a", "b"], "weights": [0.5, 1]}, "whole numbers"),
+        ({"balanced": ["a", "b"], "weights": [1, 1000]}, "add up to 1001: balanced takes at most 1000"),
+        ({"balanced": ["a", "b"], "weight": [1, 2]}, 'did you mean "weights"'),
         ({"unifrom": [1, 2]}, 'did you mean "uniform"'),
+        ({"balance": [1, 2]}, 'did you mean "balanced"'),
+        ({"truncated_normal": [1, 2]}, 'did you mean "normal"'),
         ({"uniform": [1, 2], "normal": [1, 2]}, "give one of"),
         ({}, "give one of"),
         (math.nan, "neither a finite number"),
@@ -146,10 +160,10 @@ def test_a_badly_written_distribution_is_refused_with_what_is_wrong(example: Any
         parse_distribution(example)
 
 
-def test_the_schema_of_a_number_names_every_distribution_and_that_of_a_word_only_choice() -> None:
+def test_the_schema_of_a_number_names_every_distribution_and_that_of_a_word_only_lists() -> None:
     number = distribution_schema({"type": "number"})["anyOf"]
     names = [next(iter(option["properties"])) for option in number[1:]]
     assert names == [kind.keys[0] for kind in DISTRIBUTIONS]
     word = distribution_schema({"enum": ["a", "b"]})["anyOf"]
     assert word[0] == {"enum": ["a", "b"]}
-    assert [next(iter(option["properties"])) for option in word[1:]] == ["choice"]
+    assert [next(iter(option["properties"])) for option in word[1:]] == ["choice", "balanced"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from datagen.errors import BadInput
-from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe, recipe_schema
+from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 
 GOOD = """name = "try"
 seed = 1
@@ -63,7 +63,8 @@ def test_records_are_counted_over_parts_and_machines_over_their_records(tmp_path
     recipe = load_recipe(write(tmp_path))
     assert recipe.count == 8
     assert [recipe.place(record) for record in range(8)] == [
-        (0, 0), (0, 0), (0, 1), (0, 1), (0, 2), (1, 3), (1, 4), (1, 5),
+        (0, 0, 0, 0, 0), (0, 0, 1, 0, 1), (0, 1, 2, 1, 0), (0, 1, 3, 1, 1), (0, 2, 4, 2, 0),
+        (1, 3, 0, 0, 0), (1, 4, 1, 1, 0), (1, 5, 2, 2, 0),
     ]  # fmt: skip
     with pytest.raises(BadInput, match=r"record = 8; allowed: 0 to 7"):
         recipe.place(8)
@@ -138,7 +139,36 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
             "part[1].defect.exit_taper_deg",
             "longer than the spall",
         ),
-        ("depth_um = 12", "depth_um = 12\nrow = 3", "part[1].defect.row", "1, 2, both"),
+        ("depth_um = 12", "depth_um = 12\nrow = 3", "part[1].defect.row", "1, 2, both, any"),
+        ("depth_um = 12", 'depth_um = 12\ndrawn_for = "rig"', "part[1].defect.drawn_for", "'record' or 'machine'"),
+        (
+            "depth_um = 12",
+            "depth_um = 12\nhealthy_records = 3",
+            "part[1].defect.healthy_records",
+            "at most 2, the records of each machine",
+        ),
+        ("records = 5", 'records = 5\ndesign = "sobel"', "part[1].design", "'sobol'"),
+        ("records = 5", 'records = 100001\ndesign = "latin_hypercube"', "part[1].design", "at most 100000 records"),
+        ('"gearbox"', '"drawn"', "part[1].machine.bearing", "a drawn rig needs this setting"),
+        (
+            '"gearbox"',
+            '"gearbox"\nmachine.bearing = "drawn"\nmachine.fill = 0.9\nmachine.balls = 8',
+            "part[1].machine.fill",
+            "balls and fill say the same thing twice",
+        ),
+        (
+            '"gearbox"',
+            '"gearbox"\nmachine.bearing = "drawn"\nmachine.fill = 0.9\nmachine.rows = 1\n'
+            "machine.pitch_diameter_mm = 40",
+            "part[1].machine.ball_diameter_of_pitch",
+            "one of ball_diameter_mm, ball_diameter_of_pitch",
+        ),
+        (
+            '"gearbox"',
+            '"gearbox"\nmachine.factors.inner_mas = 2',
+            "part[1].machine.factors.inner_mas",
+            'did you mean "inner_mass"?',
+        ),
         ("depth_um = 12", "depth_um = 12\ncount = {uniform = [1, 3]}", "part[1].defect.count", "by choice"),
         ('condition = "line"', 'condition = "lime"', "part[1].defect.condition", 'did you mean "line"?'),
         ('condition = "line"', 'condition = "line"\nprofile = "table"', "part[1].defect.table", "needs a file"),
@@ -158,6 +188,12 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
         ("[signal]", '[store]\ncompression = "zip"\n[signal]', "store.compression", "zlib"),
         ("[signal]", "[split]\ntrain = 0.9\n[signal]", "split.train", "add up to 1.2"),
         ("speed_of_rated", "speed_rpm = 100\nspeed_of_rated", "part[1].operation.speed_of_rated", "twice"),
+        (
+            "[part.operation]",
+            "[part.operation]\nunbalance_n = 1\nunbalance_grade_mm_per_s = 1",
+            "part[1].operation.unbalance_grade_mm_per_s",
+            "twice",
+        ),
         ("[part.operation]", "[part.operation]\nload_n = -1", "part[1].operation.load_n", "from 0"),
     ],
 )
@@ -213,20 +249,3 @@ def test_a_normal_distribution_is_cut_off_at_what_is_allowed(tmp_path: Path) -> 
     assert defect.depth_um is not None
     assert defect.depth_um.quantile(0.0) >= 0.0
     assert defect.depth_um.to_toml() == {"normal": [1.0, 5.0], "low": 0.0, "high": 1e4}
-
-
-def test_the_json_schema_knows_every_key_its_unit_and_its_range() -> None:
-    schema = recipe_schema()
-    spall = schema["$defs"]["SpallSettings"]
-    assert spall["additionalProperties"] is False
-    depth = spall["properties"]["depth_um"]
-    assert "µm" in depth["description"]
-    assert {"type": "number", "minimum": 0.0, "maximum": 10000.0} in depth["anyOf"]
-    assert {"enum": ["outer", "inner"]} in schema["$defs"]["DefectSettings"]["properties"]["race"]["anyOf"]
-    undescribed = [
-        (name, key)
-        for name, table in schema["$defs"].items()
-        for key, value in table.get("properties", {}).items()
-        if "description" not in value and name != "ProfileTable"
-    ]
-    assert undescribed == []

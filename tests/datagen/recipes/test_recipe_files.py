@@ -10,6 +10,7 @@ import pytest
 from datagen.errors import BadInput
 from datagen.recipes import recipe_files
 from datagen.recipes.recipe_files import find_recipe, shipped_recipes
+from datagen.recordings.spec_files import shipped_specs
 
 ROOT = Path(__file__).parents[3]
 
@@ -62,5 +63,6 @@ def test_the_wheel_lists_every_package_and_every_dataset() -> None:
         for file in (ROOT / name).rglob("__init__.py")
     }
     datasets = {f"datagen.datasets.{name}" for name in shipped_recipes()}
-    assert set(settings["packages"]) == packages | datasets | {"datagen.datasets"}
+    specs = {f"datagen.datasets.{path.parent.name}" for path in shipped_specs().values()}
+    assert set(settings["packages"]) == packages | datasets | specs | {"datagen.datasets"}
     assert settings["package-dir"] == {"datagen.datasets": "datasets"}

@@ -12,7 +12,7 @@ import pytest
 from datagen.errors import BadInput
 from datagen.recipes.machine_settings import MachineSettings
 from datagen.recipes.recipe import Recipe, parse_recipe
-from datagen.scenarios.machine import BEARING_NUMBERS, RIG_NUMBERS
+from datagen.scenarios.drawn_rig import BEARING_NUMBERS, CONFORMITIES, RATED_NUMBERS, RIG_NUMBERS, STREAM
 from datagen.scenarios.redraw import MOST_ATTEMPTS
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -123,7 +123,7 @@ def test_overlapping_spalls_are_drawn_again() -> None:
 def test_a_measured_table_gives_its_own_extent_and_depth(tmp_path: Path) -> None:
     (tmp_path / "pit.csv").write_text("angle_deg,depth_um\n0,0\n1,30\n3,0\n")
     part = HEALTHY | {"defect": {"condition": "line", "profile": "table", "table": "pit.csv"}}
-    content = {"name": "r", "seed": 1, "signal": {"rate_hz": 1000, "duration_s": 1}, "part": [part]}
+    content = {"name": "r", "seed": 1, "signal": {"rate_hz": 65536, "duration_s": 1}, "part": [part]}
     (spall,) = draw_scenario(parse_recipe(content, tmp_path / "recipe.toml"), 0).scene.spalls
     assert (spall.profile, spall.extent, spall.depth) == ("table", math.radians(3), 3e-5)
     assert spall.table_depth == (0.0, 3e-5, 0.0)
@@ -183,6 +183,13 @@ def test_slip_is_off_at_zero_deviation_and_separate_cages_slip_apart() -> None:
     assert draw(machine={"rig": "cwru", "separate_cages": True})[0].scene.second_cage is None
 
 
+def test_an_unbalance_grade_gives_a_load_of_mass_times_grade_times_speed() -> None:
+    operation = {"speed_rpm": {"uniform": [300, 3000]}, "unbalance_grade_mm_per_s": 6.3, "slip_deviation": 0}
+    for scenario in draw(5, machine={"rig": "fan"}, operation=operation):
+        run = scenario.scene.operation
+        assert run.unbalance_force == pytest.approx(6.3e-3 * 2.0 * run.shaft_speed, rel=1e-14)  # m e ω² with e ω = G
+
+
 def test_the_correlation_time_is_in_nominal_ball_passes() -> None:
     (scenario,) = draw(operation={"slip_correlation_passes": 2})
     bearing = scenario.scene.rig.bearing
@@ -190,13 +197,13 @@ def test_the_correlation_time_is_in_nominal_ball_passes() -> None:
     assert scenario.slip_correlation_time == pytest.approx(2 / passes_per_second, rel=1e-14)  # a few roundings
 
 
+NUMBERS = (*BEARING_NUMBERS, *CONFORMITIES, *RIG_NUMBERS, *RATED_NUMBERS)
+
+
 def test_every_number_of_rig_and_bearing_can_be_set() -> None:
-    settable = {field for _, field, _ in (*BEARING_NUMBERS, *RIG_NUMBERS)} | {"balls", "rows", "bearing"}
-    numbers = {field.name for owner in (Bearing, Rig) for field in fields(owner)}
-    assert numbers - settable == {"name", "inner_conformity", "outer_conformity", "rated_speed", "rated_load"}
-    named = {setting for setting, _, _ in (*BEARING_NUMBERS, *RIG_NUMBERS)}
-    others = {"rig", "bearing", "balls", "rows", "separate_cages"}
-    assert named == set(MachineSettings.model_fields) - others
+    settable = {field for _, field, _ in NUMBERS} | {"balls", "rows", "bearing"}
+    assert {field.name for owner in (Bearing, Rig) for field in fields(owner)} - settable == {"name"}
+    assert sorted((*STREAM, "factors")) == sorted(MachineSettings.model_fields)
 
 
 OVERRIDES = {
@@ -217,14 +224,18 @@ OVERRIDES = {
     "support_damping_y_n_s_per_m": (602.0, 602.0),
     "resonator_damping_n_s_per_m": (303.0, 303.0),
     "film_damping_n_s_per_m": (90.0, 90.0),
+    "inner_conformity": (0.51, 0.51),
+    "outer_conformity": (0.53, 0.53),
+    "rated_speed_rpm": (600.0, 20 * math.pi),
+    "rated_load_n": (500.0, 500.0),
 }
 
 
-@pytest.mark.parametrize(("setting", "field", "per_unit"), [*BEARING_NUMBERS, *RIG_NUMBERS])
+@pytest.mark.parametrize(("setting", "field", "per_unit"), NUMBERS)
 def test_an_override_lands_in_its_field_in_si_units(setting: str, field: str, per_unit: float) -> None:
     given, expected = OVERRIDES[setting]
     drawn = draw(machine={"rig": "gearbox", setting: given})[0].scene.rig
-    owner = drawn.bearing if (setting, field, per_unit) in BEARING_NUMBERS else drawn
+    owner = drawn if hasattr(drawn, field) else drawn.bearing
     assert getattr(owner, field) == pytest.approx(expected, rel=1e-15)  # one division
 
 
@@ -289,27 +300,18 @@ def test_the_band_is_the_rigs_resonance_unless_the_recipe_says_otherwise() -> No
     assert draw_scenario(recipe_of(HEALTHY, signal=signal), 0).envelope_band == (1000.0, 2000.0)
 
 
+def test_a_resonance_that_is_not_recorded_needs_a_band_of_ones_own() -> None:
+    slow = {"rate_hz": 16384, "duration_s": 0.1}
+    altered = HEALTHY | {"machine": {"rig": "gearbox", "factors": {"resonator_mass": 1}}}
+    with pytest.raises(BadInput, match="rings at 10548 Hz, too high for a sampling rate of 16384 Hz; allowed: rate_hz"):
+        draw_scenario(recipe_of(altered, signal=slow), 0)
+    assert draw_scenario(recipe_of(HEALTHY, signal=slow | {"envelope_band_hz": [500, 4000]}), 0).rate == 16384
+
+
 def test_the_duration_is_rounded_to_whole_samples() -> None:
     scenario = draw_scenario(recipe_of(HEALTHY, signal={"rate_hz": 65536, "duration_s": 0.4}), 0)
     assert scenario.samples == 26214
     assert scenario.duration == 26214 / 65536
-
-
-def test_a_stated_signal_to_noise_ratio_is_drawn_for_each_record_and_clean_means_no_noise() -> None:
-    levels = {"white_snr_db": {"choice": ["clean", 10, 0]}}
-    drawn = [scenario.background for scenario in draw(records=30, records_per_machine=10, background=levels)]
-    assert {one.white_snr_db for one in drawn} == {None, 10.0, 0.0}
-    assert all(one.white_rms == 0.0 for one in drawn)
-
-
-def test_noise_cannot_have_two_levels_nor_an_unknown_word() -> None:
-    for wrong, words in (
-        ({"white_snr_db": 5, "white_rms_m_s2": 0.1}, "two levels"),
-        ({"white_snr_db": "loud"}, "clean"),
-    ):
-        with pytest.raises(BadInput) as caught:
-            draw(background=wrong)
-        assert words in str(caught.value)
 
 
 def test_the_numbers_drawn_for_a_seed_never_change() -> None:

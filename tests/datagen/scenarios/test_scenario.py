@@ -12,17 +12,26 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
-from datagen.records.background import Background
+from datagen.records.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario, Seeds
 from datagen.scenarios.streams import PURPOSES, SCOPES
+from physics.backgrounds.gear_mesh import GearMesh
+from physics.backgrounds.impulses import Impulses, Resonance
+from physics.backgrounds.mains_hum import MainsHum
+from physics.backgrounds.pink import PinkNoise
+from physics.backgrounds.shaft_harmonics import ShaftHarmonics
 from physics.bearing import Bearing
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
 from physics.rig import Rig
 from physics.scene import Scene
+from physics.sensor.chain import SensorChain
+from physics.sensor.mode import SensorMode
+from physics.sensor.mounting import Mounting
+from physics.sensor.recorder import Recorder
 from physics.spall import Spall
 
 KEYS = (
@@ -59,7 +68,24 @@ def full_scenario() -> Scenario:
         envelope_band=(9000.1, 9999.9),
         slip_deviation=0.0123,
         slip_correlation_time=0.0345,
-        background=Background(0.0678, 7.6),
+        chain=SensorChain(
+            (SensorMode(4321.0, 0.023, 0.71), SensorMode(8765.4, 0.011, 1.3)),
+            0.89,
+            Mounting(10987.0, 5),
+            Recorder(497.0, 14),
+        ),
+        background=Background(
+            white_rms=0.0678,
+            pink=PinkNoise(0.123, 2.3, 1.1),
+            shaft_harmonics=ShaftHarmonics((0.31, 0.17), 2),
+            gear_mesh=GearMesh(32, (0.41, 0.13), 49, 0.33, 0.27, 3),
+            mains_hum=MainsHum(49.97, (0.21, 0.07)),
+            impulses=Impulses(13.7, 5.1, 0.61, (Resonance(3210.0, 0.031),)),
+            recording_gain=9.81,
+        ),
+        stretch=Stretch("healthy.wav", "ab" * 32, (17, 23), np.arange(6, dtype="<f4").tobytes()),
+        noise_target=NoiseTarget(7.7, False),
+        snr_band=(987.6, 5432.1),
         redraws=(Redraw("record", 0, "extent", "too long"),),
     )
 

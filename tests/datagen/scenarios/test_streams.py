@@ -32,8 +32,8 @@ def test_the_stream_is_the_documented_seed_sequence() -> None:
 
 
 def test_scopes_and_purposes_only_ever_grow_at_their_end() -> None:
-    assert SCOPES[:2] == ("record", "machine")
-    assert PURPOSES[:11] == (
+    assert SCOPES[:3] == ("record", "machine", "part")
+    assert PURPOSES[:23] == (
         "machine",
         "signal",
         "imperfections",
@@ -45,6 +45,18 @@ def test_scopes_and_purposes_only_ever_grow_at_their_end() -> None:
         "slip",
         "roughness",
         "white_noise",
+        "chain",
+        "sensor_modes",
+        "pink_noise",
+        "shaft_harmonics",
+        "gear_mesh",
+        "mains_hum",
+        "impulses",
+        "recording",
+        "noise_target",
+        "design",
+        "balance_machines",
+        "balance_records",
     )
 
 

@@ -1,0 +1,44 @@
+"""`spallgen import`: recordings of real machines brought into the schema of simulated ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from datagen.commands.program import JsonFile, command, complain, write_json
+
+if TYPE_CHECKING:
+    from datagen.recordings.importing import Imported
+
+
+@command("spallgen import cwru --root ~/cwru --out out/cwru", name="import")
+def import_recordings(
+    spec: Annotated[Path, typer.Argument(metavar="SPEC.toml", help="SPEC of the files, or name of one: cwru, mfpt.")],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the corpus; new or empty.")],
+    root: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder of the files; the SPEC's own if not given.")
+    ] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Bring recordings (.mat, .npz, .npy, .csv, .wav, .nc) into a corpus; nothing is written if a file is bad."""
+    from datagen.recordings.importing import import_recordings as bring
+    from datagen.recordings.spec import load_spec
+
+    done = bring(load_spec(spec), out, root)
+    write_json(json_file, done)
+    _tell(done)
+
+
+def _tell(done: Imported) -> None:
+    from datagen.runs.progress import for_people
+
+    for problem, names in (("not there", done.absent), ("left out as repeats", done.skipped)):
+        if names:
+            shown = ", ".join(names[:6]) + (" …" if len(names) > 6 else "")
+            complain(f"{len(names)} {problem}: {shown}")
+    print(
+        f"{done.records} records of {done.files} files are in {done.folder} "
+        f"({done.shards} shards, {for_people(done.bytes)}, {done.seconds:.1f} s)"
+    )

@@ -1,0 +1,30 @@
+"""`spallgen schema`: what a recipe may say, for editors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from datagen.commands.program import JsonFile, command, write_json
+from datagen.errors import BadInput
+
+
+@command("spallgen schema --out recipe.schema.json")
+def schema(
+    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="File to write; shown if none.")] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Write the JSON Schema of recipes: an editor completes, explains and checks keys with it."""
+    from datagen.recipes.recipe_schema import recipe_schema, schema_text
+
+    write_json(json_file, recipe_schema())
+    if out is None:
+        print(schema_text(), end="")
+        return
+    try:
+        out.write_text(schema_text(), encoding="utf-8")
+    except OSError as problem:
+        raise BadInput(f"cannot write this file: {problem.strerror}", str(out), "--out") from None
+    print(f"the schema of recipes is in {out}")

@@ -1,0 +1,94 @@
+"""What a preview shows of an imported recording: its signal, and the frequencies that its labels lead to expect."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.envelope import FALLBACK_SHARES, band_envelope
+from labels.variables import AXES
+
+Array = NDArray[np.float64]
+
+REVOLUTIONS_SHOWN = 3.0
+SHOWN_WITHOUT_SPEED = 0.1
+ORDERS = {"BPFO": "bpfo", "BPFI": "bpfi", "BSF": "bsf", "FTF": "ftf"}
+SHOWN_LINES = {"outer": ("BPFO",), "inner": ("BPFI",), "ball": ("BSF",), "cage": ("FTF",)}
+
+
+@dataclass(frozen=True)
+class MeasuredPortrait:
+    """One recording: its `acceleration` (T, axes) along `axes`, m/s², and `labels` keyed as in labels.schema."""
+
+    corpus: str
+    labels: Mapping[str, Any]
+    rate: float
+    axes: tuple[str, ...]
+    acceleration: Array
+    clean: None = None
+
+    @property
+    def axis(self) -> str:
+        """The axis that is drawn: y if it was recorded."""
+        return AXES[1] if AXES[1] in self.axes else self.axes[0]
+
+    @cached_property
+    def main_axis(self) -> Array:
+        """Acceleration along that axis (T,), m/s²."""
+        return self.acceleration[:, self.axes.index(self.axis)]
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Band of the envelope that is drawn, Hz: the record's, or the usual one if it has no y axis."""
+        low, high = self.labels["envelope_band"]
+        if math.isnan(low):
+            return FALLBACK_SHARES[0] * self.rate, FALLBACK_SHARES[1] * self.rate
+        return float(low), float(high)
+
+    @cached_property
+    def envelope(self) -> Array:
+        """Envelope in that band (T,), m/s²."""
+        return band_envelope(self.main_axis, self.rate, self.band)
+
+    @cached_property
+    def time(self) -> Array:
+        """Instants of the samples (T,), s."""
+        return np.arange(self.main_axis.size) / self.rate
+
+    @property
+    def duration(self) -> float:
+        """Length of the record, s."""
+        return float(self.main_axis.size / self.rate)
+
+    @cached_property
+    def frequencies(self) -> dict[str, float]:
+        """Those of BPFO, BPFI, BSF, FTF and shaft frequency (Hz, without slip) that are known."""
+        shaft = self.labels["speed_rpm"] / 60.0
+        orders = {name: self.labels[label] for name, label in ORDERS.items()} | {"shaft": 1.0}
+        return {name: order * shaft for name, order in orders.items() if order * shaft > 0.0}
+
+    @property
+    def expected_lines(self) -> tuple[str, ...]:
+        """Names of the defect frequencies worth a look: the stated one, both races' if none is stated."""
+        names = SHOWN_LINES.get(str(self.labels["location"]), ("BPFO", "BPFI"))
+        return tuple(name for name in names if name in self.frequencies)
+
+    @cached_property
+    def window(self) -> tuple[float, float]:
+        """Start and end (s) of the close-up: a few revolutions about the largest amplitude."""
+        shaft = self.frequencies.get("shaft")
+        width = min(REVOLUTIONS_SHOWN / shaft if shaft else SHOWN_WITHOUT_SPEED, self.duration)
+        peak = float(np.argmax(np.abs(self.main_axis - self.main_axis.mean()))) / self.rate
+        start = min(max(peak - width / 2.0, 0.0), self.duration - width)
+        return start, start + width
+
+    def within(self, times: Array) -> slice:
+        """The part of rising `times` that lies in the close-up."""
+        first, last = np.searchsorted(times, self.window)
+        return slice(int(first), int(last))

@@ -1,0 +1,166 @@
+"""The sheet of an imported recording: whole record, close-up, spectrogram, spectrum and squared envelope spectrum."""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from datagen.drawing.frequency_panels import HARMONICS, decades, draw_spectrum, line_height
+from datagen.drawing.measured_portrait import MeasuredPortrait
+from datagen.drawing.sheet import DPI
+from datagen.drawing.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    MAP,
+    ORANGE,
+    PURPLE,
+    VERMILLION,
+    faint_grid,
+    house_style,
+    outside_legend,
+    plt,
+)
+from datagen.drawing.time_panels import DYNAMIC_RANGE_DB
+from labels.envelope import squared_envelope_spectrum
+from labels.spectrogram import spectrogram
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+WIDTH, HEIGHT = 13.0, 9.0
+MARKS = {
+    "BPFO": ("o", VERMILLION),
+    "BPFI": ("D", GREEN),
+    "BSF": ("^", ORANGE),
+    "FTF": ("v", ORANGE),
+    "shaft": ("s", PURPLE),
+}
+PLACES = {
+    "none": "healthy",
+    "outer": "defect on the outer race",
+    "inner": "defect on the inner race",
+    "ball": "defect on a ball",
+    "cage": "defect of the cage",
+    "several": "defects in several places",
+}
+SHAFT_HARMONICS = 3
+ORDERS_WITHOUT_GEOMETRY = 30.0
+HERTZ_WITHOUT_SPEED = 500.0
+
+
+def measured_sheet_png(portrait: MeasuredPortrait) -> bytes:
+    """The sheet of one imported recording as the bytes of a PNG file."""
+    picture = io.BytesIO()
+    with house_style():
+        figure = draw_measured_sheet(portrait)
+        figure.savefig(picture, dpi=DPI, format="png")
+        plt.close(figure)
+    return picture.getvalue()
+
+
+def draw_measured_sheet(portrait: MeasuredPortrait) -> Figure:
+    """The figure of one imported recording, all panels with units."""
+    figure = plt.figure(figsize=(WIDTH, HEIGHT))
+    grid = figure.add_gridspec(
+        3, 2, height_ratios=(0.8, 1.0, 1.1), left=0.06, right=0.975, top=0.885, bottom=0.06, hspace=0.42, wspace=0.17
+    )
+    draw_whole(figure.add_subplot(grid[0, :]), portrait)
+    close_up = figure.add_subplot(grid[1, 0])
+    draw_close_up(close_up, portrait)
+    draw_close_spectrogram(figure.add_subplot(grid[2, 0], sharex=close_up), portrait)
+    draw_spectrum(figure.add_subplot(grid[1, 1]), portrait.main_axis, portrait.rate, portrait.band, portrait.axis)
+    draw_expected_lines(figure.add_subplot(grid[2, 1]), portrait)
+    figure.text(0.06, 0.965, heading(portrait), fontsize=13, fontweight="bold", color=INK)
+    figure.text(0.06, 0.935, summary(portrait), fontsize=9, color=GREY)
+    return figure
+
+
+def heading(portrait: MeasuredPortrait) -> str:
+    """One line: which record, which recording, what is known of its state."""
+    labels = portrait.labels
+    state = PLACES.get(labels["location"], "state unknown")
+    kind = f"{labels['condition']} " if labels["condition"] in ("line", "extended") else ""
+    return f"{portrait.corpus}, record {labels['record']}: {labels['recording']}, {kind}{state}"
+
+
+def summary(portrait: MeasuredPortrait) -> str:
+    """One line: machine, speed and how it is known, load, size, length and rate."""
+    labels = portrait.labels
+    parts = [
+        f"measured on {labels['rig']}, bearing {labels['bearing']}",
+        f"{labels['speed_rpm']:.4g} rpm ({labels['speed_basis']})" if labels["speed_rpm"] >= 0.0 else "speed unknown",
+        f"{labels['load_n']:.5g} N" if math.isfinite(labels["load_n"]) else "load unknown",
+        f"{labels['extent_mm']:.3g} mm" if labels["extent_mm"] > 0.0 else "",
+        f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
+    ]
+    return "  ·  ".join(part for part in parts if part)
+
+
+def draw_whole(axes: Axes, portrait: MeasuredPortrait) -> None:
+    """The whole record and where the close-up lies, m/s² against s."""
+    axes.plot(portrait.time, portrait.main_axis, color=BLUE, linewidth=0.6)
+    axes.axvspan(*portrait.window, color=ORANGE, alpha=0.3, linewidth=0, zorder=0)
+    axes.set(xlim=(0.0, portrait.duration), xlabel="time (s)", ylabel="m/s²")
+    axes.set_title(f"Acceleration, {portrait.axis} axis, whole record (close-up marked)")
+    faint_grid(axes)
+
+
+def draw_close_up(axes: Axes, portrait: MeasuredPortrait) -> None:
+    """A few revolutions, m/s² against ms."""
+    part = portrait.within(portrait.time)
+    axes.plot(portrait.time[part] * 1e3, portrait.main_axis[part], color=BLUE, linewidth=0.8)
+    axes.set(xlim=(portrait.window[0] * 1e3, portrait.window[1] * 1e3), ylabel="m/s²", xlabel="time (ms)")
+    axes.set_title("Close-up about the largest amplitude")
+    faint_grid(axes)
+
+
+def draw_close_spectrogram(axes: Axes, portrait: MeasuredPortrait) -> None:
+    """Spectrogram of the close-up in dB below its maximum, kHz against ms."""
+    time, frequency, power = spectrogram(portrait.main_axis, portrait.rate, *portrait.window)
+    level = 10.0 * np.log10(np.maximum(power, 1e-300) / max(power.max(), 1e-300))
+    axes.pcolormesh(
+        time * 1e3, frequency * 1e-3, level, vmin=-DYNAMIC_RANGE_DB, vmax=0.0, cmap=MAP, shading="nearest",
+        rasterized=True,
+    )  # fmt: skip
+    axes.set(ylim=(0.0, portrait.rate / 2e3), ylabel="kHz", xlabel="time (ms)")
+    axes.set_title(f"Spectrogram, {DYNAMIC_RANGE_DB:.0f} dB")
+
+
+def draw_expected_lines(axes: Axes, portrait: MeasuredPortrait) -> None:
+    """Squared envelope spectrum, (m/s²)² against Hz, with the lines that the labels lead to expect."""
+    frequency, amplitude = squared_envelope_spectrum(portrait.envelope, portrait.rate)
+    top = _top(portrait)
+    shown = (frequency > 0.0) & (frequency <= top)
+    axes.semilogy(frequency[shown], amplitude[shown], color=BLUE, linewidth=0.7)
+    limits = decades(amplitude[shown])
+    for name in (*portrait.expected_lines, *(("shaft",) if "shaft" in portrait.frequencies else ())):
+        marker, colour = MARKS[name]
+        line = portrait.frequencies[name]
+        count = SHAFT_HARMONICS if name == "shaft" else HARMONICS
+        harmonics = [k * line for k in range(1, count + 1) if k * line < top]
+        heights = [line_height(frequency, amplitude, target, line) for target in harmonics]
+        axes.plot(
+            [place for place, _ in heights], [height for _, height in heights], marker, color=colour,
+            label=f"{name} {line:.4g} Hz", linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3,
+            clip_on=False,
+        )  # fmt: skip
+    axes.set(xlim=(0.0, top), ylim=limits, xlabel="frequency (Hz)", ylabel="(m/s²)²")
+    axes.set_title("Squared envelope spectrum")
+    faint_grid(axes)
+    if portrait.frequencies:
+        outside_legend(axes)
+
+
+def _top(portrait: MeasuredPortrait) -> float:
+    """Highest frequency shown, Hz."""
+    known = portrait.frequencies
+    top = ORDERS_WITHOUT_GEOMETRY * known["shaft"] if "shaft" in known else HERTZ_WITHOUT_SPEED
+    if portrait.expected_lines:
+        top = (HARMONICS + 0.6) * max(known[name] for name in portrait.expected_lines)
+    return min(top, portrait.rate / 2.0)

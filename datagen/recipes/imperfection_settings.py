@@ -1,0 +1,47 @@
+"""What a recipe says of the imperfections of a virtual machine's bearing."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from datagen.recipes.distributions import Distribution, Fixed, Uniform
+from datagen.recipes.machine_settings import Degrees, NotNegative
+from datagen.recipes.settings import Between, OneOf, Table, refuse
+
+Order = Annotated[int, Field(ge=1, le=2000)]
+
+
+class WavinessSettings(Table):
+    """Harmonics of one race: order by order a drawn amplitude, which falls with the order."""
+
+    race: Annotated[Distribution, OneOf(("outer", "inner"))]
+    """The wavy race."""
+    orders: tuple[Order, Order] = Field(strict=False)
+    """First and last order (waves round the race)."""
+    amplitude_um: NotNegative
+    """Amplitude of the first order, µm; drawn anew for each order."""
+    decay: Annotated[Distribution, Between(-4.0, 4.0)] = Fixed(1.0)
+    """The amplitude of order k is multiplied by (first order / k) to this power."""
+    phase_deg: Degrees = Uniform(0.0, 360.0)
+    """Phase of each order, degrees."""
+
+    @model_validator(mode="after")
+    def _rising_orders(self) -> WavinessSettings:
+        if self.orders[0] > self.orders[1]:
+            raise refuse("the first order comes first", "orders", "[first order, last order]")
+        return self
+
+
+class ImperfectionSettings(Table):
+    """What a perfect bearing lacks; drawn once for each virtual machine."""
+
+    waviness: tuple[WavinessSettings, ...] = Field(default=(), strict=False)
+    """Waviness of the races."""
+    ball_deviation_um: Annotated[Distribution, Between(-1000.0, 1000.0)] = Fixed(0.0)
+    """Diameter of each ball minus the nominal one, µm; drawn for each ball."""
+    waviness_scale: NotNegative = Fixed(1.0)
+    """Factor on every amplitude of a machine's waviness."""
+    ball_deviation_scale: NotNegative = Fixed(1.0)
+    """Factor on every ball deviation of a machine."""

@@ -1,0 +1,120 @@
+"""The labels of a recording: what its SPEC says, what follows from that, and "unknown" or NaN for the rest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from datagen.errors import BadInput
+from datagen.recordings.settings import BearingNumbers
+from datagen.recordings.source import Source
+from labels.schema import LABELS, UNKNOWN, Label
+from physics.bearing import Bearing
+from physics.catalog import bearing as catalogue_bearing
+from physics.checks import InvalidParameter
+
+UNSOLVED: dict[str, Any] = {"model": "measured", "method": "none", "validity": "", "contact_law": UNKNOWN}
+HEALTHY: dict[str, Any] = dict.fromkeys(
+    ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness"), 0.0
+) | {"spalls": 0, "bridged": False, "profile": "none"}
+ORDERS = ("bpfo", "bpfi", "bsf", "ftf")
+RACES = ("outer", "inner")
+
+
+def recording_labels(source: Source) -> dict[str, Any]:
+    """Every label of the schema that follows from the SPEC's settings, counts and truth values only where known."""
+    bearing = stated_bearing(source)
+    known = {label.name: _unknown(label) for label in LABELS if label.dtype in ("str", "float64")}
+    known |= UNSOLVED | _words(source) | _bearing_labels(source, bearing) | _defect_labels(source, bearing)
+    for name in ("load_n", "snr_db"):
+        value = source.number(name)
+        known |= {} if value is None else {name: value}
+    return known
+
+
+def _unknown(label: Label) -> Any:
+    if label.components:
+        return (math.nan,) * len(label.components)
+    return UNKNOWN if label.dtype == "str" else math.nan
+
+
+def _words(source: Source) -> dict[str, Any]:
+    names = ("rig", "bearing_id", "split")
+    return {"part": source.request.part, "channel": source.request.channel.name, "source_file": source.request.name} | {
+        name: source.setting(name, UNKNOWN) for name in names
+    }
+
+
+def stated_bearing(source: Source) -> Bearing | None:
+    """The bearing whose geometry the SPEC states or names, None if it does neither; raises BadInput."""
+    said = source.setting("bearing")
+    try:
+        if isinstance(said, BearingNumbers):
+            return geometry(said)
+        return None if said is None else catalogue_bearing(said)
+    except InvalidParameter as problem:
+        raise BadInput(str(problem), source.request.place, "bearing") from None
+
+
+def geometry(numbers: BearingNumbers) -> Bearing:
+    """A bearing of this geometry; its contact stiffness is unknown and of no use here. Raises InvalidParameter."""
+    return Bearing(
+        name=numbers.name,
+        balls=numbers.balls,
+        rows=numbers.rows,
+        pitch_diameter=numbers.pitch_diameter_mm * 1e-3,
+        ball_diameter=numbers.ball_diameter_mm * 1e-3,
+        contact_angle=math.radians(numbers.contact_angle_deg),
+        load_deflection=1.0,
+    )
+
+
+def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
+    stated = {name: value for name in ORDERS if (value := source.positive(name)) is not None}
+    if bearing is None:
+        return stated
+    if stated:
+        raise BadInput("the bearing's geometry says it already", source.request.place, next(iter(stated)))
+    names = ("balls", "rows", "pitch_diameter", "ball_diameter", "contact_angle", *ORDERS)
+    return {"bearing": bearing.name} | {name: getattr(bearing, name) for name in names}
+
+
+def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
+    location, condition = source.setting("location", UNKNOWN), source.setting("condition", UNKNOWN)
+    sizes = _sizes(source, bearing, location)
+    healthy = "none" if location == "none" else "healthy" if condition == "healthy" else ""
+    if healthy:
+        if {location, condition} - {"none", "healthy", UNKNOWN} or sizes or source.setting("spalls", 0):
+            raise BadInput(
+                "a healthy bearing has no defect", source.request.place, "location", location,
+                'location "none", condition "healthy" and no size',
+            )  # fmt: skip
+        return {"condition": "healthy", "location": "none"} | HEALTHY
+    derived = UNKNOWN
+    if "extent_spacing" in sizes:
+        derived = "extended" if sizes["extent_spacing"] >= 1.0 - 1e-9 else "line"
+    if condition not in (UNKNOWN, derived) and derived != UNKNOWN:
+        raise BadInput(
+            f"the defect covers {sizes['extent_spacing']:.3g} ball spacings, which is {derived}",
+            source.request.place, "condition", condition,
+        )  # fmt: skip
+    count = source.setting("spalls")
+    if count == 0:
+        raise BadInput(file=source.request.place, field="spalls", value=0, allowed='1 or more, or location "none"')
+    stated: dict[str, Any] = {"condition": condition if derived == UNKNOWN else derived, "location": location}
+    return stated | sizes | ({} if count is None else {"spalls": count})
+
+
+def _sizes(source: Source, bearing: Bearing | None, location: str) -> dict[str, float]:
+    """Extent in every unit that follows from the one stated, and depth; only what is known."""
+    length, arc, depth = source.positive("extent_mm"), source.positive("extent_deg"), source.positive("depth_um")
+    radius = bearing.raceway_radius(location) if bearing and location in RACES else math.nan
+    angle = math.radians(arc) if arc is not None else math.nan if length is None else length * 1e-3 / radius
+    values: dict[str, Callable[[], float]] = {
+        "extent": lambda: angle,
+        "extent_mm": lambda: length if length is not None else angle * radius * 1e3,
+        "extent_spacing": lambda: angle / bearing.spacing if bearing else math.nan,
+        "depth": lambda: math.nan if depth is None else depth * 1e-6,
+    }
+    return {name: value for name, value_of in values.items() if not math.isnan(value := value_of())}

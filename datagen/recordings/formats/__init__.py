@@ -1,0 +1,1 @@
+"""One file a file format: each gives the arrays of a file by name."""

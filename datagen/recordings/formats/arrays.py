@@ -1,0 +1,79 @@
+"""The arrays of a recording's file by name, and the choice of one of them as a SPEC writes it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.recipes.spelling import suggestion
+
+Arrays = Mapping[str, NDArray[Any]]
+INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
+MOST_NAMES = 12
+
+
+class NoVariable(BadInput):
+    """The file has no variable of that name."""
+
+
+def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
+    """The array that `wish` names (see `chosen`), without dimensions of length 1; raises BadInput."""
+    name, places = chosen(arrays, wish, path, field)
+    found = np.asarray(arrays[name])
+    if places is None:
+        return found.squeeze()
+    try:
+        return np.asarray(found[tuple(_place(part) for part in places.split(","))])
+    except (IndexError, ValueError):
+        shape = "x".join(map(str, found.shape))
+        raise BadInput(f"{name} is an array of {shape} numbers", str(path), field, wish) from None
+
+
+def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
+    """Name of the array that `wish` means, and the places to take of it if it says so; raises BadInput.
+
+    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; `{stem}` and
+    `{number}` are the file's name without its ending and the first whole number in it; "NAME[:,2]" takes one column of
+    a table, counted from 0.
+    """
+    text = _filled(wish, path, field)
+    for alternative in text.split("|"):
+        found = _named(arrays, alternative.strip(), path, field)
+        if found is not None:
+            return found
+    names = sorted(arrays)
+    shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
+    raise NoVariable(f"the file has no such variable{suggestion(text, names)}", str(path), field, text, shown)
+
+
+def _filled(wish: str, path: Path, field: str) -> str:
+    number = re.search(r"\d+", path.stem)
+    try:
+        return wish.format(stem=path.stem, number=int(number.group()) if number else "")
+    except (KeyError, IndexError, ValueError):
+        problem = "cannot be filled in for this file" + ("" if number else ", whose name holds no number")
+        raise BadInput(problem, str(path), field, wish, "{stem} and {number}, as in X{number:03}_DE_time") from None
+
+
+def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:
+    indexed = None if wish in arrays else INDEXED.fullmatch(wish)
+    name = indexed["name"] if indexed else wish
+    known = [name] if name in arrays else [one for one in arrays if fnmatchcase(one, name)] if _is_pattern(name) else []
+    if len(known) > 1:
+        raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
+    return (known[0], indexed["places"] if indexed else None) if known else None
+
+
+def _is_pattern(name: str) -> bool:
+    return "*" in name or "?" in name
+
+
+def _place(part: str) -> int | slice:
+    return slice(None) if part.strip() == ":" else int(part)

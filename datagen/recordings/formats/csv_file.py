@@ -1,0 +1,52 @@
+"""Tables of text: one column a channel."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from datagen.errors import BadInput
+from datagen.recordings.formats.arrays import Arrays
+from datagen.recordings.settings import CsvLayout
+
+
+def read_csv(path: Path, layout: CsvLayout) -> Arrays:
+    """The columns of a text table by name ("1", "2", … without a header); raises BadInput with the line.
+
+    Cells that are no numbers are NaN; a column is refused for them only where it is used.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()[layout.skip_lines :]
+    except UnicodeDecodeError:
+        raise BadInput("not a text file", str(path)) from None
+    rows = [row for row in _split(lines, layout) if row]
+    names = [name.strip() for name in rows.pop(0)] if layout.header and rows else []
+    width = len(names) or (len(rows[0]) if rows else 0)
+    names = names or [str(column) for column in range(1, width + 1)]
+    for line, row in enumerate(rows, start=1 + layout.skip_lines + layout.header):
+        if len(row) != width:
+            raise BadInput(f"{len(row)} cells, but the table has {width} columns", f"{path}, line {line}")
+    return {name: _numbers([row[place] for row in rows], layout.decimal) for place, name in enumerate(names)}
+
+
+def _split(lines: list[str], layout: CsvLayout) -> list[list[str]]:
+    if layout.delimiter == " ":
+        return [line.split() for line in lines]
+    return list(csv.reader(lines, delimiter=layout.delimiter))
+
+
+def _numbers(cells: list[str], decimal: str) -> np.ndarray:
+    texts = np.array(cells if decimal == "." else [cell.replace(decimal, ".") for cell in cells], dtype=np.str_)
+    try:
+        return texts.astype(np.float64)
+    except ValueError:
+        return np.array([_number(text) for text in texts.tolist()])
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")

@@ -1,0 +1,38 @@
+"""Opening a recording's file by its format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from datagen.errors import BadInput
+from datagen.recordings.formats.arrays import Arrays
+from datagen.recordings.formats.csv_file import read_csv
+from datagen.recordings.formats.mat_file import read_mat
+from datagen.recordings.formats.netcdf_file import read_netcdf
+from datagen.recordings.formats.numpy_file import read_npy, read_npz
+from datagen.recordings.formats.wav_file import read_wav
+from datagen.recordings.settings import FORMATS, CsvLayout
+
+ENDINGS = {"txt": "csv", "tsv": "csv", "cdf": "nc", "nc4": "nc", "wave": "wav"}
+READERS: dict[str, Callable[[Path], Arrays]] = {
+    "mat": read_mat,
+    "npz": read_npz,
+    "npy": read_npy,
+    "wav": read_wav,
+    "nc": read_netcdf,
+}
+
+
+def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
+    """The arrays of a file whose format is `stated` or follows from its ending; raises BadInput."""
+    ending = path.suffix.lower().removeprefix(".")
+    kind = stated or ENDINGS.get(ending, ending)
+    if kind not in FORMATS:
+        raise BadInput("the file's ending says no known format", str(path), "format", ending, ", ".join(FORMATS))
+    try:
+        return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
+    except FileNotFoundError:
+        raise BadInput("no such file", str(path)) from None
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror or problem}", str(path)) from None

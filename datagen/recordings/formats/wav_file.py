@@ -1,0 +1,37 @@
+"""Wave files: linear samples of 8 to 64 bits or floats; whole numbers become shares of full scale."""
+
+from __future__ import annotations
+
+import struct
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from datagen.errors import BadInput
+from datagen.recordings.formats.arrays import Arrays
+
+RATE_NAME = "rate_hz"
+
+
+def read_wav(path: Path) -> Arrays:
+    """The samples of a wave file as "data" (T,) or (T, C), whole numbers as -1 to 1, and "rate_hz"; raises BadInput."""
+    from scipy.io import wavfile
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", wavfile.WavFileWarning)
+            rate, samples = wavfile.read(path)
+    except (ValueError, OSError, EOFError, struct.error, UnboundLocalError) as problem:
+        raise BadInput(
+            f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
+        ) from None
+    return {"data": _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
+
+
+def _full_scale(samples: np.ndarray) -> np.ndarray:
+    if samples.dtype.kind == "f":
+        return samples
+    if samples.dtype.kind == "u":
+        return (samples.astype(np.float64) - 128.0) / 128.0
+    return samples / -float(np.iinfo(samples.dtype).min)

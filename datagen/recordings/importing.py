@@ -1,0 +1,210 @@
+"""Importing recordings: everything is read and checked before anything is written, and the corpus appears whole."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from datagen.corpora.format import IMPORTED, Identity, data_hash, format_hash
+from datagen.corpora.index import write_index
+from datagen.corpora.manifest import Manifest, write_manifest
+from datagen.corpora.shard import finished_shards, write_shard
+from datagen.errors import BadInput
+from datagen.recordings.dataset import imported_dataset
+from datagen.recordings.listing import Listing, Request, list_requests
+from datagen.recordings.recorded import Key, Recorded, read_recording
+from datagen.recordings.source import remembered_files, source_hash
+from datagen.recordings.spec import Spec
+from datagen.recordings.spec_files import shipped_specs
+from datagen.records.versions import program_hash, program_versions
+from labels.schema import UNKNOWN
+
+SHARD_BYTES = 64e6
+
+
+@dataclass(frozen=True)
+class Imported:
+    """How an import ended: `absent` are listed files that were not there, `skipped` recordings left out as repeats."""
+
+    folder: str
+    records: int
+    shards: int
+    bytes: int
+    seconds: float
+    files: int
+    absent: tuple[str, ...]
+    skipped: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Planned:
+    """A record whose samples have been checked and dropped again: `piece` of `request`, with its index."""
+
+    index: int
+    request: Request
+    piece: int
+    key: Key
+    bytes: int
+
+
+def import_recordings(spec: Spec, folder: Path, root: Path | None = None) -> Imported:
+    """Make the corpus of the SPEC's recordings in `folder`, which must not exist or be empty.
+
+    Files are looked for below `root`, by default the SPEC's own. Raises BadInput for anything wrong in the SPEC or the
+    files, before `folder` is touched.
+    """
+    with remembered_files():
+        return _import(spec, folder, root or _own_root(spec))
+
+
+def _own_root(spec: Spec) -> Path:
+    if spec.source in shipped_specs().values():
+        raise BadInput("this SPEC comes without its recordings", field="--root", allowed="the folder that holds them")
+    return spec.source.parent / spec.root
+
+
+def _import(spec: Spec, folder: Path, root: Path) -> Imported:
+    began = time.monotonic()
+    _check_folder(folder)
+    listing = list_requests(spec, root)
+    plan = _Plan(spec)
+    for request in listing.requests:
+        plan.add(request)
+    manifest = _manifest(spec, listing, len(plan.records))
+    with _staged(folder) as staging:
+        for number, planned in enumerate(plan.shards):
+            _write(staging, number, planned, manifest)
+        write_index(staging, finished_shards(staging))
+        manifest = manifest.with_shards(staging, finished_shards(staging))
+        write_manifest(staging, manifest)
+    return Imported(
+        str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
+        len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped),
+    )  # fmt: skip
+
+
+def _check_folder(folder: Path) -> None:
+    if folder.exists() and not folder.is_dir():
+        raise BadInput("a file of this name is in the way", str(folder), "--out")
+    if folder.exists() and any(folder.iterdir()):
+        raise BadInput(
+            "this folder is not empty; an import never adds to what is there", str(folder), "--out",
+            allowed="a new or an empty folder",
+        )  # fmt: skip
+
+
+class _Plan:
+    """The records found so far, none of them twice, and the shards they go into."""
+
+    def __init__(self, spec: Spec) -> None:
+        self.spec = spec
+        self.records: list[_Planned] = []
+        self.skipped: list[str] = []
+        self.names: dict[str, str] = {}
+        self.contents: dict[str, str] = {}
+        self.splits: dict[str, str] = {}
+
+    def add(self, request: Request) -> None:
+        """Read the records of a request, check them against all before, and keep what is needed to read them again."""
+        for piece, record in enumerate(read_recording(request)):
+            if self._is_new(record, request):
+                self._check_split(record, request)
+                size = record.acceleration.nbytes
+                self.records.append(_Planned(len(self.records), request, piece, record.key, size))
+
+    def _is_new(self, record: Recorded, request: Request) -> bool:
+        name, where = record.labels["recording"], f"{request.name} ({request.place})"
+        if name in self.names:
+            raise BadInput(
+                f"the name is taken by {self.names[name]}", request.place, "recording", name,
+                "a different name for each record",
+            )  # fmt: skip
+        self.names[name] = where
+        twin = self.contents.setdefault(record.content, name)
+        if twin == name or self.spec.same_samples == "keep":
+            return True
+        if self.spec.same_samples == "refuse":
+            raise BadInput(
+                f'record "{name}" has exactly the samples of "{twin}"', str(request.path), "same_samples",
+                allowed="refuse, or skip or keep such repeats",
+            )  # fmt: skip
+        self.skipped.append(name)
+        return False
+
+    def _check_split(self, record: Recorded, request: Request) -> None:
+        bearing, split = record.labels["bearing_id"], record.labels["split"]
+        if bearing != UNKNOWN and self.splits.setdefault(bearing, split) != split:
+            problem = f"the records of bearing {bearing} would be in the splits {self.splits[bearing]} and {split}"
+            raise BadInput(problem, request.place, "split", split, "one split for each bearing")
+
+    @cached_property
+    def shards(self) -> list[list[_Planned]]:
+        """The records by shard: of one kind, in order, up to 64 MB together."""
+        shards: list[list[_Planned]] = []
+        growing: dict[Key, list[_Planned]] = {}
+        for planned in self.records:
+            shard = growing.get(planned.key)
+            if shard is None or sum(one.bytes for one in shard) + planned.bytes > SHARD_BYTES:
+                shard = growing[planned.key] = []
+                shards.append(shard)
+            shard.append(planned)
+        return shards
+
+
+def _write(folder: Path, number: int, shard: list[_Planned], manifest: Manifest) -> None:
+    began = time.perf_counter()
+    records = list(_read_again(shard))
+    spec = manifest.recipe["spec"]
+    about = {"title": spec["title"] or spec["name"], "id": spec["name"], "license": spec["licence"]}
+    about |= {"references": spec["citation"], **manifest.identity.to_dict()}
+    about = {name: text for name, text in about.items() if text}
+    dataset = imported_dataset([planned.index for planned in shard], records, about)
+    write_shard(folder, number, manifest.identity, dataset, (), "zlib", round(time.perf_counter() - began, 3))
+
+
+def _read_again(shard: list[_Planned]) -> Iterator[Recorded]:
+    wanted: dict[Request, set[int]] = {}
+    for planned in shard:
+        wanted.setdefault(planned.request, set()).add(planned.piece)
+    for request, pieces in wanted.items():
+        yield from (record for piece, record in enumerate(read_recording(request)) if piece in pieces)
+
+
+def _manifest(spec: Spec, listing: Listing, records: int) -> Manifest:
+    content: dict[str, Any] = {
+        "spec": spec.model_dump(mode="json"),
+        "files": {request.name: source_hash(request.path) for request in listing.requests},
+        "tables": {path.name: source_hash(path) for path in listing.tables},
+    }
+    return Manifest(
+        name=spec.name,
+        identity=Identity(data_hash(content), "", format_hash(), program_hash()),
+        recipe=content,
+        recipe_records=records,
+        asked=((0, records),),
+        made_with=program_versions(),
+        origin=IMPORTED,
+    )
+
+
+@contextmanager
+def _staged(folder: Path) -> Iterator[Path]:
+    """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong."""
+    staging = folder.with_name(f".{folder.name}.{os.getpid()}.part")
+    try:
+        (staging / "shards").mkdir(parents=True)
+        yield staging
+        if folder.exists():
+            folder.rmdir()
+        staging.rename(folder)
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)

@@ -1,0 +1,98 @@
+"""A table of labels beside the recordings: a CSV file whose columns are named like settings."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import ValidationError
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe_errors import bad_recipe
+from datagen.recipes.spelling import suggestion
+from datagen.recordings.settings import RecordingSettings
+
+FILE_COLUMN = "file"
+NOT_COLUMNS = ("csv", "channel", "tach", "envelope_band_hz", "notes")
+SETTINGS = tuple(name for name in RecordingSettings.model_fields if name not in NOT_COLUMNS)
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """One line of a label table: the names of its file that may be meant, in order, and what it says."""
+
+    place: str
+    files: tuple[str, ...]
+    settings: dict[str, Any]
+
+
+def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow]:
+    """The rows of the table at `path`; raises BadInput naming the file, the line and the column.
+
+    An empty cell says nothing. A cell of the column `file` may hold several names with | between: the first that
+    exists is meant.
+    """
+    try:
+        lines = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
+    except (UnicodeDecodeError, csv.Error) as problem:
+        raise BadInput(f"not a CSV table: {problem}", str(path)) from None
+    if len(lines) < 2:
+        raise BadInput("the table holds no row", str(path))
+    header = [cell.strip() for cell in lines[0]]
+    _check_header(header, note_columns, path)
+    return [
+        _row(header, cells, note_columns, path, number)
+        for number, cells in enumerate(lines[1:], start=2)
+        if any(cell.strip() for cell in cells)
+    ]
+
+
+def _check_header(header: list[str], note_columns: tuple[str, ...], path: Path) -> None:
+    known = (FILE_COLUMN, *SETTINGS, *note_columns)
+    for column in header:
+        if column not in known:
+            hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
+            raise BadInput(hint, f"{path}, line 1", column, allowed=", ".join(known))
+        if header.count(column) > 1:
+            raise BadInput("this column is there twice", f"{path}, line 1", column)
+    for column in (FILE_COLUMN, *note_columns):
+        if column not in header:
+            raise BadInput("this column is missing", f"{path}, line 1", column)
+
+
+def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], path: Path, line: int) -> TableRow:
+    place = f"{path}, line {line}"
+    if len(cells) != len(header):
+        raise BadInput(f"{len(cells)} cells, but the table has {len(header)} columns", place)
+    said = {name: cell.strip() for name, cell in zip(header, cells, strict=True) if cell.strip()}
+    files = tuple(name.strip() for name in said.pop(FILE_COLUMN, "").split("|") if name.strip())
+    if not files:
+        raise BadInput("this cell is empty", place, FILE_COLUMN)
+    notes: dict[str, Any] = {name: _plain(said.pop(name)) for name in note_columns if name in said}
+    settings: dict[str, Any] = {name: cell if _is_text(name) else _plain(cell) for name, cell in said.items()}
+    try:
+        checked = RecordingSettings.model_validate(settings | ({"notes": notes} if notes else {}))
+    except ValidationError as error:
+        raise bad_recipe(error, RecordingSettings, place, "") from None
+    return TableRow(place, files, checked.given())
+
+
+def _is_text(name: str) -> bool:
+    return _allows_text(RecordingSettings.model_fields[name].annotation)
+
+
+def _allows_text(annotation: Any) -> bool:
+    return annotation is str or any(_allows_text(inner) for inner in get_args(annotation))
+
+
+def _plain(cell: str) -> float | int | str:
+    for kind in (int, float):
+        try:
+            return kind(cell)
+        except ValueError:
+            continue
+    return cell

@@ -1,0 +1,165 @@
+"""Which records a SPEC asks for: files found by pattern or listed in a table, times their channels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from datagen.errors import BadInput
+from datagen.recordings.label_table import TableRow, read_label_table
+from datagen.recordings.settings import ALTERNATIVES, Channel, merged
+from datagen.recordings.spec import Recording, Spec
+
+SPEED_SETTINGS = ALTERNATIVES[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Request:
+    """One channel of one file, with everything that the SPEC says of it; `place` is for messages."""
+
+    part: str
+    path: Path
+    name: str
+    channel: Channel
+    settings: dict[str, Any]
+    place: str
+
+
+@dataclass(frozen=True)
+class Listing:
+    """All requests of a SPEC in order, the tables they came from, and the listed files that were not there."""
+
+    requests: tuple[Request, ...]
+    tables: tuple[Path, ...]
+    absent: tuple[str, ...]
+
+
+def list_requests(spec: Spec, root: Path) -> Listing:
+    """Every record that the SPEC asks for below `root`; raises BadInput."""
+    return _Finder(spec, root).listing()
+
+
+class _Finder:
+    def __init__(self, spec: Spec, root: Path) -> None:
+        if not root.is_dir():
+            raise BadInput("no such folder", str(spec.source), "root", str(root), "the folder of the recordings")
+        self.spec, self.root = spec, root
+        self.tables: list[Path] = []
+        self.absent: list[str] = []
+
+    def listing(self) -> Listing:
+        requests: list[Request] = []
+        for number, recording in enumerate(self.spec.recording, start=1):
+            place = f"{self.spec.source}: recording[{number}] ({recording.name})"
+            found = [one for file in self._files(recording, place) for one in self._requests(recording, place, *file)]
+            requests += found
+        if not requests:
+            raise BadInput(f"none of its files is below {self.root}", str(self.spec.source), "root", str(self.root))
+        return Listing(tuple(requests), tuple(self.tables), tuple(self.absent))
+
+    @cached_property
+    def _below(self) -> dict[Path, str]:
+        """Every file below the root, with its name from there."""
+        found = (path for path in sorted(self.root.rglob("*")) if path.is_file())
+        return {path: path.relative_to(self.root).as_posix() for path in found}
+
+    def _files(self, recording: Recording, place: str) -> Iterator[tuple[Path, TableRow | None]]:
+        rows = self._rows(recording)
+        if not recording.patterns:
+            for row in rows:
+                path = self._listed(row, recording)
+                if path is not None:
+                    yield path, row
+            return
+        used: set[int] = set()
+        for path in self._globbed(recording, place):
+            fitting = [k for k, row in enumerate(rows) if any(self._fits(path, name) for name in row.files)]
+            if recording.table and not fitting:
+                raise BadInput(f"{self._below[path]} is not in the table {recording.table}", place)
+            used.update(fitting)
+            yield from ((path, rows[k]) for k in fitting) if recording.table else [(path, None)]
+        for k, row in enumerate(rows):
+            if k not in used:
+                self._is_absent(row, recording)
+
+    def _rows(self, recording: Recording) -> list[TableRow]:
+        if recording.table is None:
+            return []
+        places = (self.spec.source.parent / recording.table, self.root / recording.table)
+        path = next((path for path in places if path.is_file()), None)
+        if path is None:
+            raise BadInput("no such file", str(self.spec.source), "table", recording.table)
+        self.tables.append(path)
+        return read_label_table(path, recording.note_columns)
+
+    def _globbed(self, recording: Recording, place: str) -> list[Path]:
+        paths: dict[Path, None] = {}
+        for pattern in recording.patterns:
+            fitting = [path for path in sorted(self.root.glob(pattern)) if path.is_file()]
+            if not fitting and recording.absent_files == "skip":
+                self.absent.append(pattern)
+            elif not fitting:
+                raise BadInput(f"no file below {self.root} fits", place, "files", pattern)
+            paths |= dict.fromkeys(fitting)
+        return list(paths)
+
+    def _fits(self, path: Path, name: str) -> bool:
+        return fnmatch(self._below[path], name) or fnmatch(path.name, name)
+
+    def _listed(self, row: TableRow, recording: Recording) -> Path | None:
+        """The file that a row means: at that place below the root, or anywhere below it if its name is the only one."""
+        for name in row.files:
+            if (self.root / name).is_file():
+                return self.root / name
+            fitting = [path for path in self._below if self._fits(path, name)]
+            if len(fitting) > 1:
+                known = ", ".join(self._below[path] for path in fitting[:4])
+                raise BadInput(f"{len(fitting)} files below {self.root} fit: {known}", row.place, "file", name)
+            if fitting:
+                return fitting[0]
+        self._is_absent(row, recording)
+        return None
+
+    def _is_absent(self, row: TableRow, recording: Recording) -> None:
+        if recording.absent_files == "refuse":
+            raise BadInput(f"no such file below {self.root}", row.place, "file", "|".join(row.files))
+        self.absent.append(row.files[0])
+
+    def _requests(self, recording: Recording, place: str, path: Path, row: TableRow | None) -> Iterator[Request]:
+        own = {name: value for name, value in recording.given().items() if name not in _NOT_SETTINGS}
+        settings = merged(self.spec.defaults.given(), own)
+        where = row.place if row else place
+        if row:
+            _refuse_two_speeds(settings, row)
+            settings = merged(settings, row.settings)
+        name = self._below.get(path) or path.relative_to(self.root).as_posix()
+        for override in recording.override:
+            patterns = (override.files,) if isinstance(override.files, str) else override.files
+            if any(self._fits(path, pattern) for pattern in patterns):
+                settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
+        for channel in _channels(settings, where):
+            yield Request(recording.name, path, name, channel, settings, where)
+
+
+_NOT_SETTINGS = ("name", "files", "table", "note_columns", "absent_files", "override")
+
+
+def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
+    before = [name for name in SPEED_SETTINGS if name in settings]
+    now = [name for name in SPEED_SETTINGS if name in row.settings]
+    if before and now:
+        raise BadInput(
+            f"two sources for the speed: the SPEC says {before[0]} too", row.place, now[0], allowed="only one of them"
+        )
+
+
+def _channels(settings: dict[str, Any], place: str) -> tuple[Channel, ...]:
+    if "channel" in settings:
+        return tuple(settings["channel"])
+    if "x" not in settings and "y" not in settings:
+        raise BadInput("this setting is missing", place, "y", allowed="the name of the variable that holds the samples")
+    return (Channel(name=settings.get("channel_name", ""), x=settings.get("x"), y=settings.get("y")),)

@@ -1,0 +1,153 @@
+"""One request turned into records: samples in m/s², labels, and where every number came from."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe import FEWEST_SAMPLES
+from datagen.recordings.description import recording_labels
+from datagen.recordings.formats.wav_file import RATE_NAME
+from datagen.recordings.listing import Request
+from datagen.recordings.settings import UNITS
+from datagen.recordings.shaft_speed import shaft_speed
+from datagen.recordings.source import Source, open_source, samples_hash, source_hash
+from datagen.recordings.values import FromVariable
+from labels.envelope import FALLBACK_SHARES
+from labels.variables import AXES
+
+Key = tuple[float, int, tuple[str, ...], tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """One record before it has an index: `acceleration` (T, axes) m/s², `labels` as far as they are known.
+
+    `content` is equal for equal samples at an equal rate.
+    """
+
+    acceleration: NDArray[np.float32]
+    axes: tuple[str, ...]
+    rate: float
+    labels: dict[str, Any]
+    provenance: str
+    content: str
+
+    @property
+    def key(self) -> Key:
+        """What the records of one shard have in common: rate, length, axes, and which labels are known at all."""
+        return (self.rate, self.acceleration.shape[0], self.axes, tuple(sorted(self.labels)))
+
+
+def read_recording(request: Request) -> Iterator[Recorded]:
+    """The record of a request, or its pieces in order if it is to be cut; raises BadInput."""
+    source = open_source(request)
+    axes = tuple(axis for axis in AXES if getattr(request.channel, axis) is not None)
+    rate = _rate(source)
+    counts = _samples(source, axes)
+    factor = _scale(source)
+    labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, axes)}
+    for piece, (start, stop) in enumerate(_pieces(source, rate, counts.shape[0])):
+        part = counts[start:stop]
+        speed, basis = shaft_speed(source, start / rate, stop / rate)
+        own = {
+            "recording": _name(request) + (f"#{piece}" if request.settings.get("cut_s") else ""),
+            "speed_rpm": speed,
+            "speed_basis": basis,
+            "duration_s": part.shape[0] / rate,
+        }
+        yield Recorded(
+            acceleration=(part * factor).astype(np.float32),
+            axes=axes,
+            rate=rate,
+            labels=labels | own,
+            provenance=_provenance(source, factor, start, stop),
+            content=samples_hash(rate, *part.T),
+        )
+
+
+def _name(request: Request) -> str:
+    stated = request.settings.get("recording")
+    return stated or " ".join(part for part in (request.path.stem, request.channel.name) if part)
+
+
+def _rate(source: Source) -> float:
+    stated, held = source.positive("rate_hz"), source.arrays.get(RATE_NAME) if source.path.suffix == ".wav" else None
+    if held is not None:
+        if stated is not None and stated != float(held):
+            raise BadInput("the file says another rate", str(source.path), "rate_hz", stated, f"{float(held):g}")
+        stated = float(held)
+    if stated is None:
+        raise BadInput(
+            "the sampling rate is not given", source.request.place, "rate_hz",
+            allowed='a number above 0, or {variable = "NAME"}',
+        )  # fmt: skip
+    return stated
+
+
+def _samples(source: Source, axes: tuple[str, ...]) -> NDArray[np.float64]:
+    """The stored numbers (T, axes)."""
+    columns = [source.array(getattr(source.request.channel, axis), axis) for axis in axes]
+    if len({column.size for column in columns}) > 1:
+        sizes = " and ".join(str(column.size) for column in columns)
+        raise BadInput(f"the axes differ in length: {sizes} samples", str(source.path), "x, y")
+    return np.stack(columns, axis=1)
+
+
+def _scale(source: Source) -> float:
+    unit = source.setting("unit")
+    if unit is None:
+        raise BadInput("the unit of the samples is not given", source.request.place, "unit", allowed=", ".join(UNITS))
+    scale = source.number("scale")
+    if scale == 0.0:
+        raise BadInput(file=str(source.path), field="scale", value=0.0, allowed="any number but 0")
+    return UNITS[unit] * (1.0 if scale is None else scale)
+
+
+def _band(source: Source, rate: float, axes: tuple[str, ...]) -> tuple[float, float]:
+    if "y" not in axes:
+        return math.nan, math.nan
+    stated = source.setting("envelope_band_hz")
+    if stated is None:
+        return FALLBACK_SHARES[0] * rate, FALLBACK_SHARES[1] * rate
+    low, high = stated
+    if not 0.0 <= low < high <= rate / 2.0:
+        allowed = f"0 <= low < high <= {rate / 2.0:g} (half the rate)"
+        raise BadInput(file=source.request.place, field="envelope_band_hz", value=list(stated), allowed=allowed)
+    return low, high
+
+
+def _pieces(source: Source, rate: float, size: int) -> list[tuple[int, int]]:
+    cut = source.setting("cut_s")
+    if cut is None:
+        return [(0, size)]
+    length = round(cut * rate)
+    if not FEWEST_SAMPLES <= length <= size:
+        allowed = f"{FEWEST_SAMPLES / rate:g} to {size / rate:g} s, the length of {source.path.name}"
+        raise BadInput(file=source.request.place, field="cut_s", value=cut, allowed=allowed)
+    return [(k * length, (k + 1) * length) for k in range(size // length)]
+
+
+def _provenance(source: Source, factor: float, start: int, stop: int) -> str:
+    request = source.request
+    wishes = {axis: wish for axis in AXES if (wish := getattr(request.channel, axis)) is not None}
+    wishes |= {name: said.variable for name, said in request.settings.items() if isinstance(said, FromVariable)}
+    return json.dumps(
+        {
+            "file": request.name,
+            "sha256": source_hash(request.path),
+            "variables": {field: name for field, wish in wishes.items() if (name := source.variable(wish, field))},
+            "first_sample": start,
+            "samples": stop - start,
+            "m_s2_per_number": factor,
+            "notes": request.settings.get("notes", {}),
+        },
+        allow_nan=False,
+    )

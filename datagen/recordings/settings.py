@@ -1,0 +1,171 @@
+"""What a SPEC can say of a recording, alike on every level: defaults, recording, label table, override."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import Field, model_validator
+
+from datagen.recipes.settings import Table, at_most_one, refuse
+from datagen.recordings.values import AboveZero, AnyNumber, FromVariable, NotNegative, number, word
+from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
+
+FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
+UNITS = {"m/s2": 1.0, "g": 9.80665}
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+Name = Annotated[str, Field(min_length=1, max_length=120)]
+
+
+class Channel(Table):
+    """One sensor: each of its records holds the axes that are given."""
+
+    name: str = ""
+    """Name of the channel, stored with its records."""
+    x: str | None = None
+    """Variable of the axis across the load."""
+    y: str | None = None
+    """Variable of the axis along the load, against it; also that of a sensor with one axis only."""
+
+    @model_validator(mode="after")
+    def _has_an_axis(self) -> Channel:
+        if self.x is None and self.y is None:
+            raise refuse("the channel has no variable", "y", "the name of a variable")
+        return self
+
+
+class Tach(Table):
+    """A pulse channel from which the mean speed of the shaft is computed."""
+
+    variable: str
+    """Variable of the pulses."""
+    pulses_per_rev: Positive = 1.0
+    """Pulses per revolution of the shaft."""
+    threshold: float | None = None
+    """Level that a pulse rises through, in the channel's own unit; half-way between its extremes if not given."""
+    rate_hz: Positive | None = None
+    """Sampling rate of the pulses, if not that of the vibration."""
+
+
+class CsvLayout(Table):
+    """How a text table is laid out."""
+
+    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
+    """Character between cells; a space stands for any run of blanks."""
+    decimal: Annotated[str, Field(min_length=1, max_length=1)] = "."
+    """Decimal sign."""
+    header: bool = True
+    """True if a line of column names comes first; without it the columns are called "1", "2", …"""
+    skip_lines: Annotated[int, Field(ge=0)] = 0
+    """Lines to leave out at the start."""
+
+
+class BearingNumbers(Table):
+    """The geometry of a bearing that the catalogue does not have."""
+
+    name: Name = UNKNOWN
+    """Designation."""
+    balls: Annotated[int, Field(ge=3, le=200)]
+    """Rolling elements in one row."""
+    rows: Annotated[int, Field(ge=1, le=2)] = 1
+    """Rows of rolling elements."""
+    pitch_diameter_mm: Positive
+    """Diameter of the circle through the balls' centres, mm."""
+    ball_diameter_mm: Positive
+    """Diameter of a rolling element, mm."""
+    contact_angle_deg: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
+    """Contact angle, degrees."""
+
+
+class RecordingSettings(Table):
+    """All that can be said of one recording; what is not said is unknown."""
+
+    format: Annotated[str, word(*FORMATS)] | None = None
+    """File format; by default that of the file's ending."""
+    csv: CsvLayout | None = None
+    """Layout of text tables."""
+    channel: tuple[Channel, ...] | None = Field(default=None, strict=False, min_length=1)
+    """Channels, each of which becomes a record of its own."""
+    x: str | None = None
+    """Variable of the axis across the load, where there is one channel."""
+    y: str | None = None
+    """Variable of the axis along the load, where there is one channel."""
+    channel_name: str | None = None
+    """Name of that one channel."""
+    rate_hz: AboveZero | None = None
+    """Sampling rate, Hz; a .wav file says it itself."""
+    unit: Annotated[str, word(*UNITS)] | None = None
+    """Unit of the samples times `scale`."""
+    scale: AnyNumber | None = None
+    """What the stored numbers are multiplied by; 1 if not given."""
+    speed_rpm: NotNegative | None = None
+    """Speed of the shaft, revolutions per minute."""
+    speed_hz: NotNegative | None = None
+    """Speed of the shaft, revolutions per second."""
+    tach: Tach | None = None
+    """Pulse channel that gives the speed."""
+    nominal_speed_rpm: NotNegative | None = None
+    """Speed to assume where the variable of `speed_rpm` or `speed_hz` is absent, or where neither is given."""
+    bearing: str | BearingNumbers | None = None
+    """Name of a bearing in the catalogue, or its geometry."""
+    cut_s: Positive | None = None
+    """Length of the pieces that the recording is cut into, s; whole if not given. A shorter rest is left out."""
+    envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
+    """Band of the stored envelope, Hz; by default 0.3 to 0.45 of the sampling rate."""
+    recording: Name | None = None
+    """Name of the record; by default the file's name without its ending, and the channel's."""
+    bearing_id: Name | None = None
+    """The individual bearing: records of one must stay in one split."""
+    rig: Name | None = None
+    """Name of the machine."""
+    split: Annotated[str, word(*SPLITS, UNKNOWN)] | None = None
+    """Split that the record belongs to."""
+    condition: Annotated[str, word(*CONDITIONS, UNKNOWN)] | None = None
+    """State of the bearing; by default what location and extent say."""
+    location: Annotated[str, word(*LOCATIONS, *LABEL["location"].imported)] | None = None
+    """What is defective."""
+    spalls: Annotated[int, Field(ge=0)] | None = None
+    """Number of defects."""
+    extent_mm: AboveZero | None = None
+    """Length of the defect along its raceway, mm."""
+    extent_deg: Annotated[float | FromVariable, number(0.0, 360.0, above=True)] | None = None
+    """Arc covered by the defect, degrees."""
+    depth_um: AboveZero | None = None
+    """Depth of the defect, µm."""
+    load_n: AnyNumber | None = None
+    """Radial load on the shaft, N."""
+    snr_db: AnyNumber | None = None
+    """Signal-to-noise ratio, dB."""
+    bpfo: AboveZero | None = None
+    """Ball-pass order of the outer race, where the geometry is unknown."""
+    bpfi: AboveZero | None = None
+    """Ball-pass order of the inner race, where the geometry is unknown."""
+    bsf: AboveZero | None = None
+    """Spin order of a ball, where the geometry is unknown."""
+    ftf: AboveZero | None = None
+    """Order of the cage, where the geometry is unknown."""
+    notes: dict[str, str | float | int | bool] | None = None
+    """Anything else worth keeping; stored as it is."""
+
+    @model_validator(mode="after")
+    def _says_nothing_twice(self) -> RecordingSettings:
+        for group in ALTERNATIVES:
+            at_most_one(self, *(name for name in group if name in type(self).model_fields))
+        if self.channel is not None and (self.x is not None or self.y is not None):
+            raise refuse("x and y are those of the one channel; a list of channels has its own", "channel")
+        return self
+
+    def given(self) -> dict[str, Any]:
+        """The settings that are given, by name."""
+        return {name: getattr(self, name) for name in self.model_fields_set if getattr(self, name) is not None}
+
+
+ALTERNATIVES = (("speed_rpm", "speed_hz", "tach"), ("extent_mm", "extent_deg"))
+REPLACED_TOGETHER = (*ALTERNATIVES, ("channel", "x", "y", "channel_name"))
+
+
+def merged(lower: dict[str, Any], upper: dict[str, Any]) -> dict[str, Any]:
+    """Settings in which `upper` goes before `lower`; notes are joined, and alternatives replace each other."""
+    replaced = {name for group in REPLACED_TOGETHER if set(group) & set(upper) for name in group}
+    kept = {name: value for name, value in lower.items() if name not in replaced}
+    notes = {**lower.get("notes", {}), **upper.get("notes", {})}
+    return kept | upper | ({"notes": notes} if notes else {})

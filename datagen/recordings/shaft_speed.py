@@ -1,0 +1,63 @@
+"""The speed of the shaft in a recording: stated, measured beside the vibration, from a tach, or nominal."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.recordings.settings import Tach
+from datagen.recordings.source import Source
+from labels.schema import UNKNOWN
+
+HYSTERESIS = 0.1
+FEWEST_PULSES = 3
+
+
+def shaft_speed(source: Source, start: float, stop: float) -> tuple[float, str]:
+    """Mean speed (rpm, NaN if unknown) from `start` to `stop` (s) and its basis, a value of the label `speed_basis`."""
+    tach = source.setting("tach")
+    if tach is not None:
+        return tach_speed(source, tach, start, stop), "tach"
+    nominal = source.number("nominal_speed_rpm")
+    for name, factor in (("speed_rpm", 1.0), ("speed_hz", 60.0)):
+        measured = source.number(name) if nominal is None else source.or_none(name)
+        if measured is not None:
+            return measured * factor, "measured"
+    return (math.nan, UNKNOWN) if nominal is None else (nominal, "nominal")
+
+
+def tach_speed(source: Source, tach: Tach, start: float, stop: float) -> float:
+    """Mean speed over the pulses from `start` to `stop` (s), rpm; raises BadInput if there are fewer than 3."""
+    rate = tach.rate_hz or source.positive("rate_hz")
+    pulses = source.array(tach.variable, "tach.variable")
+    times = rising_edges(pulses, tach.threshold) / (rate or math.nan)
+    inside = times[(times >= start) & (times < stop)]
+    if inside.size < FEWEST_PULSES:
+        raise BadInput(
+            f"{inside.size} pulses from {start:g} to {stop:g} s", str(source.path), "tach.variable", tach.variable,
+            f"at least {FEWEST_PULSES} pulses",
+        )  # fmt: skip
+    return float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
+
+
+def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:
+    """Places (N,), in samples, at which `pulses` (T,) rise through the threshold, by linear interpolation.
+
+    Without a threshold it is half-way between the extremes. A pulse counts only if the signal was a tenth of its range
+    below the threshold since the pulse before, so that noise on an edge is not counted.
+    """
+    low, high = float(pulses.min()), float(pulses.max())
+    level = (low + high) / 2.0 if threshold is None else threshold
+    up = np.flatnonzero((pulses[:-1] < level) & (pulses[1:] >= level))
+    armed = np.flatnonzero(pulses < level - HYSTERESIS * (high - low))
+    kept, last = [], -1
+    for place in up.tolist():
+        first_armed = np.searchsorted(armed, last, side="right")
+        if first_armed < armed.size and armed[first_armed] <= place:
+            kept.append(place)
+            last = place
+    edges = np.array(kept, dtype=np.int64)
+    return edges + (level - pulses[edges]) / (pulses[edges + 1] - pulses[edges])

@@ -1,0 +1,137 @@
+"""One opened file of a recording: its samples and numbers as the SPEC's settings ask for them."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.corpora.shard import file_hash
+from datagen.errors import BadInput
+from datagen.recipes.recipe import FEWEST_SAMPLES
+from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
+from datagen.recordings.formats.reading import read_arrays
+from datagen.recordings.listing import Request
+from datagen.recordings.settings import CsvLayout
+from datagen.recordings.values import FromVariable
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file of a request, opened; every method raises BadInput naming file, setting and value."""
+
+    request: Request
+    arrays: Arrays
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return self.request.path
+
+    def setting(self, name: str, default: Any = None) -> Any:
+        """A setting as the SPEC says it, `default` if it says nothing."""
+        return self.request.settings.get(name, default)
+
+    def array(self, wish: str, field: str) -> Array:
+        """The samples (T,) of a variable: finite numbers, at least 16 of them."""
+        found = choose(self.arrays, wish, self.path, field)
+        if found.dtype.kind not in "iuf":
+            raise BadInput(f"holds {found.dtype} and not real numbers", str(self.path), field, wish)
+        if found.ndim != 1:
+            shape = "x".join(map(str, found.shape)) or "one number"
+            raise BadInput(
+                f"is no single channel ({shape})", str(self.path), field, wish, 'one column, as in "NAME[:,0]"'
+            )
+        if found.size < FEWEST_SAMPLES:
+            raise BadInput(
+                f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_SAMPLES} samples"
+            )
+        values = found.astype(np.float64)
+        bad = np.flatnonzero(~np.isfinite(values))
+        if bad.size:
+            raise BadInput(
+                f"{bad.size} of {values.size} samples are not finite numbers, the first at sample {bad[0]} (from 0)",
+                str(self.path), field, wish,
+            )  # fmt: skip
+        return values
+
+    def variable(self, wish: str, field: str) -> str:
+        """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""
+        try:
+            name, places = chosen(self.arrays, wish, self.path, field)
+        except NoVariable:
+            return ""
+        return name if places is None else f"{name}[{places}]"
+
+    def number(self, name: str) -> float | None:
+        """A number that is stated or that the file holds; None if the SPEC says nothing of it.
+
+        Of an array of numbers, the mean. NoVariable if the file lacks the variable.
+        """
+        said = self.setting(name)
+        if not isinstance(said, FromVariable):
+            return None if said is None else float(said)
+        found = choose(self.arrays, said.variable, self.path, name)
+        if found.dtype.kind not in "iuf" or not found.size or not np.isfinite(found).all():
+            raise BadInput("is no finite number", str(self.path), name, said.variable)
+        return float(np.mean(found, dtype=np.float64)) * said.factor
+
+    def positive(self, name: str) -> float | None:
+        """As `number`, above 0."""
+        value = self.number(name)
+        if value is not None and not value > 0.0:
+            raise BadInput(file=str(self.path), field=name, value=value, allowed="a number above 0")
+        return value
+
+    def or_none(self, name: str) -> float | None:
+        """As `number`, but None where the file lacks the variable."""
+        try:
+            return self.number(name)
+        except NoVariable:
+            return None
+
+
+def open_source(request: Request) -> Source:
+    """The opened file of a request; the file read last is kept, as its channels come one after the other."""
+    layout = request.settings.get("csv", CsvLayout())
+    return Source(request, _opened(request.path, request.settings.get("format"), layout))
+
+
+@lru_cache(maxsize=1)
+def _opened(path: Path, kind: str | None, layout: CsvLayout) -> Arrays:
+    return read_arrays(path, kind, layout)
+
+
+@lru_cache(maxsize=100_000)
+def source_hash(path: Path) -> str:
+    """SHA-256 of a file, computed once for all that is read from it."""
+    return file_hash(path)
+
+
+@contextmanager
+def remembered_files() -> Iterator[None]:
+    """What is remembered of files inside is forgotten before and afterwards."""
+    for remembered in (_opened, source_hash):
+        remembered.cache_clear()
+    try:
+        yield
+    finally:
+        for remembered in (_opened, source_hash):
+            remembered.cache_clear()
+
+
+def samples_hash(rate: float, *axes: Array) -> str:
+    """Hash by which two recordings with the same samples are known."""
+    digest = hashlib.sha256(repr(rate).encode())
+    for axis in axes:
+        digest.update(np.ascontiguousarray(axis).tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,118 @@
+"""The SPEC of an import: which files hold which recordings, and what is known of them."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe_errors import bad_recipe
+from datagen.recipes.settings import Table, refuse
+from datagen.recordings.settings import RecordingSettings
+from datagen.recordings.spec_files import find_spec
+from datagen.recordings.values import word
+
+Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
+
+
+class Override(RecordingSettings):
+    """Settings of some of the files, which go before everything else said of them."""
+
+    files: str | Patterns
+    """Names or patterns, such as "30*.mat"."""
+
+
+class Recording(RecordingSettings):
+    """Files laid out alike. They are found by pattern, or listed in a table, or both."""
+
+    name: Annotated[str, Field(min_length=1, max_length=80)]
+    """Name of this part of the corpus, stored with each of its records."""
+    files: str | Patterns | None = None
+    """Patterns of files below the root; ** is any number of folders."""
+    table: str | None = None
+    """CSV table beside the SPEC or below the root: a column `file`, other columns named like settings."""
+    note_columns: tuple[str, ...] = Field(default=(), strict=False)
+    """Columns of the table that are kept as notes."""
+    absent_files: Annotated[str, word("refuse", "skip")] = "refuse"
+    """What to do where a file of the table is not there."""
+    override: tuple[Override, ...] = Field(default=(), strict=False)
+    """Exceptions for some of the files, in order; later ones go before earlier ones."""
+
+    @model_validator(mode="after")
+    def _names_files(self) -> Recording:
+        if self.files is None and self.table is None:
+            raise refuse("no files are named", "files", 'a pattern such as "*.mat", or a table of files')
+        return self
+
+    @property
+    def patterns(self) -> tuple[str, ...]:
+        """The patterns of files, none if a table lists them."""
+        return () if self.files is None else (self.files,) if isinstance(self.files, str) else self.files
+
+
+class Spec(Table):
+    """An import before any file is opened: `load_spec` reads one from a TOML file."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
+    """Name of the corpus: letters, digits, - and _."""
+    title: str = ""
+    """One line for people."""
+    summary: str = ""
+    """A few sentences for people."""
+    licence: str = ""
+    """Terms of use of the recordings."""
+    citation: str = ""
+    """How their makers want to be cited."""
+    url: str = ""
+    """Where they come from."""
+    root: str = "."
+    """Folder of the files, from the folder of the SPEC."""
+    same_samples: Annotated[str, word("refuse", "skip", "keep")] = "refuse"
+    """What to do with a recording whose samples are exactly those of an earlier one."""
+    defaults: RecordingSettings = RecordingSettings()
+    """Settings of all recordings that do not say otherwise."""
+    recording: tuple[Recording, ...] = Field(min_length=1, strict=False)
+    """The parts of the corpus, in order."""
+
+    _source: Path = PrivateAttr(default=Path())
+
+    @model_validator(mode="after")
+    def _distinct_names(self) -> Spec:
+        names = [recording.name for recording in self.recording]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise refuse(f'two recordings are called "{twice}"', "recording", "a different name for each")
+        return self
+
+    @property
+    def source(self) -> Path:
+        """The file it was read from."""
+        return self._source
+
+
+def load_spec(path_or_name: str | Path) -> Spec:
+    """The SPEC in a file, or the one that comes with spallgen under that name; raises BadInput."""
+    path = find_spec(path_or_name)
+    try:
+        text = path.read_text(encoding="utf-8")
+        content = tomllib.loads(text)
+    except OSError as error:
+        raise BadInput(f"cannot be read: {error.strerror}", str(path)) from None
+    except UnicodeDecodeError:
+        raise BadInput("not a UTF-8 text file", str(path)) from None
+    except tomllib.TOMLDecodeError as error:
+        raise BadInput(f"not valid TOML: {error}", str(path)) from None
+    return parse_spec(content, path, text)
+
+
+def parse_spec(content: dict[str, Any], path: Path, text: str = "") -> Spec:
+    """The SPEC of parsed TOML read from `path`; raises BadInput, with line numbers where `text` is given."""
+    try:
+        spec = Spec.model_validate(content)
+    except ValidationError as error:
+        raise bad_recipe(error, Spec, path, text) from None
+    spec._source = path
+    return spec

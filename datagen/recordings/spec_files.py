@@ -1,0 +1,27 @@
+"""Where SPECs are found: as a file first, then among those that come with spallgen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe_files import dataset_folders
+from datagen.recipes.spelling import suggestion
+
+
+def shipped_specs() -> dict[str, Path]:
+    """SPEC of each public collection of recordings that spallgen knows the layout of, by name."""
+    found = [path for folder in reversed(dataset_folders()) for path in sorted(folder.glob("recordings/*.toml"))]
+    return {path.stem: path for path in found}
+
+
+def find_spec(path_or_name: str | Path) -> Path:
+    """File of a SPEC given as a file or by name ("cwru"); raises BadInput."""
+    path = Path(path_or_name)
+    if path.is_file():
+        return path
+    shipped = shipped_specs()
+    if path.name in shipped and path.parent == Path():
+        return shipped[path.name]
+    known = ", ".join(shipped) or "(none)"
+    raise BadInput(f"no such file, and no SPEC of that name ({known}){suggestion(path.name, shipped)}", file=str(path))

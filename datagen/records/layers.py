@@ -1,0 +1,91 @@
+"""One record's background, layer by layer, each from its own stream."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.optional import if_given
+from datagen.scenarios.scenario import Scenario
+from labels.noise import signal_to_noise
+from physics.backgrounds.gear_mesh import gear_mesh
+from physics.backgrounds.impulses import impulses
+from physics.backgrounds.mains_hum import mains_hum
+from physics.backgrounds.pink import pink_noise
+from physics.backgrounds.shaft_harmonics import shaft_harmonics
+from physics.backgrounds.white import white_noise
+
+Array = NDArray[np.float64]
+Layers = dict[str, Array]
+
+
+def background_layers(scenario: Scenario, signal: Array) -> Layers:
+    """The layers (T, 2) that the record has, m/s², by name; scaled alike if a signal-to-noise ratio is asked for.
+
+    `signal` (T, 2) is what the sensor gives without them.
+    """
+    found = {name: draw(scenario) for name, draw in LAYER_OF.items()}
+    layers = {name: layer for name, layer in found.items() if layer is not None}
+    factor = _scale(scenario, signal, layers)
+    return layers if factor == 1.0 else {name: factor * layer for name, layer in layers.items()}
+
+
+def _scale(scenario: Scenario, signal: Array, layers: Layers) -> float:
+    target = scenario.noise_target
+    if target is None or not layers:
+        return 1.0
+    noise = sum(layers.values(), np.zeros_like(signal))
+    band = None if target.whole else scenario.noise_band
+    ratio = signal_to_noise(signal[:, 1], noise[:, 1], scenario.rate, band)
+    return 1.0 if np.isnan(ratio) else float(10.0 ** ((ratio - target.ratio_db) / 20.0))
+
+
+def _white(scenario: Scenario) -> Array | None:
+    rms = scenario.background.white_rms
+    return white_noise(scenario.generator("white_noise"), rms, scenario.samples) if rms > 0.0 else None
+
+
+def _pink(scenario: Scenario) -> Array | None:
+    generator, samples, rate = scenario.generator("pink_noise"), scenario.samples, scenario.rate
+    return if_given(scenario.background.pink, lambda noise: pink_noise(generator, noise, samples, rate))
+
+
+def _shaft_harmonics(scenario: Scenario) -> Array | None:
+    generator, samples, rate = scenario.generator("shaft_harmonics"), scenario.samples, scenario.rate
+    speed, layer = scenario.scene.operation.shaft_speed, scenario.background.shaft_harmonics
+    return if_given(layer, lambda tones: shaft_harmonics(generator, tones, speed, samples, rate))
+
+
+def _gear_mesh(scenario: Scenario) -> Array | None:
+    generator, samples, rate = scenario.generator("gear_mesh"), scenario.samples, scenario.rate
+    speed, layer = scenario.scene.operation.shaft_speed, scenario.background.gear_mesh
+    return if_given(layer, lambda gears: gear_mesh(generator, gears, speed, samples, rate))
+
+
+def _mains_hum(scenario: Scenario) -> Array | None:
+    generator, samples, rate = scenario.generator("mains_hum"), scenario.samples, scenario.rate
+    return if_given(scenario.background.mains_hum, lambda hum: mains_hum(generator, hum, samples, rate))
+
+
+def _impulses(scenario: Scenario) -> Array | None:
+    generator, samples, rate = scenario.generator("impulses"), scenario.samples, scenario.rate
+    return if_given(scenario.background.impulses, lambda knocks: impulses(generator, knocks, samples, rate))
+
+
+def _recording(scenario: Scenario) -> Array | None:
+    gain = scenario.background.recording_gain
+    return if_given(scenario.stretch, lambda stretch: gain * stretch.samples)
+
+
+# In the order of labels.schema's LAYERS.
+LAYER_OF: dict[str, Callable[[Scenario], Array | None]] = {
+    "white": _white,
+    "pink": _pink,
+    "shaft_harmonics": _shaft_harmonics,
+    "gear_mesh": _gear_mesh,
+    "mains_hum": _mains_hum,
+    "impulses": _impulses,
+    "recording": _recording,
+}

@@ -1,0 +1,41 @@
+"""How much a signal stands above its background."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Band = tuple[float, float]
+
+# Share of a signal's power that rounding leaves in a band where it has none.
+ROUNDING = 1e-26
+
+
+def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None = None) -> float:
+    """Power of `signal` (T,) over that of `noise` (T,), dB, each without its mean; NaN if there is no noise.
+
+    Over `band` (Hz, edges included), or from 0 to half the `rate` (Hz) if None.
+    """
+    powers = [float(part.var()) if band is None else band_power(part, rate, band) for part in (signal, noise)]
+    tiny = float(np.finfo(np.float64).tiny)
+    if powers[1] <= ROUNDING * float(np.mean(noise**2)):
+        return math.nan
+    return 10.0 * math.log10(max(powers[0], tiny) / powers[1])
+
+
+def band_power(signal: Array, rate: float, band: Band) -> float:
+    """Mean square of the components of `signal` (T,) in `band` (Hz, edges included) but that at 0 Hz.
+
+    ValueError unless 0 ≤ low < high ≤ rate / 2.
+    """
+    low, high = band
+    if not 0.0 <= low < high <= rate / 2.0:
+        raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
+    frequency = np.arange(signal.size // 2 + 1) * (rate / signal.size)
+    power = 2.0 * np.abs(np.fft.rfft(signal) / signal.size) ** 2
+    if signal.size % 2 == 0:
+        power[-1] /= 2.0
+    return float(power[(frequency >= low) & (frequency <= high) & (frequency > 0.0)].sum())

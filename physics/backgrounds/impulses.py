@@ -1,0 +1,89 @@
+"""Random impulses: knocks at random instants that ring the machine's resonances."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from physics.checks import require, require_between, require_not_negative, require_positive
+
+Array = NDArray[np.float64]
+
+MOST_PER_SECOND = 10_000.0
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A resonance of the machine: `frequency` (Hz) at which it rings and `damping` (share of critical)."""
+
+    frequency: float
+    damping: float
+
+    def __post_init__(self) -> None:
+        require_positive("impulse resonance", self.frequency, "Hz")
+        require_between("impulse damping", self.damping, 0.0, 0.7)
+        require_positive("impulse damping", self.damping)
+
+
+@dataclass(frozen=True)
+class Impulses:
+    """Knocks that come `per_second` on average, independent of one another, and ring `resonances`.
+
+    `amplitude` (m/s²) is their median height; its natural logarithm scatters by `spread`.
+    """
+
+    per_second: float
+    amplitude: float
+    spread: float
+    resonances: tuple[Resonance, ...]
+
+    def __post_init__(self) -> None:
+        require_between("impulses per second", self.per_second, 0.0, MOST_PER_SECOND)
+        require_not_negative("impulse amplitude", self.amplitude, "m/s²")
+        require_between("impulse spread", self.spread, 0.0, 5.0)
+        require(bool(self.resonances), "impulses have no resonance to ring", "resonances")
+
+
+def impulses(generator: np.random.Generator, layer: Impulses, samples: int, rate: float) -> Array:
+    """The knocks of one record (T, 2), m/s², each starting within it.
+
+    Draws, in this order: their number N (Poisson), instants t (N,) (uniform), heights (N,) (log-normal), directions
+    (N,) (uniform over the turn) and shares (N, R) of each resonance (uniform, then brought to a sum of 1). A knock adds
+    height × share × (cos, sin)(direction) × exp(−2π ζ f τ) sin(2π f τ), τ being the time since it.
+    InvalidParameter if a resonance does not lie below half the `rate` (Hz).
+    """
+    duration = samples / rate
+    count = int(generator.poisson(layer.per_second * duration))
+    instant = duration * generator.random(count)
+    height = layer.amplitude * np.exp(layer.spread * generator.standard_normal(count))
+    direction = 2.0 * math.pi * generator.random(count)
+    share = generator.random((count, len(layer.resonances)))
+    share = share / share.sum(axis=1, keepdims=True)
+    strength = height[:, None] * np.column_stack([np.cos(direction), np.sin(direction)])
+    total = np.zeros((samples, 2))
+    for place, resonance in enumerate(layer.resonances):
+        total += _ringing(resonance, instant, strength * share[:, place, None], samples, rate)
+    return total
+
+
+def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int, rate: float) -> Array:
+    """Decaying sines (T, 2) that start at `instant` (N,) s with `strength` (N, 2), exact at the samples."""
+    require_between("impulse resonance", resonance.frequency, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
+    turn = 2.0 * math.pi * resonance.frequency / rate
+    decay = math.exp(-resonance.damping * turn)
+    first = np.ceil(instant * rate).astype(np.int64)
+    # A decaying sine follows from its first two samples: they are all that drives the recursion.
+    started = [_sine(resonance, (first + later) / rate - instant)[:, None] * strength for later in (0, 1)]
+    drive = np.zeros((samples + 2, 2))
+    np.add.at(drive, first, started[0])
+    np.add.at(drive, first + 1, started[1] - 2.0 * decay * math.cos(turn) * started[0])
+    return np.asarray(lfilter([1.0], [1.0, -2.0 * decay * math.cos(turn), decay**2], drive[:samples], axis=0))
+
+
+def _sine(resonance: Resonance, since: Array) -> Array:
+    turn = 2.0 * math.pi * resonance.frequency * since
+    return np.exp(-resonance.damping * turn) * np.sin(turn)

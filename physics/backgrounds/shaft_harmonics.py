@@ -1,0 +1,39 @@
+"""Harmonics of the shaft: unbalance, misalignment, looseness."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.backgrounds.tones import draw_phases, tones
+from physics.checks import require_count, require_not_negative
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ShaftHarmonics:
+    """Tones at whole multiples of the shaft's frequency from `first_order` on, of `amplitudes` (m/s²) on each axis."""
+
+    amplitudes: tuple[float, ...]
+    first_order: int = 1
+
+    def __post_init__(self) -> None:
+        require_count("first order", self.first_order, 1, 1000)
+        for amplitude in self.amplitudes:
+            require_not_negative("shaft harmonic amplitude", amplitude, "m/s²")
+
+
+def shaft_harmonics(
+    generator: np.random.Generator, layer: ShaftHarmonics, shaft_speed: float, samples: int, rate: float
+) -> Array:
+    """The tones (T, 2), m/s², of a shaft at `shaft_speed` (rad/s); draws one phase an order and axis.
+
+    Orders at or above half the `rate` (Hz) are left out.
+    """
+    orders = layer.first_order + np.arange(len(layer.amplitudes), dtype=np.float64)
+    phase = draw_phases(generator, orders.size)
+    return tones(orders * shaft_speed / (2.0 * math.pi), np.array(layer.amplitudes), phase, samples, rate)

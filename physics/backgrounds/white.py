@@ -1,0 +1,19 @@
+"""White noise: sensor and amplifier."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.checks import require_not_negative
+
+Array = NDArray[np.float64]
+
+
+def white_noise(generator: np.random.Generator, rms: float, samples: int) -> Array:
+    """Gaussian white noise (T, 2) from 0 to half the sampling rate, of standard deviation `rms` (m/s²) on each axis.
+
+    Draws `samples` × 2 standard normal numbers.
+    """
+    require_not_negative("white rms", rms, "m/s²")
+    return rms * generator.standard_normal((samples, 2))

@@ -1,0 +1,38 @@
+"""How the net contact force changes with the displacement, for methods that solve for the force [P14 Eq. 26, 27]."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.contact import ACTIVE, COMPRESSION, COSINE, FRAME_COSINE, FRAME_SINE, FRAME_SPEED, SINE, Law
+
+Array = NDArray[np.float64]
+
+
+@njit
+def contact_tangent(balls: Array, frames: Array, law: Law, rate: float) -> tuple[float, float, float, float]:
+    """Derivatives (xx, xy, yx, yy), N/m, of the net force of the contact set to the displacement.
+
+    The velocity is taken to grow by `rate` (1/s) times the displacement. `press` must have been called.
+    """
+    xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0
+    for cage in range(balls.shape[0]):
+        cosine, sine, speed = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE], frames[cage, FRAME_SPEED]
+        for j in range(balls.shape[2]):
+            if balls[cage, ACTIVE, j] > 0.5:
+                c = balls[cage, COSINE, j] * cosine - balls[cage, SINE, j] * sine
+                s = balls[cage, SINE, j] * cosine + balls[cage, COSINE, j] * sine
+                pressed = max(balls[cage, COMPRESSION, j], 0.0)
+                power = math.sqrt(pressed) if law.exponent == 1.5 else pressed ** (law.exponent - 1.0)
+                along = law.exponent * law.stiffness * power + law.damping * rate
+                across = law.damping * speed
+                to_x, to_y = along * c - across * s, along * s + across * c
+                xx += c * to_x
+                xy += c * to_y
+                yx += s * to_x
+                yy += s * to_y
+    return xx, xy, yx, yy

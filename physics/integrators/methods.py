@@ -1,0 +1,88 @@
+"""The table of numerical methods: what each is, what it costs, where it stops being stable and what it is for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+from physics.integrators.adaptive_march import march_dormand_prince
+from physics.integrators.exponential_rk4 import march_exponential_rk4
+from physics.integrators.generalised_alpha import march_generalised_alpha
+from physics.integrators.method import ALL_MODES, CONTACT_MODES, NO_MODES, Method
+from physics.integrators.runge_kutta4 import march_runge_kutta4
+
+REFERENCE = "reference"
+MARCHES: Mapping[str, Callable[..., int]] = {
+    "exponential_rk4": march_exponential_rk4,
+    "runge_kutta4": march_runge_kutta4,
+    "dormand_prince": march_dormand_prince,
+    "generalised_alpha": march_generalised_alpha,
+}
+
+_LOCATED = "every contact change located on the quintic through the step's ends; stops at every known kink"
+
+METHODS: Mapping[str, Method] = {
+    method.name: method
+    for method in (
+        Method(
+            name="exponential_rk4",
+            title="exponential Runge-Kutta, order 4",
+            order=4.0,
+            contact_sums=5.0,
+            stability_limit=2.8,
+            limits=CONTACT_MODES,
+            dense_output="steps end on samples",
+            events=_LOCATED,
+            purpose="the resonator is solved exactly, so a sample of 65 536 Hz needs one step",
+            source="Krogstad 2005, J. Comput. Phys. 203, 72",
+        ),
+        Method(
+            name="runge_kutta4",
+            title="classical Runge-Kutta, order 4",
+            order=4.0,
+            contact_sums=5.0,
+            stability_limit=2.0 * math.sqrt(2.0),
+            limits=ALL_MODES,
+            dense_output="steps end on samples",
+            events=_LOCATED,
+            purpose="the textbook method, for comparison",
+            source="Kutta 1901",
+        ),
+        Method(
+            name="dormand_prince",
+            title="Dormand-Prince 5(4), own steps",
+            order=5.0,
+            contact_sums=6.0,
+            stability_limit=math.inf,
+            limits=NO_MODES,
+            dense_output="order 4 (Shampine 1986)",
+            events=_LOCATED,
+            purpose="scenes of unknown stiffness: its step control shortens steps as far as accuracy and stability ask",
+            source="Dormand and Prince 1980, J. Comput. Appl. Math. 6, 19",
+        ),
+        Method(
+            name="generalised_alpha",
+            title="generalised-α, order 2, ρ∞ = 0.9",
+            order=2.0,
+            contact_sums=5.0,
+            stability_limit=math.inf,
+            limits=NO_MODES,
+            dense_output="steps end on samples",
+            events=_LOCATED,
+            purpose="stiff scenes whose fastest modes need not be resolved",
+            source="Chung and Hulbert 1993, J. Appl. Mech. 60, 371",
+        ),
+        Method(
+            name=REFERENCE,
+            title="DOP853, order 8, relative tolerance 1e-9",
+            order=8.0,
+            contact_sums=12.0,
+            stability_limit=math.inf,
+            limits=NO_MODES,
+            dense_output="order 7",
+            events="every contact change bisected on the dense output; a tiny straight step over every known kink",
+            purpose="the slow answer that others are held against; shares no kernel with them",
+            source="Hairer, Nørsett and Wanner 1993, Solving Ordinary Differential Equations I",
+        ),
+    )
+}

@@ -1,0 +1,68 @@
+"""The classical explicit Runge-Kutta method of order 4: four contact sums a step, every coordinate treated alike.
+
+Stable up to ω h = 2.83 for the fastest mode of all, the resonator's included, and up to 2.79 over the rate of the
+fastest decay. Order 4 while the contact set does not change, which the marching loop ensures. Not to be confused with
+the same method run blindly through changes of contact, which drops to first order.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_inline
+from physics.contact import Law, Track, count_changes, move_to, press
+from physics.integrators.accelerations import accelerations
+from physics.integrators.march import bind_method
+from physics.motion import MotionModel
+
+Array = NDArray[np.float64]
+
+
+@njit_inline
+def step_runge_kutta4(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    motion: MotionModel,
+    weights: Array,
+    time: float,
+    step: float,
+    start: Array,
+    force: tuple[float, float],
+    end: Array,
+    stage: Array,
+) -> int:
+    """One step of length `step` from `start` (12,), where the net contact force is `force`, into `end` (12,).
+
+    The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set halfway.
+    """
+    square = step * step
+    rate = np.empty((4, 6))
+    accelerations(motion, time, start, force, rate[0])
+    for i in range(6):
+        end[i] = start[i] + 0.5 * step * start[6 + i]
+        end[6 + i] = start[6 + i] + 0.5 * step * rate[0, i]
+    move_to(balls, frames, track, time + 0.5 * step)
+    pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
+    accelerations(motion, time + 0.5 * step, end, pushed, rate[1])
+    for i in range(6):
+        end[i] = start[i] + 0.5 * step * start[6 + i] + 0.25 * square * rate[0, i]
+        end[6 + i] = start[6 + i] + 0.5 * step * rate[1, i]
+    pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
+    contradicted = count_changes(balls, law)
+    accelerations(motion, time + 0.5 * step, end, pushed, rate[2])
+    for i in range(6):
+        end[i] = start[i] + step * start[6 + i] + 0.5 * square * rate[1, i]
+        end[6 + i] = start[6 + i] + step * rate[2, i]
+    move_to(balls, frames, track, time + step)
+    pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
+    accelerations(motion, time + step, end, pushed, rate[3])
+    for i in range(6):
+        end[i] = start[i] + step * start[6 + i] + square / 6.0 * (rate[0, i] + rate[1, i] + rate[2, i])
+        end[6 + i] = start[6 + i] + step / 6.0 * (rate[0, i] + 2.0 * (rate[1, i] + rate[2, i]) + rate[3, i])
+    return contradicted
+
+
+march_runge_kutta4 = bind_method("runge_kutta4", step_runge_kutta4)

@@ -1,0 +1,55 @@
+"""The measurement chain: resonator and paths to the sensor, mounting, recorder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.checks import require_not_negative
+from physics.sensor.mode import SensorMode, mode_acceleration
+from physics.sensor.mounting import Mounting, mounted
+from physics.sensor.recorder import Recorder
+from physics.trace import Trace
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SensorChain:
+    """`resonator_gain` times the resonator plus `modes`, through `mounting`, into `recorder` (None: without).
+
+    The default is the paper's: the resonator's acceleration alone.
+    """
+
+    modes: tuple[SensorMode, ...] = ()
+    resonator_gain: float = 1.0
+    mounting: Mounting | None = None
+    recorder: Recorder | None = None
+
+    def __post_init__(self) -> None:
+        require_not_negative("resonator_gain", self.resonator_gain)
+
+    @property
+    def needs_outer_ring(self) -> bool:
+        """True if the trace must keep the outer ring's motion."""
+        return bool(self.modes)
+
+
+def sensed(chain: SensorChain, trace: Trace) -> Array:
+    """What the sensor gives (T, 2), m/s², before background and recorder.
+
+    ValueError if the chain has modes and the trace kept no motion of the outer ring (`simulate(keep_outer=True)`);
+    InvalidParameter if a resonance or the cutoff does not lie below half the trace's rate.
+    """
+    signal = trace.acceleration if chain.resonator_gain == 1.0 else chain.resonator_gain * trace.acceleration
+    for mode in chain.modes:
+        signal = signal + _of_outer_ring(mode, trace)
+    return signal if chain.mounting is None else mounted(chain.mounting, signal, trace.rate)
+
+
+def _of_outer_ring(mode: SensorMode, trace: Trace) -> Array:
+    if trace.outer_displacement is None or trace.outer_velocity is None or trace.outer_acceleration is None:
+        raise ValueError("sensor modes need a trace that kept the outer ring's motion: simulate(..., keep_outer=True)")
+    return mode_acceleration(mode, trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration, trace.rate)

@@ -1,0 +1,187 @@
+"""Each way in which a SPEC or a file can be wrong ends in one clear line, and nothing is written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+
+Bring = Callable[..., Corpus]
+Mat = Callable[..., np.ndarray]
+GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+
+
+def noise(size: int = 400, seed: int = 0) -> np.ndarray:
+    return np.random.default_rng(seed).standard_normal(size)
+
+
+def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
+    """The message of a refused import; nothing may be left of it."""
+    before = {path.name for path in tmp_path.iterdir()} | {"spec.toml"}
+    with pytest.raises(BadInput) as problem:
+        bring(text)
+    assert {path.name for path in tmp_path.iterdir()} == before
+    return str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (('y = "sig"', 'y = "sog"'), 'a.mat: y = "sog": the file has no such variable; did you mean "sig"?; allowed'),
+        (("rate_hz = 1000\n", ""), "spec.toml: recording[1] (all): rate_hz: the sampling rate is not given"),
+        (("rate_hz = 1000", "rate_hz = 0"), "spec.toml, line 6: recording[1].rate_hz = 0; allowed: a number above 0"),
+        (("rate_hz = 1000", "rate_hz = -5"), "recording[1].rate_hz = -5; allowed: a number above 0"),
+        (('unit = "g"\n', ""), "recording[1] (all): unit: the unit of the samples is not given; allowed: m/s2, g"),
+        (('unit = "g"', 'unit = "G"'), 'line 5: recording[1].unit = "G"; allowed: m/s2, g'),
+        (('"*.mat"', '"*.tam"'), 'recording[1] (all): files = "*.tam": no file below'),
+    ],
+)  # fmt: skip
+def test_a_setting_that_is_wrong_or_missing_is_named(
+    change: tuple[str, str], told: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    assert told in refusal(bring, GOOD.replace(*change), tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ('location = "iner"', 'location = "iner"; allowed: none, outer, inner, ball, cage, several, unknown; did'),
+        ('condition = "broken"', 'condition = "broken"; allowed: healthy, line, extended, unknown'),
+        ('bearing = "skf_6025"', 'bearing: bearing = "skf_6025" is not in the catalogue'),
+        ("bearing = {balls = 8, pitch_diameter_mm = 10, ball_diameter_mm = 8}", "8 balls of 8.000 mm do not fit"),
+        ("speed_rpm = 5\nspeed_hz = 2", "speed_rpm and speed_hz say the same thing twice"),
+        ('speed_rpm = 5\ntach = {variable = "sig"}', "speed_rpm and tach say the same thing twice"),
+        ('speed_rpm = {variable = "rpm"}', 'a.mat: speed_rpm = "rpm": the file has no such variable'),
+        ('scale = {variable = "sig"}\nscall = 3', 'unknown key; did you mean "scale"?'),
+        ("scale = 0", "a.mat: scale = 0.0; allowed: any number but 0"),
+        ("cut_s = 5", "cut_s = 5.0; allowed: 0.016 to 0.4 s, the length of a.mat"),
+        ("envelope_band_hz = [100, 600]", "envelope_band_hz = [100.0, 600.0]; allowed: 0 <= low < high <= 500"),
+        ('location = "none"\nextent_mm = 1', "a healthy bearing has no defect"),
+        ('location = "outer"\ncondition = "healthy"', "a healthy bearing has no defect"),
+        (
+            'location = "outer"\ncondition = "extended"\nextent_mm = 1\nbearing = "skf_6205"',
+            "the defect covers 0.061 ball spacings, which is line",
+        ),
+        ('bearing = "skf_6205"\nbpfo = 3.6', "bpfo: the bearing's geometry says it already"),
+        ('tach = {variable = "sig", rate_hz = 1}', "pulses from 0 to 0.4 s"),
+        ('channel = [{name = "a"}]\n', "the channel has no variable"),
+    ],
+)  # fmt: skip
+def test_a_label_or_setting_that_cannot_be_is_refused(
+    more: str, told: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    text = GOOD.replace('y = "sig"\n', "") if "channel" in more else GOOD
+    assert told in refusal(bring, text + more + "\n", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("samples", "told"),
+    [
+        (np.array([0.0, np.nan, np.inf] + [1.0] * 30), "2 of 33 samples are not finite numbers, the first at sample 1"),
+        (np.zeros(0), 'y = "sig": holds 0 samples; allowed: at least 16 samples'),
+        (np.ones(15), "holds 15 samples"),
+        (np.ones((40, 2)).T.reshape(2, 40, 1), "is no single channel (2x40)"),
+        (np.ones(20) * 1j, "holds complex128 and not real numbers"),
+    ],
+    ids=["not finite", "empty", "short", "table", "complex"],
+)
+def test_samples_that_are_no_recording_are_refused(
+    samples: np.ndarray, told: str, bring: Bring, tmp_path: Path
+) -> None:
+    np.savez(tmp_path / "a.npz", sig=samples)
+    assert told in refusal(bring, GOOD.replace("*.mat", "*.npz"), tmp_path)
+
+
+def test_one_bad_file_among_good_ones_leaves_nothing_behind(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "c.mat").write_bytes((tmp_path / "b.mat").read_bytes()[:200])
+    assert "c.mat: cannot be read as a .mat file" in refusal(bring, GOOD, tmp_path)
+
+
+def test_the_same_samples_twice_are_refused_or_left_out(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", noise(seed=1))
+    mat("b.mat", noise(seed=1))
+    told = refusal(bring, GOOD, tmp_path)
+    assert 'b.mat: same_samples: record "b" has exactly the samples of "a"' in told
+    assert bring('same_samples = "skip"\n' + GOOD).labels["recording"].tolist() == ["a"]
+
+
+def test_a_name_twice_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    told = refusal(bring, GOOD + GOOD.replace('"all"', '"again"'), tmp_path)
+    assert 'spec.toml: recording[2] (again): recording = "a": the name is taken by a.mat' in told
+
+
+def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "t.csv").write_text("file,split,bearing_id\na.mat,train,one\nb.mat,test,one\n")
+    told = refusal(bring, GOOD + 'table = "t.csv"\n', tmp_path)
+    assert 't.csv, line 3: split = "test": the records of bearing one would be in the splits train and test' in told
+
+
+@pytest.mark.parametrize(
+    ("table", "told"),
+    [
+        ("fil,location\na.mat,inner\n", 't.csv, line 1: fil: unknown column; did you mean "file"?'),
+        ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
+        ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
+        ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),
+        ("file,load_n\na.mat,much\n", 't.csv, line 2: load_n = "much"; allowed: a number, or'),
+        ("file,speed_rpm\na.mat,5\n", "t.csv, line 2: speed_rpm: two sources for the speed: the SPEC says speed_hz"),
+        ("file,location\nz.mat,inner\n", "a.mat is not in the table t.csv"),
+        ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
+        ("file,location\n", "t.csv: the table holds no row"),
+    ],
+)  # fmt: skip
+def test_a_wrong_line_of_a_label_table_is_named(table: str, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text(table)
+    assert told in refusal(bring, GOOD + 'table = "t.csv"\nspeed_hz = 20\n', tmp_path)
+
+
+def test_a_table_without_the_column_that_the_samples_should_be_in_is_refused(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time,acc\n0,1\n")
+    told = refusal(bring, GOOD.replace("*.mat", "*.csv"), tmp_path)
+    assert 'a.csv: y = "sig": the file has no such variable; allowed: acc, time' in told
+
+
+def test_a_rate_that_contradicts_the_wave_file_is_refused(bring: Bring, tmp_path: Path) -> None:
+    import wave
+
+    with wave.open(str(tmp_path / "a.wav"), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(8000)
+        file.writeframes(b"\1\0" * 50)
+    told = refusal(bring, GOOD.replace("*.mat", "*.wav").replace('"sig"', '"data"'), tmp_path)
+    assert "a.wav: rate_hz = 1000.0: the file says another rate; allowed: 8000" in told
+
+
+def test_a_folder_that_is_not_empty_is_refused_and_kept(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    bring(GOOD)
+    before = (tmp_path / "corpus" / "manifest.json").read_bytes()
+    with pytest.raises(BadInput, match="this folder is not empty; an import never adds to what is there"):
+        bring(GOOD)
+    assert (tmp_path / "corpus" / "manifest.json").read_bytes() == before
+
+
+def test_the_command_ends_with_2_and_one_line_without_a_traceback(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text('name = "x"\n' + GOOD)
+    for spec in (tmp_path / "s.toml", tmp_path / "none.toml", Path("cwru")):
+        done = CliRunner().invoke(app, ["import", str(spec), "--out", str(tmp_path / "c")])
+        assert done.exit_code == 2
+        assert done.stderr.startswith("error: ")
+        assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "c").exists()

@@ -1,0 +1,196 @@
+from __future__ import annotations
+
+import json
+import wave
+from collections.abc import Callable
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+
+from datagen.corpora.check import check_corpus
+from datagen.corpora.info import corpus_info
+from datagen.corpus import Corpus
+from datagen.drawing.preview import draw_preview
+from labels.schema import LABEL
+
+G = 9.80665
+Bring = Callable[..., Corpus]
+Mat = Callable[..., np.ndarray]
+
+
+def noise(size: int = 400, seed: int = 0) -> np.ndarray:
+    return np.random.default_rng(seed).standard_normal(size)
+
+
+def as_stored(samples: np.ndarray, factor: float) -> np.ndarray:
+    """What float64 numbers times their scale are as stored: float32, shown as float64."""
+    return (samples * factor).astype(np.float32).astype(np.float64)
+
+
+def test_counts_of_a_packed_file_come_back_in_m_s2_with_each_records_own_scale(bring: Bring, tmp_path: Path) -> None:
+    counts = {f"{k}_DE": np.random.default_rng(k).integers(-3000, 3000, 500 + k).astype(np.int16) for k in (1, 2)}
+    np.savez(tmp_path / "pack.npz", **counts)
+    (tmp_path / "rows.csv").write_text(
+        "file,recording,y,scale,location,extent_mm,speed_rpm,nominal_speed_rpm,bearing_id,hp\n"
+        "pack.npz,one,1_DE,0.00016243512974051903,inner,0.178,1796.5,1797,IR007,0\n"
+        "pack.npz,two,2_DE,0.00020861538461538508,none,,,1772,normal,1\n"
+    )
+    corpus = bring(
+        '[defaults]\nunit = "g"\nrate_hz = 12000\nbearing = "skf_6205"\n'
+        '[[recording]]\nname = "all"\ntable = "rows.csv"\nnote_columns = ["hp"]\n'
+    )
+    assert np.array_equal(corpus.signal(0), as_stored(counts["1_DE"] * 0.00016243512974051903, G))
+    assert np.array_equal(corpus.signal(1), as_stored(counts["2_DE"] * 0.00020861538461538508, G))
+    table = corpus.labels
+    assert table["recording"].tolist() == ["one", "two"]
+    assert table["speed_rpm"].tolist() == [1796.5, 1772.0]
+    assert table["speed_basis"].tolist() == ["measured", "nominal"]
+    assert table["condition"].tolist() == ["line", "healthy"]
+    # The inner raceway's radius is (39.04 - 7.94) / 2 mm.
+    assert table["extent"][0] == pytest.approx(0.178 / 15.55, rel=1e-12)
+    assert table["extent_spacing"][0] == pytest.approx(0.178 / 15.55 * 9.0 / (2.0 * np.pi), rel=1e-12)
+    assert np.isnan(table["spalls"][0])
+    assert table["spalls"][1] == 0.0
+    assert json.loads(corpus.waveform(1, "provenance"))["notes"] == {"hp": 1}
+    assert json.loads(corpus.waveform(0, "provenance"))["m_s2_per_number"] == 0.00016243512974051903 * G
+    assert check_corpus(tmp_path / "corpus").problems == ()
+
+
+def test_two_axes_and_two_channels_become_records_of_their_own(bring: Bring, tmp_path: Path) -> None:
+    samples = noise(1200).reshape(300, 4)
+    np.save(tmp_path / "a.npy", samples)
+    corpus = bring(
+        '[[recording]]\nname = "all"\nfiles = "*.npy"\nunit = "m/s2"\nscale = 2\nrate_hz = 1000\nchannel = ['
+        '{name = "near", x = "data[:,0]", y = "data[:,1]"}, {name = "far", y = "data[:,3]"}]\n'
+    )
+    assert corpus.labels["recording"].tolist() == ["a near", "a far"]
+    assert np.array_equal(corpus.signal(0, "x"), as_stored(samples[:, 0], 2.0))
+    assert np.array_equal(corpus.signal(0, "y"), as_stored(samples[:, 1], 2.0))
+    assert np.array_equal(corpus.signal(1), as_stored(samples[:, 3], 2.0))
+    assert corpus.waveform(1).shape == (300, 1)
+    assert corpus.labels["shard"].nunique() == 2
+
+
+def test_text_wave_and_netcdf_files_come_in_side_by_side(bring: Bring, tmp_path: Path) -> None:
+    values = noise(64)
+    text = "t;a\n" + "".join(f"{k};{value!r}\n" for k, value in enumerate(values.tolist()))
+    (tmp_path / "a.csv").write_text(text)
+    counts = np.random.default_rng(3).integers(-32768, 32767, 64).astype("<i2")
+    with wave.open(str(tmp_path / "b.wav"), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(4000)
+        file.writeframes(counts.tobytes())
+    with netCDF4.Dataset(tmp_path / "c.nc", "w") as opened:
+        opened.createDimension("n", 64)
+        opened.createVariable("acc", "f4", ("n",))[...] = values
+        opened.createVariable("fs", "f8", ())[...] = 3000.0
+    corpus = bring(
+        '[defaults]\nunit = "m/s2"\n'
+        '[[recording]]\nname = "text"\nfiles = "a.csv"\ny = "a"\nrate_hz = 2000\ncsv = {delimiter = ";"}\n'
+        '[[recording]]\nname = "wave"\nfiles = "*.wav"\ny = "data"\nscale = 500\n'
+        '[[recording]]\nname = "netcdf"\nfiles = "*.nc"\ny = "acc"\nrate_hz = {variable = "fs"}\n'
+    )
+    assert corpus.labels["rate_hz"].tolist() == [2000.0, 4000.0, 3000.0]
+    assert np.array_equal(corpus.signal(0), as_stored(values, 1.0))
+    assert np.array_equal(corpus.signal(1), as_stored(counts / 32768.0, 500.0))
+    assert np.array_equal(corpus.signal(2), values.astype(np.float32).astype(np.float64))
+
+
+def test_what_is_not_said_is_unknown_and_absent(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    corpus = bring('[[recording]]\nname = "all"\nfiles = "a.mat"\nx = "sig"\nunit = "g"\nrate_hz = 5000\n')
+    row = corpus.labels.iloc[0]
+    for name in ("condition", "location", "split", "rig", "bearing", "bearing_id", "contact_law", "speed_basis"):
+        assert row[name] == "unknown", name
+        assert LABEL[name].values is None or "unknown" in LABEL[name].imported
+    for name in ("speed_rpm", "load_n", "extent_mm", "bpfo", "balls", "bridged", "envelope_band_low", "snr_db"):
+        assert np.isnan(row[name]), name
+    with xarray.open_dataset(next((tmp_path / "corpus" / "shards").glob("*.nc"))) as shard:
+        held = set(shard.variables)
+        assert shard["axis"].values.tolist() == ["x"]
+    absent = {"envelope", "stiffness", "scenario", "balls", "bridged", "pass_record", "defect_record"}
+    assert not held & absent
+    assert check_corpus(tmp_path / "corpus").sound
+
+
+def test_a_speed_comes_from_a_variable_a_tach_or_a_nominal_value(bring: Bring, mat: Mat) -> None:
+    time = np.arange(5000) / 5000.0
+    mat("a.mat", noise(5000), rps=24.5, tacho=(np.sin(2.0 * np.pi * 60.0 * time - 0.3) > 0.0).astype(float))
+    common = 'files = "a.mat"\nunit = "g"\nrate_hz = 5000\ny = "sig"\n'
+    nominal = 'speed_rpm = {variable = "rpm"}\nnominal_speed_rpm = 1500\n'
+    corpus = bring(
+        'same_samples = "keep"\n'
+        f'[[recording]]\nname = "a"\nrecording = "a"\n{common}speed_hz = {{variable = "rps"}}\n'
+        f'[[recording]]\nname = "b"\nrecording = "b"\n{common}tach = {{variable = "tacho", pulses_per_rev = 2}}\n'
+        f'[[recording]]\nname = "c"\nrecording = "c"\n{common}{nominal}'
+    )
+    assert corpus.labels["speed_basis"].tolist() == ["measured", "tach", "nominal"]
+    # Edges of a switched signal are known to a sample of 0.2 ms at either end of a second.
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([1470.0, 1800.0, 1500.0], rel=4e-4)
+
+
+def test_a_long_recording_is_cut_into_whole_pieces_each_with_its_own_speed(bring: Bring, mat: Mat) -> None:
+    pulses = np.concatenate([np.tile([0, 0, 0, 0, 1], 200), np.tile([0, 0, 0, 1], 275)]).astype(float)
+    samples = mat("a.mat", noise(2100), tacho=pulses)
+    corpus = bring(
+        '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "m/s2"\nrate_hz = 1000\ny = "sig"\ncut_s = 1\n'
+        'tach = {variable = "tacho"}\n'
+    )
+    assert corpus.labels["recording"].tolist() == ["a#0", "a#1"]
+    assert np.array_equal(corpus.signal(1), as_stored(samples[1000:2000], 1.0))
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([12000.0, 15000.0], rel=1e-9)
+
+
+def test_one_shard_holds_one_rate_and_length(bring: Bring, mat: Mat) -> None:
+    for name, size in (("a", 300), ("b", 400), ("c", 300)):
+        mat(f"{name}.mat", noise(size, seed=size + ord(name)))
+    corpus = bring('[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n')
+    assert corpus.labels.groupby("shard")["duration_s"].nunique().tolist() == [1, 1]
+    assert corpus.labels["duration_s"].tolist() == [0.3, 0.4, 0.3]
+
+
+def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("r1.mat", "sub/r2.mat", "sub/r3.mat"):
+        mat(name)
+    (tmp_path / "t.csv").write_text("file,location,bearing_id\nr1.mat,outer,x\nsub/r2.mat,,y\nr3.mat,ball,z\n")
+    corpus = bring(
+        '[defaults]\nunit = "g"\nrate_hz = 1000\nrig = "mill"\n'
+        '[[recording]]\nname = "all"\nfiles = "**/*.mat"\ntable = "t.csv"\ny = "sig"\nlocation = "inner"\n'
+        'override = [{files = "sub/*", rig = "fan"}, {files = ["r3.mat"], notes = {odd = true}}]\n'
+    )
+    table = corpus.labels
+    assert table["location"].tolist() == ["outer", "inner", "ball"]
+    assert table["rig"].tolist() == ["mill", "fan", "fan"]
+    assert table["bearing_id"].tolist() == ["x", "y", "z"]
+    assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
+
+
+def test_everything_that_reads_a_corpus_reads_an_imported_one(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("a.mat", "b.mat"):
+        mat(name, noise(3000, seed=ord(name[0])))
+    corpus = bring(
+        'title = "Two"\n[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 6000\ny = "sig"\n'
+        "bearing = {balls = 8, pitch_diameter_mm = 40, ball_diameter_mm = 8}\nspeed_rpm = 3000\n"
+    )
+    assert corpus.to_numpy().shape == (2, 3000, 1)
+    assert corpus[1][1]["recording"] == "b"
+    info = corpus_info(tmp_path / "corpus")
+    assert (info.title, info.records, info.counts["location"]) == ("Two", 2, {"unknown": 2})
+    drawn = draw_preview(tmp_path / "corpus", 1, tmp_path / "b.png")
+    # 8 balls of a fifth of the pitch diameter: BPFO = 8 (1 - 0.2) / 2 = 3.2 orders of 50 Hz.
+    assert drawn["frequencies_hz"]["BPFO"] == pytest.approx(160.0, rel=1e-12)
+    assert (tmp_path / "b.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_changed_file_of_an_imported_corpus_is_found(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    bring('[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 6000\ny = "sig"\n')
+    manifest = tmp_path / "corpus" / "manifest.json"
+    manifest.write_text(manifest.read_text().replace('"rate_hz": 6000.0', '"rate_hz": 6001.0'))
+    assert check_corpus(tmp_path / "corpus").problems == (
+        "manifest.json: its SPEC and files are not those whose hash it states",
+    )

@@ -1,0 +1,162 @@
+"""Drawn rigs and bearings: K by Hertz, stiffness from frequency and mass, deviations of the catalogue, refusals."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from datagen.recipes.recipe import parse_recipe
+from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario
+from physics import catalog
+from physics.hertz import load_deflection_factor, roller_load_deflection_factor
+from physics.modes import modes, rated_matrices
+from physics.rating import static_load_rating
+from physics.rig import Rig
+
+BEARING = {
+    "bearing": "drawn",
+    "rows": {"choice": [1, 2]},
+    "pitch_diameter_mm": {"log_uniform": [30, 100]},
+    "ball_diameter_of_pitch": {"uniform": [0.15, 0.25]},
+    "fill": {"uniform": [0.7, 1.0]},
+    "clearance_um": {"uniform": [0, 10]},
+    "inner_conformity": {"uniform": [0.505, 0.53]},
+    "outer_conformity": {"uniform": [0.51, 0.54]},
+}
+RIG = {
+    "rig": "drawn",
+    "inner_mass_kg": {"log_uniform": [0.5, 20]},
+    "outer_mass_kg": {"log_uniform": [2, 20]},
+    "resonator_mass_kg": {"log_uniform": [0.05, 0.5]},
+    "support_frequency_hz": {"log_uniform": [200, 1500]},
+    "support_stiffness_x_over_y": {"uniform": [0.5, 2]},
+    "support_damping_ratio": {"uniform": [0.01, 0.05]},
+    "resonator_frequency_hz": {"uniform": [4000, 12000]},
+    "resonator_damping_ratio": {"uniform": [0.005, 0.03]},
+    "film_damping_us": {"log_uniform": [2.5, 25]},
+    "rated_speed_rpm": 1500,
+    "rated_load_of_static_rating": {"log_uniform": [0.005, 0.05]},
+}
+
+
+def draw(records: int = 1, **machine: Any) -> list[Scenario]:
+    """Healthy scenarios on machines with these settings."""
+    part = {"name": "p", "records": records, "machine": machine}
+    content = {"name": "r", "seed": 4, "signal": {"rate_hz": 65536, "duration_s": 0.05}, "part": [part]}
+    recipe = parse_recipe(content, Path("recipe.toml"))
+    return [draw_scenario(recipe, record) for record in range(records)]
+
+
+def rigs(records: int = 1, **machine: Any) -> list[Rig]:
+    return [scenario.scene.rig for scenario in draw(records, **machine)]
+
+
+def test_a_drawn_machine_takes_every_number_from_the_recipe() -> None:
+    for scenario in draw(30, **BEARING, **RIG):
+        rig, bearing = scenario.scene.rig, scenario.scene.rig.bearing
+        assert (scenario.rig, scenario.bearing) == ("drawn", "drawn")
+        assert 0.03 <= bearing.pitch_diameter <= 0.1
+        assert 0.15 <= bearing.ball_diameter / bearing.pitch_diameter <= 0.25
+        assert 0.505 <= bearing.inner_conformity <= 0.53
+        most = math.pi / math.asin(bearing.ball_diameter / bearing.pitch_diameter)
+        assert 0.7 * most - 1 < bearing.balls <= most
+        assert bearing.stagger == math.pi / bearing.balls
+        assert rig.rated_speed == pytest.approx(50 * math.pi, rel=1e-15)  # one rounding
+        assert 0.005 <= rig.rated_load / static_load_rating(bearing) <= 0.05
+        assert scenario.scene.operation.load == rig.rated_load
+
+
+def test_k_of_a_drawn_bearing_is_hertzs() -> None:
+    for rig in rigs(5, **BEARING, **RIG):
+        b = rig.bearing
+        expected = load_deflection_factor(
+            b.pitch_diameter, b.ball_diameter, b.contact_angle, b.inner_conformity, b.outer_conformity
+        )
+        assert (b.load_deflection, b.exponent) == (expected, 1.5)
+
+
+def test_drawn_rollers_touch_along_lines_of_their_length() -> None:
+    rollers = BEARING | {"elements": "rollers", "roller_length_of_diameter": 1.25}
+    (rig,) = rigs(1, **rollers, **RIG)
+    assert rig.bearing.exponent == 10 / 9
+    assert rig.bearing.load_deflection == roller_load_deflection_factor(1.25 * rig.bearing.ball_diameter)
+
+
+def test_the_support_and_the_resonator_have_the_frequency_and_damping_that_were_drawn() -> None:
+    fixed = {"support_frequency_hz": 300, "support_damping_ratio": 0.03, "support_stiffness_x_over_y": 0.25}
+    fixed |= {"resonator_frequency_hz": 9000, "resonator_damping_ratio": 0.01}
+    nothing = np.zeros((2, 2))
+    for rig in rigs(5, **BEARING, **(RIG | fixed)):
+        # each mass alone on its spring: the other two are made weightless or loose
+        support = Rig(**{**vars(rig), "resonator_mass": 1e-6 * rig.outer_mass, "resonator_damping": 0.0})
+        found = modes(support, nothing, nothing)
+        assert found.frequency_hz[2:4] == pytest.approx([150.0, 300.0], rel=1e-5)  # the other mass is 1e-6 of it
+        assert found.damping_ratio[2:4] == pytest.approx(
+            [0.03, 0.03], rel=1e-4
+        )  # light: the eigenvalues are ill conditioned
+        ground = Rig(**{**vars(rig), "outer_mass": 1e6, "support_damping_x": 0.0, "support_damping_y": 0.0})
+        found = modes(ground, nothing, nothing)
+        assert found.frequency_hz[4:] == pytest.approx([9000.0, 9000.0], rel=1e-5)  # the ground weighs 1e6 kg
+        assert found.damping_ratio[4:] == pytest.approx([0.01, 0.01], rel=1e-4)  # as above
+
+
+def test_the_film_damps_the_bearing_in_proportion_to_its_stiffness_at_the_rated_load() -> None:
+    for rig in rigs(5, **BEARING, **(RIG | {"film_damping_us": 10})):
+        stiffness, damping = rated_matrices(rig)
+        assert damping[1, 1] / stiffness[1, 1] == pytest.approx(10e-6, rel=1e-12)  # a few roundings
+
+
+def test_factors_of_one_change_nothing_and_others_multiply_the_number_of_the_catalogue() -> None:
+    gearbox = catalog.rig("gearbox")
+    names = ("inner_mass", "outer_mass", "resonator_mass", "resonator_stiffness", "resonator_damping", "film_damping")
+    factors = dict.fromkeys((*names, "support_stiffness", "support_damping"), 1.0)
+    factors |= dict.fromkeys(("pitch_diameter", "ball_diameter", "clearance", "load_deflection"), 1.0)
+    assert rigs(1, rig="gearbox", factors=factors) == [gearbox]
+    (rig,) = rigs(1, rig="gearbox", factors=dict.fromkeys((*names, "support_stiffness", "support_damping"), 1.5))
+    for name in (*names, "support_stiffness_x", "support_stiffness_y", "support_damping_x", "support_damping_y"):
+        assert getattr(rig, name) == 1.5 * getattr(gearbox, name)
+
+
+def test_deviations_are_drawn_anew_for_each_machine() -> None:
+    drawn = rigs(20, rig={"choice": ["gearbox", "fan"]}, factors={"inner_mass": {"uniform": [0.8, 1.25]}})
+    shares = [rig.inner_mass / catalog.rig(rig.name).inner_mass for rig in drawn]
+    assert len(set(shares)) == 20
+    assert 0.8 <= min(shares) < max(shares) <= 1.25
+
+
+def test_a_factor_on_a_number_that_was_given_multiplies_it() -> None:
+    (rig,) = rigs(1, rig="fan", clearance_um=4, factors={"clearance": 0.5})
+    assert rig.bearing.clearance == 2e-6
+
+
+def test_altered_geometry_scales_the_catalogues_k_as_hertz_scales_his() -> None:
+    koyo = catalog.bearing("koyo_1205")
+    (rig,) = rigs(1, rig="gearbox", ball_diameter_mm=7.5, outer_conformity=0.6)
+    ratio = load_deflection_factor(koyo.pitch_diameter, 7.5e-3, 0.0, 0.52, 0.6) / load_deflection_factor(
+        koyo.pitch_diameter, koyo.ball_diameter, 0.0, 0.52, koyo.outer_conformity
+    )
+    assert rig.bearing.load_deflection == pytest.approx(koyo.load_deflection * ratio, rel=1e-14)  # two roundings
+    (given,) = rigs(1, rig="gearbox", ball_diameter_mm=7.5, load_deflection=6e9)
+    assert given.bearing.load_deflection == 6e9
+    (other,) = rigs(1, rig="ims", pitch_diameter_mm=75)
+    assert other.bearing.load_deflection == catalog.bearing("rexnord_za2115").load_deflection
+
+
+def test_a_catalogue_bearing_in_a_drawn_rig_keeps_its_numbers() -> None:
+    drawn = rigs(8, **RIG, bearing={"choice": ["koyo_1205", "skf_6205"]})
+    assert {rig.bearing.name for rig in drawn} == {"koyo_1205", "skf_6205"}
+    assert all(rig.bearing == catalog.bearing(rig.bearing.name) for rig in drawn)
+
+
+def test_drawn_balls_that_do_not_fit_are_redrawn_and_counted() -> None:
+    free = {key: value for key, value in BEARING.items() if key != "fill"} | {"balls": {"choice": [10, 14, 18]}}
+    scenarios = draw(40, **free, **RIG)
+    redraws = [redraw for scenario in scenarios for redraw in scenario.redraws]
+    assert {redraw.field for redraw in redraws} == {"ball_diameter"}
+    assert "do not fit" in redraws[0].reason
+    assert {scenario.scene.rig.bearing.balls for scenario in scenarios} == {10, 14, 18}

@@ -1,0 +1,161 @@
+"""What no recipe may say: one message with file, line, setting, value and what is allowed; exit 2; nothing written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+
+GOOD = """name = "bad"
+seed = 1
+[signal]
+rate_hz = 65536
+duration_s = 0.05
+[[part]]
+name = "a"
+records = 2
+machine.rig = "gearbox"
+[part.defect]
+condition = "line"
+extent_spacing = 0.1
+depth_um = 12
+"""
+RIG = """machine.bearing = "drawn"
+machine.rows = 1
+machine.pitch_diameter_mm = 40
+machine.ball_diameter_of_pitch = 0.2
+machine.fill = 0.9
+"""
+CASES = {
+    "a negative depth": ("depth_um = 12", "depth_um = -12", 13, "part[1].defect.depth_um = -12", "from 0 to 10000"),
+    "a drawn depth that may be negative": (
+        "depth_um = 12",
+        "depth_um = {uniform = [-1, 4]}",
+        13,
+        "part[1].defect.depth_um = {uniform = [-1, 4]}",
+        "from 0 to 10000",
+    ),
+    "a taper longer than its spall, both in degrees": (
+        "extent_spacing = 0.1",
+        "extent_deg = 2\nexit_taper_deg = 3",
+        13,
+        "part[1].defect.exit_taper_deg",
+        "3 is longer than the spall, extent_deg = 2; allowed: 0 to 2",
+    ),
+    "a taper longer than its spall, each in its own unit": (
+        "depth_um = 12",
+        "depth_um = 12\nentry_taper_deg = 4",
+        14,
+        "entry_taper = 0.0698",
+        "allowed: 0 to 0.0523599 rad",
+    ),
+    "tapers longer than the spall together": (
+        "depth_um = 12",
+        "depth_um = 12\nentry_taper_share = 0.7\nexit_taper_share = 0.6",
+        15,
+        "part[1].defect.exit_taper_share",
+        "at most the whole spall",
+    ),
+    "a band above half the rate": (
+        "duration_s = 0.05",
+        "duration_s = 0.05\nenvelope_band_hz = [9000, 40000]",
+        6,
+        "signal.envelope_band_hz = [9000, 40000]",
+        "0 <= low < high <= 32768",
+    ),
+    "a band for the noise above half the rate": (
+        "[[part]]",
+        "[background]\nsnr_band_hz = [9000, 40000]\n[[part]]",
+        7,
+        "background.snr_band_hz",
+        "0 <= low < high <= 32768",
+    ),
+    "a resonance of the catalogue above half the rate": (
+        "rate_hz = 65536",
+        "rate_hz = 16384",
+        9,
+        'part[1].machine.rig = "gearbox": its resonance at 10547 Hz',
+        "signal.rate_hz above 21095",
+    ),
+    "a drawn resonance above half the rate": (
+        'rig = "gearbox"',
+        'rig = "gearbox"\nmachine.resonator_frequency_hz = {uniform = [9000, 33000]}',
+        10,
+        "part[1].machine.resonator_frequency_hz = 33000",
+        "below 32768",
+    ),
+    "a resonance of the sensor's mounting above half the rate": (
+        "[[part]]",
+        "[[chain.modes]]\nfrequency_hz = 33000\ndamping = 0.02\n[[part]]",
+        7,
+        "chain.modes[1].frequency_hz = 33000",
+        "below 32768",
+    ),
+    "balls that never fit": (
+        'rig = "gearbox"',
+        'rig = "gearbox"\nmachine.ball_diameter_mm = 20',
+        10,
+        "part[1]",
+        "12 balls of 20.000 mm do not fit on a pitch circle of 38.750 mm",
+    ),
+    "a drawn bearing of only two balls": (
+        'rig = "gearbox"\n',
+        f'rig = "gearbox"\n{RIG.replace("fill = 0.9", "balls = 2")}',
+        14,
+        "part[1].machine.balls = 2",
+        "a whole number from 3 to 200",
+    ),
+    "a drawn bearing without the number of its balls": (
+        'rig = "gearbox"\n',
+        f'rig = "gearbox"\n{RIG.replace("machine.fill = 0.9", "")}',
+        6,
+        "part[1].machine.fill",
+        "one of balls, fill",
+    ),
+    "a line spall that is always as long as the ball spacing": (
+        "extent_spacing = 0.1",
+        "extent_spacing = {uniform = [1, 2]}",
+        12,
+        "part[1]",
+        "reaches the ball spacing of 30 degrees",
+    ),
+    "a misspelt distribution": (
+        "depth_um = 12",
+        "depth_um = {unifrm = [1, 2]}",
+        13,
+        "part[1].defect.depth_um",
+        'did you mean "uniform"?',
+    ),
+    "a misspelt factor": (
+        'rig = "gearbox"',
+        'rig = "gearbox"\nmachine.factors.support_stifness = 2',
+        10,
+        "part[1].machine.factors.support_stifness",
+        'did you mean "support_stiffness"?',
+    ),
+    "a misspelt table": ("[part.defect]", "[part.defekt]", 10, "part[1].defekt", 'did you mean "defect"?'),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_it_ends_with_2_and_one_message_and_nothing_is_written(case: str, tmp_path: Path) -> None:
+    right, wrong, line, setting, allowed = CASES[case]
+    path, out = tmp_path / "recipe.toml", tmp_path / "out"
+    path.write_text(GOOD.replace(right, wrong, 1), encoding="utf-8")
+    done = CliRunner().invoke(app, ["generate", str(path), "--out", str(out)], catch_exceptions=False)
+    assert done.exit_code == 2
+    assert done.stderr.startswith(f"error: {path}, line {line}: ")
+    assert done.stderr.count("\n") == 1
+    assert setting in done.stderr
+    assert allowed in done.stderr
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
+    path = tmp_path / "recipe.toml"
+    path.write_text(GOOD, encoding="utf-8")
+    arguments = ["generate", str(path), "--out", str(tmp_path / "out"), "--workers", "1"]
+    assert CliRunner().invoke(app, arguments, catch_exceptions=False).exit_code == 0

@@ -1,0 +1,141 @@
+"""Every numerical method shows the order it states, smooth and over line spalls, and stays close to the others."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from physics.integrators.generalised_alpha import ALPHA_F, ALPHA_M, BETA, GAMMA, RADIUS_AT_INFINITY
+from physics.integrators.methods import MARCHES, METHODS, REFERENCE
+from physics.outcome import Outcome, SimulationFailed
+from physics.simulate import simulate
+
+RATE = 65536.0
+# Steps a sample between which each method is past its first, coarse steps and above round-off.
+SMOOTH = {
+    "exponential_rk4": (2, 3, 4, 6, 8),
+    "runge_kutta4": (3, 4, 6, 8, 12),
+    "dormand_prince": (8, 10, 12, 16),
+    "generalised_alpha": (16, 24, 32, 48),
+}
+ON_LINE_SPALLS = {
+    "exponential_rk4": (1, 2, 3, 4, 6, 8, 12),
+    "runge_kutta4": (3, 4, 6, 8, 12),
+    "dormand_prince": (3, 4, 6, 8),
+    "generalised_alpha": (8, 12, 16, 24, 32),
+}
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def response(scene, method, substeps):
+    return simulate(scene, RATE, method=method, substeps=substeps, estimate_error=False).acceleration
+
+
+def order(scene, method, substeps, finest):
+    """Slope of the straight line through log error over log step, against a much finer run of an order-4 method."""
+    exact = response(scene, "exponential_rk4", finest)
+    error = [rms(response(scene, method, count) - exact) for count in substeps]
+    return -np.polyfit(np.log(substeps), np.log(error), 1)[0]
+
+
+def always_in_contact(reference_scene, duration):
+    """G1 with preload, which keeps every ball in contact over a shallow spall."""
+    scene = reference_scene("G1", duration)
+    bearing = dataclasses.replace(scene.rig.bearing, clearance=-15e-6)
+    shallow = dataclasses.replace(scene.spalls[0], depth=4e-6)
+    return dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(shallow,))
+
+
+def test_every_march_and_the_reference_state_their_contract():
+    assert set(METHODS) == {*MARCHES, REFERENCE}
+    for name, method in METHODS.items():
+        assert method.name == name
+        assert method.order >= 2.0
+        assert method.stability_limit > 1.0
+        assert all((method.title, method.limits, method.dense_output, method.events, method.purpose, method.source))
+
+
+@pytest.mark.parametrize("method", MARCHES)
+def test_the_order_is_the_stated_one_where_the_motion_is_smooth(method, reference_scene):
+    scene = always_in_contact(reference_scene, 0.05)
+    found = order(scene, method, SMOOTH[method], finest=96)
+    assert found == pytest.approx(METHODS[method].order, abs=0.1)  # the promise of the table
+
+
+@pytest.mark.parametrize("name", ["G1", "F1s"])
+@pytest.mark.parametrize("method", MARCHES)
+def test_the_order_on_line_spalls_is_the_stated_one_or_n_plus_1(method, name, reference_scene):
+    scene = reference_scene(name, 0.1)
+    least = min(METHODS[method].order, scene.rig.bearing.exponent + 1.0)
+    # Contact starts like (t − t0)^n, so the located start of contact costs an error of order n + 1.
+    assert order(scene, method, ON_LINE_SPALLS[method], finest=96) > least - 0.1
+
+
+@pytest.mark.parametrize("method", sorted(set(MARCHES) - {"generalised_alpha"}))
+def test_every_method_finds_the_same_contact_changes(method, reference_scene):
+    scene = reference_scene("F1", 0.06)
+    expected = simulate(scene, RATE, method=REFERENCE).changes
+    found = simulate(scene, RATE, method=method, substeps=6, estimate_error=False).changes
+    assert np.array_equal(found.ball, expected.ball)
+    assert np.array_equal(found.made, expected.made)
+    assert np.abs(found.time - expected.time).max() < 2e-8  # s; the loosest pair has an error of 1e-5 of the RMS
+
+
+def test_the_implicit_method_finds_the_contact_changes_of_its_order(reference_scene):
+    scene = reference_scene("F1", 0.06)
+    expected = simulate(scene, RATE, method=REFERENCE).changes
+    found = simulate(scene, RATE, method="generalised_alpha", substeps=16, estimate_error=False).changes
+    assert np.array_equal(found.ball, expected.ball)
+    assert np.abs(found.time - expected.time).max() < 2e-6  # s; its error of acceleration is 0.3 % at this step
+
+
+@pytest.mark.parametrize("method", MARCHES)
+def test_every_method_obeys_both_contact_laws(method, reference_scene):
+    scene = dataclasses.replace(reference_scene("F1", 0.05), contact_law="no_tension")
+    exact = response(scene, "exponential_rk4", 32)
+    trace = simulate(scene, RATE, method=method, substeps=16, estimate_error=False, keep_force=True)
+    assert trace.contact_force.min() >= 0.0
+    assert trace.unlocated_changes == 0
+    assert rms(trace.acceleration - exact) < 1e-2 * rms(exact)  # the implicit method's 0.5 % at 16 steps a sample
+
+
+def test_the_implicit_method_damps_unresolved_modes_by_its_stated_radius_and_is_of_order_2():
+    order_2 = 0.5 - ALPHA_M + ALPHA_F
+    assert order_2 == pytest.approx(GAMMA, rel=1e-15)  # round-off
+    assert ALPHA_M <= ALPHA_F <= 0.5  # the condition of unconditional stability
+    matrix = amplification(1e6)
+    assert np.abs(np.linalg.eigvals(matrix)).max() == pytest.approx(RADIUS_AT_INFINITY, rel=1e-3)  # ω h of 1e6
+
+
+def amplification(angle):
+    """Matrix over one step of (x, h v, h² a) of an undamped mode that turns `angle` (rad) a step."""
+    square = angle**2
+    implicit = np.array([[1, 0, -BETA], [0, 1, -GAMMA], [square * (1 - ALPHA_F), 0, 1 - ALPHA_M]])
+    explicit = np.array([[1, 1, 0.5 - BETA], [0, 1, 1 - GAMMA], [-square * ALPHA_F, 0, -ALPHA_M]])
+    return np.linalg.solve(implicit, explicit)
+
+
+def test_the_adaptive_method_takes_shorter_steps_where_asked_for_more_accuracy(reference_scene):
+    scene = reference_scene("G1", 0.05)
+    exact = response(scene, "exponential_rk4", 32)
+    error = [rms(response(scene, "dormand_prince", count) - exact) / rms(exact) for count in (1, 2, 4)]
+    assert error[0] < 1e-2  # a local error of 2e-3 of the largest motion
+    assert error[0] > 2.0 * error[1] > 4.0 * error[2]
+
+
+def test_samples_of_the_adaptive_method_do_not_depend_on_where_its_steps_end(reference_scene):
+    scene = reference_scene("F1", 0.02)
+    rare = simulate(scene, RATE, method="dormand_prince", substeps=8, estimate_error=False, keep_state=True)
+    often = simulate(scene, 3 * RATE, method="dormand_prince", substeps=8, estimate_error=False, keep_state=True)
+    assert rms(rare.state[:, 4] - often.state[::3, 4]) < 1e-5 * rms(rare.state[:, 4] - rare.state[0, 4])
+
+
+def test_a_scene_too_stiff_for_the_adaptive_method_ends_with_a_typed_outcome(reference_scene):
+    scene = reference_scene("G1", 0.02)
+    rig = dataclasses.replace(scene.rig, film_damping=1e7)  # decays at 1e8 a second, so steps of 30 ns
+    with pytest.raises(SimulationFailed) as failure:
+        simulate(dataclasses.replace(scene, rig=rig), RATE, method="dormand_prince", substeps=1, estimate_error=False)
+    assert failure.value.outcome is Outcome.TOO_MANY_STEPS

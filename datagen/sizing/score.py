@@ -39,10 +39,11 @@ def score_sizes(
     find_estimator(estimator)
     splits = None if chosen == ALL else (chosen,)
     records = sized_records(folder, load_known=load_known, splits=splits)
-    scored = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_score)(one, estimator) for one in records)
+    made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_score)(one, estimator) for one in records)
+    scored = sorted(made, key=lambda one: one.record)
     known = [one for one in scored if one.known_truth]
     summary = summarise(known, load_known) if known else None
-    return SizeScores(str(folder), estimator or "spallgen", chosen, load_known, list(scored), summary)
+    return SizeScores(str(folder), estimator or "spallgen", chosen, load_known, scored, summary)
 
 
 def _score(sized: Any, estimator: str | None) -> ScoredRecord:

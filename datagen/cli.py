@@ -14,10 +14,11 @@ from datagen.commands import (
     preview,
     report,
     schema,
+    size,
 )
 from datagen.commands.program import app
 
-COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, catalog, schema)
+COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
 
 
 def main() -> None:

@@ -22,6 +22,7 @@ COMMANDS = (
     "paper",
     "chart",
     "classify",
+    "size",
     "catalog",
     "schema",
 )

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.assembly import assemble
-from physics.integrators.flow import LinearFlow, amplitudes, linear_flow, ringing
 from physics.integrators.march import LOG_FULL, NOT_FINITE, STEPS, Grid, Output
 from physics.integrators.methods import MODAL
-from physics.integrators.modal_march import Stride, memory_for
-from physics.integrators.modal_rk4 import march_modal_rk4
+from physics.integrators.modal.flow import LinearFlow, amplitudes, linear_flow, ringing
+from physics.integrators.modal.memory import Stride, memory_for
+from physics.integrators.modal.rk4 import march_modal_rk4
 from physics.kinks import known_kinks
 from physics.motion import MotionModel, motion_model
 from physics.outcome import Outcome, SimulationFailed

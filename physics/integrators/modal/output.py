@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
 from physics.contact import ACTIVE, FORCE, Law, Track, of_ball, press, set_time
-from physics.integrators.flow import (
+from physics.integrators.march import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
+from physics.integrators.modal.flow import (
     OUTER,
     OUTER_ACCELERATION,
     OUTER_SPEED,
@@ -21,8 +22,7 @@ from physics.integrators.flow import (
     relative,
     set_rest,
 )
-from physics.integrators.march import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
-from physics.integrators.modal_weights import (
+from physics.integrators.modal.weights import (
     INSIDE_FIRST,
     INSIDE_KICKS,
     INSIDE_LAST,

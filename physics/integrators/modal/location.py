@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from physics._jit import njit_lean
 from physics.contact import ACTIVE, Law, Track, of_ball, press, set_time, touches
 from physics.integrators.events import earliest_change, mark_suspects, quintic
-from physics.integrators.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
+from physics.integrators.modal.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
 
 Array = NDArray[np.float64]
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline
 from physics.contact import Law, Track, count_changes, move_to, press
-from physics.integrators.flow import LinearFlow, relative, set_rest
-from physics.integrators.modal_march import bind_modal_method
-from physics.integrators.modal_weights import (
+from physics.integrators.modal.flow import LinearFlow, relative, set_rest
+from physics.integrators.modal.march import bind_modal_method
+from physics.integrators.modal.weights import (
     FIRST,
     HALF,
     LAST,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.integrators.flow import DISPLACEMENT, KICK, OUTPUT, RATE
+from physics.integrators.modal.flow import DISPLACEMENT, KICK, OUTPUT, RATE
 
 Array = NDArray[np.float64]
 

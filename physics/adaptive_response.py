@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.assembly import assemble
-from physics.integrators.march import LOG_FULL, NOT_FINITE, STEPS, Grid, Output
+from physics.contact import ContactModel
+from physics.integrators.march import LOG_FULL, NOT_FINITE, STEPS, Grid, Output, Stops
 from physics.integrators.methods import MODAL
 from physics.integrators.modal.flow import LinearFlow, amplitudes, linear_flow, ringing
 from physics.integrators.modal.memory import Stride, memory_for
@@ -63,13 +64,14 @@ def respond_accurately(
     or contact changes more often than can be logged.
     """
     motion = motion_model(scene)
-    flow = mean_flow(scene, motion)
+    flow, contact = mean_flow(scene, motion), assemble(scene)
+    stops = known_kinks(scene, contact)
     push = 1.0 / math.sqrt(ringing(flow) * USUAL_PUSHES * rate)
-    seen = _seed(scene, start, flow, rate, samples, push)
+    seen = _seed(scene, start, flow, contact, stops, rate, samples, push)
     aim = AIM
     for _ in range(MOST_ATTEMPTS):
         grid = _grid(scene, rate, samples, aim * accuracy * push, aim * least * push, seen)
-        trace, output = _run(scene, flow, start, grid, kept)
+        trace, output = _run(scene, flow, contact, stops, start, grid, kept)
         size = rms(trace.acceleration)
         pushed = ERROR_FACTOR * math.sqrt(0.5 * ringing(flow) * output.budget[0] / (samples / rate))
         if pushed <= max(accuracy * size, least):
@@ -107,12 +109,21 @@ def _grid(
     )
 
 
-def _seed(scene: Scene, start: Array, flow: LinearFlow, rate: float, samples: int, push: float) -> float:
+def _seed(
+    scene: Scene,
+    start: Array,
+    flow: LinearFlow,
+    contact: ContactModel,
+    stops: Stops,
+    rate: float,
+    samples: int,
+    push: float,
+) -> float:
     """Mean square (m²/s⁴) of the first samples' acceleration, from a run that is accurate enough for that."""
     size = GUESSED_SHARE * max(abs(scene.operation.load), 1e-3) / scene.rig.outer_mass
     for _ in range(SEED_ATTEMPTS):
         grid = _grid(scene, rate, min(samples, SEED_SAMPLES), 1e-3 * push, 0.0, size**2, 1e9)
-        trace, _ = _run(scene, flow, start, grid, Kept())
+        trace, _ = _run(scene, flow, contact, stops, start, grid, Kept())
         found = rms(trace.acceleration[trace.time.size // 2 :])
         if found > 0.1 * size:
             return found**2
@@ -120,9 +131,15 @@ def _seed(scene: Scene, start: Array, flow: LinearFlow, rate: float, samples: in
     return size**2
 
 
-def _run(scene: Scene, flow: LinearFlow, start: Array, grid: Stride, kept: Kept) -> tuple[Trace, Output]:
-    contact = assemble(scene)
-    stops = known_kinks(scene, contact)
+def _run(
+    scene: Scene,
+    flow: LinearFlow,
+    contact: ContactModel,
+    stops: Stops,
+    start: Array,
+    grid: Stride,
+    kept: Kept,
+) -> tuple[Trace, Output]:
     capacity, status = FIRST_CHANGE_LOG, LOG_FULL
     while status == LOG_FULL:
         if capacity > LARGEST_CHANGE_LOG:

@@ -18,6 +18,8 @@ INTERPOLATION_RULE = (
     "slip s(t) is the natural cubic spline through the knots (scipy.interpolate.CubicSpline(t, s, bc_type='natural')); "
     "cage speed = nominal_speed * (1 - mean_slip + s(t)); cage angle = phi_c0 + integral of the cage speed from t = 0"
 )
+# Newton's method converges quadratically: a step this small, of the duration, is the last that moves anything.
+CROSSING_SHARE = 1e-11
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,10 @@ def crossing_times(
     time = np.interp(target, values, samples)
     slope = polynomial.derivative()
     for _ in range(8):
-        time = np.clip(time - (polynomial(time) - target) / slope(time), 0.0, duration)
+        nearer = np.clip(time - (polynomial(time) - target) / slope(time), 0.0, duration)
+        moved, time = np.abs(nearer - time).max(initial=0.0), nearer
+        if moved <= CROSSING_SHARE * duration:
+            break
     before = target < values[0]
     after = target > values[-1]
     time[before] = (target[before] - values[0]) / mean_speed

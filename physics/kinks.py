@@ -6,7 +6,7 @@ import numpy as np
 
 from physics.contact import CAGE, FIRST_BALL, FIRST_BREAK, PIECES, ContactModel
 from physics.integrators.march import Stops
-from physics.passages import passages
+from physics.passages import crossings
 from physics.scene import Scene
 
 
@@ -15,10 +15,10 @@ def known_kinks(scene: Scene, contact: ContactModel) -> Stops:
     times, balls = [np.zeros(0)], [np.zeros(0, dtype=np.int64)]
     for index in range(len(scene.spalls)):
         row = contact.track.spalls[index].astype(int)
-        for arc in contact.track.breaks[row[FIRST_BREAK] : row[FIRST_BREAK] + row[PIECES] + 1]:
-            found = passages(scene, index, float(arc), 0.0, scene.duration)
-            times.append(found.time)
-            balls.append(row[CAGE] * contact.balls.shape[2] + row[FIRST_BALL] + found.ball - 1)
+        breaks = contact.track.breaks[row[FIRST_BREAK] : row[FIRST_BREAK] + row[PIECES] + 1]
+        found = crossings(scene, index, breaks, 0.0, scene.duration)
+        times.append(found.time)
+        balls.append(row[CAGE] * contact.balls.shape[2] + row[FIRST_BALL] + found.ball - 1)
     time, ball = np.concatenate(times), np.concatenate(balls)
     order = np.argsort(time, kind="stable")
     return Stops(time[order], ball[order])

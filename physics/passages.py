@@ -28,6 +28,11 @@ def passages(scene: Scene, spall_index: int, arc: float, start: float, stop: flo
 
     Outside [0, duration] the cage goes on at its mean speed.
     """
+    return crossings(scene, spall_index, np.array([arc]), start, stop)
+
+
+def crossings(scene: Scene, spall_index: int, arcs: Array, start: float, stop: float) -> Passages:
+    """Every crossing of the points at `arcs` (N,), point after point, each as `passages` gives it."""
     spall = scene.spalls[spall_index]
     bearing = scene.rig.bearing
     cage = scene.cage if spall.row == 1 or scene.second_cage is None else scene.second_cage
@@ -39,13 +44,18 @@ def passages(scene: Scene, spall_index: int, arc: float, start: float, stop: flo
     travel.c[-2] -= sign * race_speed
     travel.c[-1] -= sign * race_speed * path.x[:-1]
     speed = sign * (cage.mean_speed - race_speed)
-    offset = sign * (spall.angle - (spall.row - 1) * bearing.stagger) + arc
     reached = [_extended(travel, speed, scene.duration, t) for t in (start, stop)]
-    first = math.ceil((reached[0] - offset) / bearing.spacing)
-    last = math.floor((reached[1] - offset) / bearing.spacing)
-    turns = np.arange(first, last + 1)
-    time = crossing_times(travel, speed, scene.duration, offset + turns * bearing.spacing)
-    return Passages(time, (-sign * turns).astype(np.int64) % bearing.balls + 1)
+    turns, targets = [], []
+    for arc in arcs:
+        offset = sign * (spall.angle - (spall.row - 1) * bearing.stagger) + arc
+        first, last = (
+            math.ceil((reached[0] - offset) / bearing.spacing),
+            math.floor((reached[1] - offset) / bearing.spacing),
+        )
+        turns.append(np.arange(first, last + 1))
+        targets.append(offset + turns[-1] * bearing.spacing)
+    time = crossing_times(travel, speed, scene.duration, np.concatenate(targets))
+    return Passages(time, (-sign * np.concatenate(turns)).astype(np.int64) % bearing.balls + 1)
 
 
 def _extended(travel: PPoly, speed: float, duration: float, time: float) -> float:

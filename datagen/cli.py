@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
-from datagen.commands import catalog, chart, check, generate, import_recordings, info, preview, schema
+from datagen.commands import (
+    catalog,
+    chart,
+    check,
+    classify,
+    generate,
+    import_recordings,
+    info,
+    paper,
+    preview,
+    report,
+    schema,
+    size,
+)
 from datagen.commands.program import app
 
-COMMANDS = (generate, import_recordings, check, info, preview, chart, catalog, schema)
+COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
 
 
 def main() -> None:

@@ -118,12 +118,16 @@ class Corpus:
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
         """Acceleration (T,) along one axis of a record, m/s²; BadInput if there is no such record or axis."""
         shard, position = self._place(record)
-        file = self._shards.file(shard)
-        axes = [str(name) for name in file.variables["axis"][:]]
+        file, axes = self._shards.file(shard), self.axes(record)
         if axis not in axes:
             raise BadInput(f"record {record} has no such axis", shard, "axis", axis, ", ".join(axes))
         found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
         return found.astype(np.float64)
+
+    def axes(self, record: int) -> list[str]:
+        """Names of the axes along which the acceleration of a record is stored; BadInput if there is no such record."""
+        shard, _ = self._place(record)
+        return [str(name) for name in self._shards.file(shard).variables["axis"][:]]
 
     def _place(self, record: int) -> tuple[str, int]:
         try:

@@ -29,7 +29,7 @@ def _summary(info: Info) -> Table:
         "length": f"{info.signal_seconds:.1f} s of signal",
         "cost": f"{info.worker_seconds:.1f} s of one worker, {info.record_seconds:.2f} s a record, "
         f"{info.made_per_second:.1f} times real time",
-        "recipe, model, format, program": ", ".join(info.identity.values()),
+        "recipe, model, format, program": ", ".join(value or "(none)" for value in info.identity.values()),
         "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),
     }
     for name, text in rows.items():

@@ -14,6 +14,7 @@ CONTACT_LAWS = ("paper", "no_tension")
 SPLITS = ("train", "validation", "test")
 SPEED_BASES = ("set", "measured", "tach", "nominal")
 UNKNOWN = "unknown"
+MEASURED = "measured"
 BAND_EDGES = ("low", "high")
 LAYERS = ("white", "pink", "shaft_harmonics", "gear_mesh", "mains_hum", "impulses", "recording")
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.load_dips import load_dips
 from physics.passages import Passages, passages
 from physics.profile import build_path
 from physics.scene import Scene
@@ -25,6 +26,8 @@ class PassTable:
     point and exit may lie outside the record. `release_time` is the first loss of contact from entry to exit and
     `regain_time` the beginning of contact that ends the last loss begun there; both are NaN if the ball kept contact
     or did not touch at entry, and `regain_time` alone if contact does not begin again within the record.
+    Where contact is never lost, `fall_time` and `rise_time` are the first fall and the last rise of the ball's
+    quasi-static load through half of what it would be without spalls; NaN where there is none or contact is lost.
     `loaded`: the ball touches both races at some moment of the pass; `complete`: all its times lie inside the record.
     """
 
@@ -38,6 +41,8 @@ class PassTable:
     regain_time: Array
     loaded: Truth
     complete: Truth
+    fall_time: Array
+    rise_time: Array
 
     def __len__(self) -> int:
         return int(self.entry_time.size)
@@ -60,7 +65,7 @@ def ball_passes(scene: Scene, changes: ContactChanges | None, duration: float) -
 
 def _no_passes() -> PassTable:
     index, time, truth = np.zeros(0, np.int16), np.zeros(0), np.zeros(0, np.bool_)
-    return PassTable(index, index, index, time, time, time, time, time, truth, truth)
+    return PassTable(index, index, index, time, time, time, time, time, truth, truth, time, time)
 
 
 def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, defect: int) -> PassTable:
@@ -73,6 +78,9 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
             own = ball == number
             release[own], regain[own], loaded[own] = _contact_events(changes, row, number, entry[own], leave[own])
     ended = np.isnan(release) | np.isfinite(regain)
+    kept = loaded & np.isnan(release) & (entry >= 0.0) & (leave <= duration)
+    fall, rise = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
+    fall[kept], rise[kept] = load_dips(scene, row, ball[kept], entry[kept], leave[kept])
     return PassTable(
         row=np.full(ball.size, row, np.int16),
         ball=ball,
@@ -84,6 +92,8 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
         regain_time=regain,
         loaded=loaded,
         complete=(entry >= 0.0) & (leave <= duration) & ended,
+        fall_time=fall,
+        rise_time=rise,
     )
 
 

@@ -230,6 +230,24 @@ PASSES: tuple[Variable, ...] = (
         "complete",
         "True if entry, exit and, where they exist, release and regain lie inside the record.",
     ),
+    Variable(
+        "fall_time",
+        ("ball_pass",),
+        "float64",
+        "s",
+        "time of the falling load",
+        "First fall of the ball's quasi-static load through half of what it would be without spalls.",
+        missing="contact is lost, the pass is cut by an end of the record, or the load stays above half",
+    ),
+    Variable(
+        "rise_time",
+        ("ball_pass",),
+        "float64",
+        "s",
+        "time of the rising load",
+        "Last rise of the ball's quasi-static load through half of what it would be without spalls.",
+        missing="contact is lost, the pass is cut by an end of the record, or the load stays above half",
+    ),
 )
 
 DEFECTS: tuple[Variable, ...] = (

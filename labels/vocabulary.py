@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from labels.schema import MEASURED
+
 FAULT_TYPE = {
     "none": "normal",
     "outer": "outer",
@@ -16,7 +18,7 @@ FAULT_TYPE = {
     "several": "bearing",
     "unknown": "unknown",
 }
-SEVERITY = {"healthy": ("none", 0), "line": ("line", 1), "extended": ("extended", 2)}
+SEVERITY = {"healthy": ("none", 0), "line": ("line", 1), "extended": ("extended", 2), "unknown": ("not graded", 1)}
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ ALIASES: tuple[Alias, ...] = (
     Alias("ftf", "ftf"),
 )
 
-CONSTANTS: dict[str, str] = {
+CONSTANTS: dict[str, object] = {
     "sensor_location": "test_bearing",
     "sensor_mounting": "pedestal",
     "quantity": "acceleration",
@@ -52,31 +54,34 @@ CONSTANTS: dict[str, str] = {
     "speed_profile": "constant",
     "load_unit": "N",
 }
+UNKNOWN_OF_A_RECORDING: dict[str, object] = {"sensor_mounting": "unknown", "speed_profile": "unknown"}
 
 
 def common_row(labels: Mapping[str, Any], axis: str) -> dict[str, object]:
-    """Columns of the common vocabulary for one axis ("x" or "y") of a generated record with these `labels`.
+    """Columns of the common vocabulary for one axis ("x" or "y") of a record with these `labels`.
 
     Numbers keep the unit that the vocabulary gives them; KeyError if a label or one of its values is unknown.
     """
-    row: dict[str, object] = dict(CONSTANTS)
+    measured = labels["model"] == MEASURED
+    row: dict[str, object] = CONSTANTS | (UNKNOWN_OF_A_RECORDING if measured else {})
     for alias in ALIASES:
         value = labels[alias.label]
         row[alias.column] = value * alias.factor if alias.factor != 1.0 else value
     severity, level = SEVERITY[str(labels["condition"])]
     healthy = labels["condition"] == "healthy"
-    record = labels["record"]
+    place = "none" if healthy else "unknown" if labels["location"] == "unknown" else "test_bearing"
+    name = labels["recording"] or str(labels["record"])
     return row | {
-        "recording_id": str(record),
-        "signal_id": f"{record}_{axis}",
-        "channel": axis,
+        "recording_id": name,
+        "signal_id": f"{name}_{axis}",
+        "channel": labels["channel"] or axis,
         "axis": axis,
         "n_samples": round(labels["rate_hz"] * labels["duration_s"]),
         "native_label": "healthy" if healthy else f"{labels['condition']}_{labels['location']}",
         "fault_type": FAULT_TYPE[str(labels["location"])],
-        "fault_location": "none" if healthy else "test_bearing",
-        "sensor_at_fault": not healthy,
-        "fault_origin": "none" if healthy else "artificial",
+        "fault_location": place,
+        "sensor_at_fault": place == "test_bearing",
+        "fault_origin": "none" if healthy else "unknown" if measured else "artificial",
         "fault_severity": severity,
         "fault_severity_level": level,
     }

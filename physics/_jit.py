@@ -51,21 +51,27 @@ def njit(kernel: Kernel) -> Kernel:
     return cast(Kernel, compiled)
 
 
+def njit_lean(kernel: Kernel) -> Kernel:
+    """Like `njit` for a kernel that creates no array: without reference counts, which cost more than short kernels."""
+    decorator: Any = numba.njit
+    return cast(Kernel, decorator(cache=True, error_model="numpy", nogil=True, _nrt=False)(kernel))
+
+
 def njit_inline(kernel: Kernel) -> Kernel:
     """Like `njit`, and pasted into compiled callers, which spares the reference counting of its array arguments."""
     compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True, inline="always")(kernel)
     return cast(Kernel, compiled)
 
 
-def specialise(template: Callable[..., Any], name: str, **bindings: Any) -> Callable[..., Any]:
-    """Compile a copy of `template` under `name`, with `bindings` in place of its module's names.
+def specialise(template: Callable[..., Any], name: str, *, lean: bool = False, **bindings: Any) -> Callable[..., Any]:
+    """Compile a copy of `template` under `name`, with `bindings` in place of its module's names; `lean` as `njit_lean`.
 
     A compiled function given as an argument or a closure would miss the compile cache in every process.
     """
     copy = types.FunctionType(template.__code__, {**template.__globals__, **bindings}, name, template.__defaults__)
     copy.__qualname__ = name
     copy.__doc__ = template.__doc__
-    return njit(copy)
+    return njit_lean(copy) if lean else njit(copy)
 
 
 def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:

@@ -92,7 +92,7 @@ def race_speed(scene: Scene, race: str) -> float:
 
 
 def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
-    """Ball table (G, 9, M) with angles and gaps filled in, and row and ball of each column (G · M,)."""
+    """Ball table (G, 10, M) with angles and gaps filled in, and row and ball of each column (G · M,)."""
     bearing = scene.rig.bearing
     rows_per_cage = bearing.rows if cages == 1 else 1
     size = rows_per_cage * bearing.balls

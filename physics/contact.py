@@ -6,8 +6,8 @@ and in a fixed order, so they use vector instructions and give the same bits on 
 spall need the depth of their path.
 
 Kernels take few arrays: each array handed to a compiled function costs reference counting, which would cost more than
-the mechanics. What belongs to one ball is therefore one column of `balls` (G, 9, M), G cages of M balls each, padded to
-whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
+the mechanics. What belongs to one ball is therefore one column of `balls` (G, 10, M), G cages of M balls each, padded
+to whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
 know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
 """
 
@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit, njit_inline
+from physics._jit import njit_inline, njit_lean
 from physics.profile import path_at
 
 Array = NDArray[np.float64]
@@ -27,9 +27,9 @@ Index = NDArray[np.int64]
 
 # Second index of `balls`: cosine and sine of its angle in the cage; clearance minus diameter deviation (m);
 # gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or
-# not the ball touches (N); the force of the contact set (N).
-COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE = range(9)
-BALL_ROWS = 9
+# not the ball touches (N); the force of the contact set (N); the rate of compression (m/s).
+COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING = range(10)
+BALL_ROWS = 10
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
 FRAME_COLUMNS = 3
@@ -70,7 +70,7 @@ class Track(NamedTuple):
 class ContactModel(NamedTuple):
     """Everything the kernels need of a scene's contacts.
 
-    `balls` (G, 9, M) and `frames` (G, 3) as above; `row`, `ball` (G · M,) from 0, −1 for padding.
+    `balls` (G, 10, M) and `frames` (G, 3) as above; `row`, `ball` (G · M,) from 0, −1 for padding.
     """
 
     balls: Array
@@ -96,7 +96,7 @@ def cage_at(track: Track, cage: int, time: float) -> tuple[float, float]:
     return angle, ((4.0 * c4 * since + 3.0 * c3) * since + 2.0 * c2) * since + c1
 
 
-@njit
+@njit_lean
 def set_time(balls: Array, frames: Array, track: Track, time: float) -> None:
     """`move_to` as a called function, for places where a pasted copy would only cost compile time."""
     move_to(balls, frames, track, time)
@@ -141,25 +141,80 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
         turns += 1.0
 
 
-@njit
+@njit_lean
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
-    cells = track.waviness.shape[1]
-    width = 2.0 * math.pi / cells
     for j in range(balls.shape[2]):
         place = angle + math.atan2(balls[cage, SINE, j], balls[cage, COSINE, j])
-        for race in range(2):
-            race_speed = track.shaft_speed * race
-            position = (place - race_speed * time) / width
-            whole = math.floor(position)
-            x = position - whole
-            cell = int(whole) % cells
-            c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
-            c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
-            balls[cage, FLOOR, j] += ((c3 * x + c2) * x + c1) * x + c0
-            balls[cage, FALL, j] += ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width * (speed - race_speed)
+        floor, fall = waviness_at(track, place, speed, time)
+        balls[cage, FLOOR, j] += floor
+        balls[cage, FALL, j] += fall
 
 
-@njit
+@njit_inline
+def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[float, float]:
+    """Depth (m) of both races' waves under a ball at the angle `place`, and its rate (m/s)."""
+    cells = track.waviness.shape[1]
+    width = 2.0 * math.pi / cells
+    floor, fall = 0.0, 0.0
+    for race in range(2):
+        race_speed = track.shaft_speed * race
+        position = (place - race_speed * time) / width
+        whole = math.floor(position)
+        x = position - whole
+        cell = int(whole) % cells
+        c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
+        c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
+        floor += ((c3 * x + c2) * x + c1) * x + c0
+        fall += ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width * (speed - race_speed)
+    return floor, fall
+
+
+@njit_lean
+def compression_of(
+    balls: Array, track: Track, ball: int, time: float, x: float, y: float, u: float, v: float
+) -> tuple[float, float]:
+    """Compression (m) and its rate (m/s) of one ball at `time`: what `move_to` and `press` do for all of them."""
+    size = balls.shape[2]
+    cage, place = ball // size, ball % size
+    angle, speed = cage_at(track, cage, time)
+    c0, s0 = math.cos(angle), math.sin(angle)
+    c = c0 * balls[cage, COSINE, place] - s0 * balls[cage, SINE, place]
+    s = s0 * balls[cage, COSINE, place] + c0 * balls[cage, SINE, place]
+    floor, fall = balls[cage, GAP, place], 0.0
+    if track.waviness.shape[1] > 0:
+        at = angle + math.atan2(balls[cage, SINE, place], balls[cage, COSINE, place])
+        depth, rate = waviness_at(track, at, speed, time)
+        floor += depth
+        fall += rate
+    for spall in range(track.spalls.shape[0]):
+        number = place - int(track.spalls[spall, FIRST_BALL])
+        if track.spalls[spall, CAGE] == cage and 0 <= number < track.row_size:
+            depth, rate = _spall_under(track, spall, number, angle, speed, time)
+            floor += depth
+            fall += rate
+    compression = x * c + y * s - floor
+    return compression, u * c + v * s + speed * (y * c - x * s) - fall
+
+
+@njit_inline
+def _spall_under(track: Track, spall: int, number: int, angle: float, speed: float, time: float) -> tuple[float, float]:
+    """Depth (m) under ball `number` of the spall's row and its rate (m/s)."""
+    sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
+    first_break, pieces = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, PIECES])
+    entry, leave = track.breaks[first_break], track.breaks[first_break + pieces]
+    arc = sign * (angle - track.spalls[spall, ANGLE] - race_speed * time + number * track.spacing)
+    circle = track.row_size * track.spacing
+    arc += math.ceil((entry - arc) / circle) * circle
+    if arc > leave:
+        return 0.0, 0.0
+    depth, slope = path_at(
+        track.breaks, track.cells, track.cubics, first_break, int(track.spalls[spall, FIRST_PIECE]), pieces,
+        int(track.spalls[spall, FIRST_CUBIC]), arc,
+    )  # fmt: skip
+    return depth, slope * sign * (speed - race_speed)
+
+
+@njit_lean
 def press(balls: Array, frames: Array, law: Law, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
     """Net force (N) of the contact set along x and y, pushing the outer ring [P14 Eq. 8, 10].
 
@@ -179,6 +234,7 @@ def press(balls: Array, frames: Array, law: Law, dx: float, dy: float, vx: float
                 rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
                 pressed = max(compression, 0.0)
                 balls[cage, COMPRESSION, j] = compression
+                balls[cage, CLOSING, j] = rate
                 balls[cage, LAW, j] = law.stiffness * pressed * math.sqrt(pressed) + law.damping * rate
                 balls[cage, FORCE, j] = balls[cage, ACTIVE, j] * balls[cage, LAW, j]
         else:
@@ -186,6 +242,7 @@ def press(balls: Array, frames: Array, law: Law, dx: float, dy: float, vx: float
                 compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
                 rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
                 balls[cage, COMPRESSION, j] = compression
+                balls[cage, CLOSING, j] = rate
                 balls[cage, LAW, j] = law.damping * rate
                 if compression > 0.0:
                     balls[cage, LAW, j] += law.stiffness * compression**law.exponent
@@ -220,13 +277,13 @@ def of_ball(balls: Array, row: int, ball: int) -> float:
     return balls[ball // size, row, ball % size]
 
 
-@njit
+@njit_lean
 def touches(balls: Array, law: Law, ball: int) -> bool:
     """Whether the contact law says that `ball` is in contact, from what `press` left in `balls`."""
     return of_ball(balls, COMPRESSION, ball) > 0.0 and (not law.no_tension or of_ball(balls, LAW, ball) > 0.0)
 
 
-@njit
+@njit_lean
 def count_changes(balls: Array, law: Law) -> int:
     """Number of balls whose contact differs from the contact set, from what `press` left in `balls`."""
     changed = 0
@@ -241,7 +298,43 @@ def count_changes(balls: Array, law: Law) -> int:
     return changed
 
 
-@njit
+@njit_inline
+def count_ahead(balls: Array, ahead: float) -> int:
+    """Number of balls that would contradict the contact set `ahead` s later if they went on at their present rate."""
+    changing = 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            later = balls[cage, COMPRESSION, j] + ahead * balls[cage, CLOSING, j]
+            changing += (later > 0.0) != (balls[cage, ACTIVE, j] > 0.5)
+    return changing
+
+
+@njit_inline
+def note_motion(balls: Array, noted: Array) -> None:
+    """Keep in `noted` (G, 2, M) the compression (m) and its rate (m/s) of every ball."""
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            noted[cage, 0, j] = balls[cage, COMPRESSION, j]
+            noted[cage, 1, j] = balls[cage, CLOSING, j]
+
+
+@njit_inline
+def count_dips(balls: Array, noted: Array, step: float) -> int:
+    """Number of balls that agree with the contact set now and `step` s ago, as `noted`, but seem not to in between.
+
+    Between, compression is taken for a parabola with the rates of both ends: it turns where its rate is zero.
+    """
+    dips = 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            side = 2.0 * balls[cage, ACTIVE, j] - 1.0
+            away, back = side * noted[cage, 1, j], side * balls[cage, CLOSING, j]
+            room = side * (noted[cage, 0, j] + balls[cage, COMPRESSION, j]) * (back - away)
+            dips += (away < 0.0) & (back > 0.0) & (room < 0.5 * step * (away * away + back * back))
+    return dips
+
+
+@njit_lean
 def reset_contact(balls: Array, law: Law) -> None:
     """Make the contact set what the compressions left by `press` say."""
     size = balls.shape[2]

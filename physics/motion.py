@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
+from physics._jit import njit_lean
 from physics.scene import Scene
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def motion_model(scene: Scene) -> MotionModel:
     )
 
 
-@njit
+@njit_lean
 def outer_load(motion: MotionModel, time: float) -> tuple[float, float]:
     """Load on the shaft along x and y at `time`, N: unbalance, and the static load with its fluctuation."""
     if motion.unbalance_force == 0.0 and motion.load_fluctuation == 0.0:
@@ -71,7 +71,7 @@ def outer_load(motion: MotionModel, time: float) -> tuple[float, float]:
     )
 
 
-@njit
+@njit_lean
 def resonator_acceleration(motion: MotionModel, state: Array, axis: int) -> float:
     """Acceleration of the resonator's mass along x (0) or y (1), m/s²."""
     stretch = state[2 + axis] - state[4 + axis]
@@ -79,7 +79,7 @@ def resonator_acceleration(motion: MotionModel, state: Array, axis: int) -> floa
     return (motion.resonator_stiffness * stretch + motion.resonator_damping * rate) / motion.resonator_mass
 
 
-@njit
+@njit_lean
 def outer_ring_acceleration(motion: MotionModel, state: Array, axis: int, force: float) -> float:
     """Acceleration of the outer ring along one axis, m/s², under the contact force (N) on it [P14 Eq. 13-14]."""
     outer = force - motion.support_stiffness[axis] * state[2 + axis] - motion.support_damping[axis] * state[8 + axis]
@@ -87,7 +87,7 @@ def outer_ring_acceleration(motion: MotionModel, state: Array, axis: int, force:
     return outer / motion.outer_mass
 
 
-@njit
+@njit_lean
 def relative_acceleration(motion: MotionModel, state: Array, axis: int, load: float, force: float) -> float:
     """Acceleration of the inner relative to the outer ring along one axis, m/s², under load and contact force (N)."""
     return (load - force) / motion.inner_mass - outer_ring_acceleration(motion, state, axis, force)

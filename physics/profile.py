@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
-from physics._jit import njit
+from physics._jit import njit, njit_lean
 from physics.bearing import Bearing
 from physics.rolling import deep_gap_drop, hanging_reach, rolled_path
 from physics.scene import Scene
@@ -59,7 +59,7 @@ class DepthPath:
         return sample_path(self.breaks, self.cells, self.cubics, np.asarray(arc, dtype=np.float64))[1]
 
 
-@njit
+@njit_lean
 def path_at(
     breaks: Array,
     cells: NDArray[np.int64],

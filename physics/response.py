@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from physics.assembly import assemble
 from physics.contact import ContactModel
 from physics.integrators.adaptive_march import OUT_OF_STEPS
-from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, UNLOCATED, Grid, Output
+from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, TALLY_ENTRIES, UNLOCATED, Grid, Output
 from physics.integrators.methods import MARCHES
 from physics.integrators.propagator import power_series
 from physics.kinks import known_kinks
@@ -52,7 +52,7 @@ def respond(
             raise SimulationFailed(
                 Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
             )
-        output = _empty_output(contact, grid.samples, capacity, keep_state, keep_force, keep_outer)
+        output = empty_output(contact, grid.samples, capacity, keep_state, keep_force, keep_outer)
         status = MARCHES[method](
             contact.balls, contact.frames, contact.law, contact.track, motion, series, grid, stops, start, output
         )
@@ -63,7 +63,7 @@ def respond(
         raise SimulationFailed(
             Outcome.TOO_MANY_STEPS, f"the method {method} used up its steps within {scene.duration:g} s"
         )
-    return _trace(scene, contact, grid, output, method)
+    return trace_of(scene, contact, grid, output, method)
 
 
 def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:
@@ -95,9 +95,10 @@ def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, 
     )
 
 
-def _empty_output(
+def empty_output(
     contact: ContactModel, samples: int, capacity: int, keep_state: bool, keep_force: bool, keep_outer: bool
 ) -> Output:
+    """Arrays for a march of `samples` instants, with room for `capacity` changes of contact."""
     balls = contact.ball.size
     return Output(
         acceleration=np.zeros((samples, 2)),
@@ -108,11 +109,13 @@ def _empty_output(
         change_ball=np.zeros(capacity, dtype=np.int64),
         change_made=np.zeros(capacity, dtype=np.bool_),
         initial=np.zeros(balls),
-        tally=np.zeros(4, dtype=np.int64),
+        tally=np.zeros(TALLY_ENTRIES, dtype=np.int64),
+        budget=np.zeros(1),
     )
 
 
-def _trace(scene: Scene, contact: ContactModel, grid: Grid, output: Output, method: str) -> Trace:
+def trace_of(scene: Scene, contact: ContactModel, grid: Grid, output: Output, method: str) -> Trace:
+    """What a march has written into `output`, as a trace without an error estimate."""
     bearing = scene.rig.bearing
     real = contact.ball >= 0
     changes = slice(0, int(output.tally[LOGGED]))

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import discard_cache
+from physics.adaptive_response import Kept, respond_accurately
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
 from physics.integrators.method import Method
-from physics.integrators.methods import METHODS, REFERENCE
+from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
@@ -29,6 +30,7 @@ from physics.trace import Trace
 
 Array = NDArray[np.float64]
 
+SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
 STEPS_PER_FAST_PERIOD = 6.2
 SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0
@@ -46,10 +48,11 @@ def simulate(
     scene: Scene,
     rate: float,
     *,
-    method: str = "exponential_rk4",
+    method: str | None = None,
     model: str = MODEL,
     substeps: int | None = None,
     accuracy: float = 1e-3,
+    least_error: float = 0.0,
     keep_state: bool = False,
     keep_force: bool = False,
     keep_outer: bool = False,
@@ -57,15 +60,18 @@ def simulate(
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
 
-    `substeps` is the number of steps a sample. None starts from the fewest that resolve the fastest mode and doubles
-    them until a pilot of a few ball passes differs from one at half the step by no more than the relative RMS
-    `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate too low to hold
-    the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer ring's motion kept by
-    `keep_outer` (states and forces stay samples). The reference method has no estimate. A simpler `model`
-    (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them. Raises
-    SimulationFailed with a typed outcome.
+    By default the modal method chooses its own steps so that the relative RMS error of the acceleration stays within
+    `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made.
+    Other methods take `substeps` fixed steps a sample (and are meant if they are given); None starts from the fewest
+    that resolve the fastest mode and doubles them until a pilot of a few ball passes differs from one at half the step
+    by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
+    too low to hold the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer
+    ring's motion kept by `keep_outer` (states and forces stay samples). The reference method has no estimate. A simpler
+    `model` (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them.
+    Raises SimulationFailed with a typed outcome.
     """
-    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer)
+    method = method or (MODAL if substeps is None else "exponential_rk4")
+    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy)
     if model != MODEL:
         return SIMPLER_MODELS[model].respond(scene, rate)
     rest = _starting_rest(scene)
@@ -74,6 +80,10 @@ def simulate(
     if method == REFERENCE:
         return respond_by_reference(scene, start, rate, samples, keep_state=keep_state)
     factor = oversampling(scene, rate)
+    if method == MODAL:
+        kept = Kept(keep_state, keep_force, keep_outer)
+        trace = respond_accurately(scene, start, rate * factor, samples * factor, accuracy, least_error, kept)
+        return _lowered(trace, rate, factor)
     steps, error = substeps or default_substeps(scene, rate * factor), math.nan
     least = stable_substeps(scene, METHODS[method], rest, rate * factor)
     if substeps is None:
@@ -134,7 +144,9 @@ def warm_up() -> None:
         simulate(scene, 65536.0)
 
 
-def _check_request(scene: Scene, rate: float, method: str, model: str, substeps: int | None, keeps: bool) -> None:
+def _check_request(
+    scene: Scene, rate: float, method: str, model: str, substeps: int | None, keeps: bool, accuracy: float
+) -> None:
     problem = ""
     if method not in METHODS:
         problem = f'method = "{method}"; allowed: {", ".join(METHODS)}'
@@ -146,6 +158,10 @@ def _check_request(scene: Scene, rate: float, method: str, model: str, substeps:
         problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
     elif substeps is not None and (substeps != int(substeps) or substeps < 1):
         problem = f"substeps = {substeps!r}; it must be a whole number, 1 or more"
+    elif method == MODAL and substeps is not None:
+        problem = f"substeps = {substeps!r}; the method {MODAL} chooses its own steps, give accuracy instead"
+    elif not SMALLEST_ACCURACY <= accuracy <= LARGEST_ACCURACY:
+        problem = f"accuracy = {accuracy!r}; it must lie from {SMALLEST_ACCURACY:g} to {LARGEST_ACCURACY:g}"
     elif method == REFERENCE and keeps:
         problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:

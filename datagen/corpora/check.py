@@ -192,7 +192,7 @@ class _Check:
     def _wrong_scenarios(self, dataset: xarray.Dataset) -> Iterator[str]:
         from datagen.scenarios.sampling import draw_scenario
 
-        if self.recipe is None or self.manifest.identity.program_hash != program_hash():
+        if self.recipe is None or not self.recipe.drawable or self.manifest.identity.program_hash != program_hash():
             return
         for record, text in zip(dataset["record"].values.tolist(), dataset["scenario"].values, strict=True):
             if draw_scenario(self.recipe, record).to_json() != str(text):

@@ -105,6 +105,7 @@ def _wrong_tables(dataset: xarray.Dataset) -> Iterator[str]:
         "a ball pass is not in the order entry, deepest point, exit": ~((entry <= deepest) & (deepest <= leave)),
         "a release lies outside its pass": (release < entry) | (release > leave),
         "contact is regained before it is lost": regain < release,
+        "load rises before it falls": dataset["rise_time"].values < dataset["fall_time"].values,
     }
     for sentence, broken in rules.items():
         if broken.any():

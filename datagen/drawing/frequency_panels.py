@@ -40,6 +40,13 @@ def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, flo
     faint_grid(axes)
 
 
+def draw_background_spectrum(axes: Axes, signal: Array, rate: float) -> None:
+    """The spectrum of the background (T,), m/s², over that of the record."""
+    frequency, amplitude = amplitude_spectrum(signal, rate)
+    axes.semilogy(frequency[1:] * 1e-3, amplitude[1:], color=VERMILLION, linewidth=0.4, alpha=0.7, label="background")
+    outside_legend(axes)
+
+
 def envelope_band(portrait: Portrait) -> tuple[float, float]:
     """Lower and upper edge of the record's envelope band, Hz."""
     low, high = portrait.labels["envelope_band"]

@@ -21,8 +21,10 @@ PASSES_SHOWN = 3.0
 
 @dataclass(frozen=True)
 class Portrait:
-    """One record: `acceleration` (T, 2) with background and, where known, `clean` (T, 2), m/s²; `envelope` (T,), m/s².
+    """One record: `acceleration` (T, 2) as recorded, `envelope` (T,), both m/s².
 
+    Where they are known, m/s²: `clean` (T, 2) of the resonator; `sensor` (T, 2), after sensor paths and mounting; and
+    `background` (T, 2), the sum of its layers.
     `stiffness` (3, S): kxx, kyy, kxy in N/m at `stiffness_time` (S,), s. `labels` are keyed as in labels.schema.
     """
 
@@ -36,6 +38,18 @@ class Portrait:
     stiffness_time: Array
     stiffness: Array
     passes: PassTable
+    sensor: Array | None = None
+    background: Array | None = None
+
+    @property
+    def undisturbed(self) -> Array | None:
+        """What the sensor gives without background (T, 2), m/s², as far as it is known."""
+        return self.clean if self.sensor is None else self.sensor
+
+    @property
+    def has_parts(self) -> bool:
+        """True if the record has a background and is known with and without it."""
+        return self.sensor is not None and self.background is not None and bool(self.background.any())
 
     @cached_property
     def time(self) -> Array:

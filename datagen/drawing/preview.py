@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.corpora.atomic import write_atomically
 from datagen.corpora.manifest import manifest_path, read_manifest
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
     from datagen.drawing.measured_portrait import MeasuredPortrait
     from datagen.drawing.portrait import Portrait
+    from datagen.scenarios.scenario import Scenario
+
+Array = NDArray[np.float64]
 
 
 def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, Any]:
@@ -34,7 +38,7 @@ def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, 
     folder = Path(source)
     if manifest_path(folder).is_file() and read_manifest(folder).imported:
         return _draw_measured(folder, record, picture)
-    portrait = _of_corpus(folder, record) if manifest_path(folder).is_file() else _of_recipe(source, record)
+    portrait = corpus_portrait(folder, record) if manifest_path(folder).is_file() else recipe_portrait(source, record)
     write_atomically(picture, sheet_png(portrait))
     return _facts(portrait)
 
@@ -79,7 +83,8 @@ def _writable(picture: Path) -> Path:
     return picture
 
 
-def _of_recipe(source: str | Path, record: int) -> Portrait:
+def recipe_portrait(source: str | Path, record: int) -> Portrait:
+    """What a sheet shows of a record of a recipe, simulated now; raises BadInput."""
     from datagen.drawing.portrait import Portrait
     from datagen.recipes.recipe import load_recipe
     from datagen.records.record import make_record
@@ -89,7 +94,7 @@ def _of_recipe(source: str | Path, record: int) -> Portrait:
     recipe.place(record)
     scenario = draw_scenario(recipe, record)
     try:
-        made = make_record(scenario, ("acceleration_clean",))
+        made = make_record(scenario, ("acceleration_clean", "acceleration_sensor", "background"))
     except SimulationFailed as problem:
         raise BadInput(str(problem), recipe.source, "record", record) from problem
     return Portrait(
@@ -103,10 +108,13 @@ def _of_recipe(source: str | Path, record: int) -> Portrait:
         stiffness_time=np.asarray(made.stiffness_time),
         stiffness=np.asarray(made.stiffness, dtype=np.float64),
         passes=made.passes,
+        sensor=np.asarray(made.acceleration_sensor, dtype=np.float64),
+        background=np.asarray(made.background, dtype=np.float64).sum(axis=0),
     )
 
 
-def _of_corpus(folder: Path, record: int) -> Portrait:
+def corpus_portrait(folder: Path, record: int) -> Portrait:
+    """What a sheet shows of a record of the simulated corpus in `folder`; raises BadInput if it is not there."""
     from datagen.corpus import Corpus
     from datagen.drawing.portrait import Portrait
     from datagen.scenarios.scenario import Scenario
@@ -117,19 +125,45 @@ def _of_corpus(folder: Path, record: int) -> Portrait:
     finally:
         corpus.close()
     labels = {label.name: _plain(found[label.name].values) for label in LABELS}
-    clean = found["acceleration_clean"].values.astype(np.float64) if "acceleration_clean" in found else None
+    scenario = Scenario.from_json(str(found["scenario"].values))
+    sensor, background = _sensor_and_background(found, scenario)
     return Portrait(
         corpus=str(found.attrs.get("id", folder.name)),
-        scene=Scenario.from_json(str(found["scenario"].values)).scene,
+        scene=scenario.scene,
         labels=labels,
         rate=float(labels["rate_hz"]),
         acceleration=found["acceleration"].values.astype(np.float64),
-        clean=clean,
+        clean=_stored(found, "acceleration_clean"),
         envelope=found["envelope"].values.astype(np.float64),
         stiffness_time=found["stiffness_time"].values,
         stiffness=found["stiffness"].values.astype(np.float64),
         passes=_pass_table(found),
+        sensor=sensor,
+        background=background,
     )
+
+
+def _stored(found: xarray.Dataset, name: str) -> Array | None:
+    return found[name].values.astype(np.float64) if name in found else None
+
+
+def _sensor_and_background(found: xarray.Dataset, scenario: Scenario) -> tuple[Array | None, Array | None]:
+    """Sensor signal and summed background (T, 2) as far as they are stored or follow from the record and its text."""
+    from datagen.records.layers import background_layers
+    from physics.sensor.chain import SensorChain
+
+    chain = scenario.chain
+    plain = chain == SensorChain(recorder=chain.recorder)
+    sensor = _stored(found, "acceleration_clean" if plain else "acceleration_sensor")
+    layers = _stored(found, "background")
+    if layers is None and sensor is None and scenario.noise_target is not None:
+        return None, None
+    still = np.zeros((scenario.samples, 2))
+    again = background_layers(scenario, still if sensor is None else sensor) if layers is None else {}
+    background = sum(again.values(), still) if layers is None else layers.sum(axis=0)
+    if sensor is None and chain.recorder is None:
+        sensor = found["acceleration"].values.astype(np.float64) - background
+    return sensor, background
 
 
 def _plain(values: np.ndarray) -> Any:

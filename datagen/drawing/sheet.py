@@ -6,17 +6,30 @@ import io
 import math
 from typing import TYPE_CHECKING
 
-from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum, envelope_band
+from datagen.drawing.frequency_panels import (
+    draw_background_spectrum,
+    draw_envelope_spectrum,
+    draw_spectrum,
+    envelope_band,
+)
 from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.style import GREY, INK, house_style, plt
-from datagen.drawing.time_panels import draw_close_up, draw_passes, draw_spectrogram, draw_stiffness, draw_trace
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, house_style, plt
+from datagen.drawing.time_panels import (
+    draw_close_up,
+    draw_part,
+    draw_passes,
+    draw_spectrogram,
+    draw_stiffness,
+    draw_trace,
+)
 from labels.description import largest_spall
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from matplotlib.gridspec import SubplotSpec
 
-WIDTH, HEIGHT, DPI = 13.0, 11.0, 120
+WIDTH, HEIGHT, DPI = 13.0, 12.5, 120
 
 
 def sheet_png(portrait: Portrait) -> bytes:
@@ -32,10 +45,11 @@ def sheet_png(portrait: Portrait) -> bytes:
 def draw_sheet(portrait: Portrait) -> Figure:
     """The figure of one record, all panels with units."""
     figure = plt.figure(figsize=(WIDTH, HEIGHT))
+    whole = 1.75 if portrait.has_parts else 0.85
     outer = figure.add_gridspec(
-        2, 1, height_ratios=(0.85, 5.0), left=0.06, right=0.975, top=0.905, bottom=0.05, hspace=0.2
+        2, 1, height_ratios=(whole, 5.0), left=0.06, right=0.975, top=0.915, bottom=0.045, hspace=0.16
     )
-    draw_trace(figure.add_subplot(outer[0]), portrait)
+    _draw_whole(figure, outer[0], portrait)
     columns = outer[1].subgridspec(1, 2, width_ratios=(1.0, 1.0), wspace=0.2)
     left = columns[0].subgridspec(3, 1, height_ratios=(1.55, 1.0, 1.35), hspace=0.22)
     closest = left[0].subgridspec(2, 1, height_ratios=(1.0, 0.17), hspace=0.03)
@@ -52,11 +66,34 @@ def draw_sheet(portrait: Portrait) -> Figure:
     path.set_xlim(*_ends(portrait))
     frequency_rows = right[1].subgridspec(2, 1, hspace=0.62)
     band = envelope_band(portrait)
-    draw_spectrum(figure.add_subplot(frequency_rows[0]), portrait.acceleration[:, 1], portrait.rate, band)
+    spectrum = figure.add_subplot(frequency_rows[0])
+    draw_spectrum(spectrum, portrait.acceleration[:, 1], portrait.rate, band)
+    if portrait.has_parts and portrait.background is not None:
+        draw_background_spectrum(spectrum, portrait.background[:, 1], portrait.rate)
     draw_envelope_spectrum(figure.add_subplot(frequency_rows[1]), portrait)
-    figure.text(0.06, 0.972, heading(portrait), fontsize=13, fontweight="bold", color=INK)
-    figure.text(0.06, 0.948, summary(portrait), fontsize=9, color=GREY)
+    figure.text(0.06, 0.975, heading(portrait), fontsize=13, fontweight="bold", color=INK)
+    figure.text(0.06, 0.954, summary(portrait), fontsize=9, color=GREY)
     return figure
+
+
+def _draw_whole(figure: Figure, place: SubplotSpec, portrait: Portrait) -> None:
+    """Clean signal, background and sum, one below the other; the sum alone where the parts are not known."""
+    clean, background = portrait.undisturbed, portrait.background
+    if not portrait.has_parts or clean is None or background is None:
+        draw_trace(figure.add_subplot(place), portrait)
+        return
+    strips = place.subgridspec(3, 1, hspace=0.5)
+    layers = str(portrait.labels.get("background_layers", "")) or "background"
+    parts = (
+        (clean, BLUE, "Clean acceleration at the sensor, y axis"),
+        (background, VERMILLION, f"Background ({layers.replace('_', ' ')})"),
+        (portrait.acceleration, INK, "Sum, as recorded (close-up marked)"),
+    )
+    for row, (signal, colour, title) in enumerate(parts):
+        axes = figure.add_subplot(strips[row])
+        draw_part(axes, portrait, signal, colour, title)
+        axes.tick_params(labelbottom=row == 2)
+    axes.set_xlabel("time (s)", labelpad=1)
 
 
 def _ends(portrait: Portrait) -> tuple[float, float]:

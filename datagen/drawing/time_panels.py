@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 DYNAMIC_RANGE_DB = 70.0
 MOST_NAMED_PASSES = 8
+Array = NDArray[np.float64]
 
 
 def draw_trace(axes: Axes, portrait: Portrait) -> None:
@@ -30,6 +31,16 @@ def draw_trace(axes: Axes, portrait: Portrait) -> None:
     axes.set_title("Acceleration, y axis, whole record (close-up marked)")
     faint_grid(axes)
     outside_legend(axes)
+
+
+def draw_part(axes: Axes, portrait: Portrait, signal: Array, colour: str, title: str) -> None:
+    """One signal (T, 2) of the whole record, y axis, on its own scale, with its RMS."""
+    axes.plot(portrait.time, signal[:, 1], color=colour, linewidth=0.5)
+    axes.axvspan(*portrait.window, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
+    axes.set(xlim=(0.0, portrait.duration), ylabel="m/s²")
+    rms = float(np.sqrt(np.mean(signal[:, 1] ** 2)))
+    axes.set_title(f"{title}: RMS {rms:.3g} m/s²")
+    faint_grid(axes)
 
 
 def draw_close_up(axes: Axes, portrait: Portrait) -> None:
@@ -53,13 +64,14 @@ def draw_close_up(axes: Axes, portrait: Portrait) -> None:
 
 def _draw_signal(axes: Axes, portrait: Portrait, part: slice, scale: float) -> None:
     time = portrait.time[part] * scale
-    noisy = portrait.clean is not None and not np.array_equal(portrait.clean, portrait.acceleration)
-    if noisy or portrait.clean is None:
+    clean = portrait.undisturbed
+    noisy = clean is not None and not np.array_equal(clean, portrait.acceleration)
+    if noisy or clean is None:
         axes.plot(
             time, portrait.acceleration[part, 1], color=GREY if noisy else BLUE, linewidth=0.7, label="with background"
         )
-    if portrait.clean is not None:
-        axes.plot(time, portrait.clean[part, 1], color=BLUE, linewidth=0.8, label="clean")
+    if clean is not None:
+        axes.plot(time, clean[part, 1], color=BLUE, linewidth=0.8, label="clean")
 
 
 def draw_passes(axes: Axes, portrait: Portrait) -> None:

@@ -122,11 +122,20 @@ class BackgroundSettings(Table):
     snr_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
     """Scales the whole background of each record to this ratio over 0 to half the sampling rate, dB."""
     snr_band_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
-    """The same over snr_band_hz."""
+    """The same over snr_band_hz, dB."""
+
+    @property
+    def has_layers(self) -> bool:
+        """True if any layer can have a level above zero."""
+        tables = (self.pink, self.shaft_harmonics, self.gear_mesh, self.mains_hum, self.impulses, self.recording)
+        return any(table is not None for table in tables) or max(self.white_rms_m_s2.stated()) > 0.0
 
     @model_validator(mode="after")
     def _consistent(self) -> BackgroundSettings:
         at_most_one(self, "snr_db", "snr_band_db")
+        target = next((name for name in ("snr_db", "snr_band_db") if getattr(self, name) is not None), None)
+        if target is not None and not self.has_layers:
+            raise refuse("there is no layer to scale", target, "a layer beside it, such as white_rms_m_s2 = 1")
         if self.snr_band_hz is not None and not 0.0 <= self.snr_band_hz[0] < self.snr_band_hz[1]:
             raise refuse("the band is empty", "snr_band_hz", "0 <= low < high <= half the sampling rate")
         return self

@@ -94,7 +94,7 @@ class MachineSettings(Table):
     """Contact angle, degrees."""
     row_offset_deg: Degrees | None = None
     """Angle by which row 2 is ahead of row 1, degrees; half a ball spacing if not given."""
-    load_deflection: Positive | None = None
+    load_deflection_n_per_m_to_n: Positive | None = None
     """Factor K of F = K δⁿ for one rolling element between both races, N/mⁿ; if not given, the catalogue's, scaled as
     Hertz's factor of the geometry, or Hertz's own for a drawn bearing."""
     exponent: Annotated[Distribution, Between(1.0, 2.0)] | None = None
@@ -168,8 +168,10 @@ class MachineSettings(Table):
             self._require("a drawn rig", RIG_GROUPS)
         if self.bearing is not None and DRAWN in possible_words(self.bearing):
             self._require("a drawn bearing", BEARING_GROUPS)
-            if self.exponent is not None and self.load_deflection is None:
-                raise refuse("a drawn bearing with an exponent of its own needs its factor K", "load_deflection")
+            if self.exponent is not None and self.load_deflection_n_per_m_to_n is None:
+                raise refuse(
+                    "a drawn bearing with an exponent of its own needs its factor K", "load_deflection_n_per_m_to_n"
+                )
         return self
 
     def _require(self, what: str, groups: tuple[tuple[str, ...], ...]) -> None:

@@ -27,7 +27,7 @@ class OperationSettings(Table):
     cage_angle_deg: Degrees = ANY_ANGLE
     """Angle of ball 1 of row 1 at the start, degrees; anywhere if not given."""
     second_cage_angle_deg: Degrees = ANY_ANGLE
-    """The same of row 2, before its stagger, where the rows have separate cages."""
+    """The same of row 2, before its stagger, where the rows have separate cages, degrees."""
     mean_slip: Annotated[Distribution, Between(-0.2, 0.2)] = Fixed(0.0)
     """Mean slip of the cage, as a share of its speed."""
     slip_deviation: Annotated[Distribution, Between(0.0, 0.1)] = Fixed(0.01)

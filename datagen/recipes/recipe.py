@@ -5,11 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import tomllib
-from bisect import bisect_right
 from functools import cached_property
-from itertools import accumulate
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
@@ -24,12 +22,13 @@ from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.recipe_files import find_recipe
+from datagen.recipes.record_order import Place, machines, place_by_part, place_interleaved
 from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.recipes.settings import Between, OneOf, Table, refuse
 from physics.scene import CONTACT_LAWS
 
 FEWEST_SAMPLES = 16
-LARGEST_HYPERCUBE = 100_000
+LARGEST_HYPERCUBE = 50_000
 Count = Annotated[int, Field(ge=1, le=10_000_000)]
 
 
@@ -143,17 +142,7 @@ class Part(Table):
     @property
     def machines(self) -> int:
         """Number of virtual machines."""
-        return -(-self.records // self.records_per_machine)
-
-
-class Place(NamedTuple):
-    """Where a record stands, all from 0: its part, its machine in the corpus; it in its part, its machine there."""
-
-    part: int
-    machine: int
-    record_in_part: int
-    machine_in_part: int
-    record_in_machine: int
+        return machines((self.records, self.records_per_machine))
 
 
 class Recipe(Table):
@@ -165,6 +154,10 @@ class Recipe(Table):
     """One line for people."""
     summary: str = ""
     """A few sentences for people."""
+    licence: str = ""
+    """Terms of use of the corpus."""
+    citation: str = ""
+    """How its makers want to be cited."""
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)]
     """Seed of every random number."""
     signal: Signal
@@ -177,6 +170,8 @@ class Recipe(Table):
     """What is written."""
     split: Split = Split()
     """How virtual machines are divided."""
+    order: Literal["by_part", "interleaved"] = "by_part"
+    """by_part: one part after the other; interleaved: taking turns, so that the first records are of all parts."""
     part: tuple[Part, ...] = Field(min_length=1, strict=False)
     """The parts of the corpus, in order."""
 
@@ -199,6 +194,12 @@ class Recipe(Table):
         return part.background or self.background
 
     @property
+    def drawable(self) -> bool:
+        """True if every recording that its scenarios take stretches of is at hand: a manifest only describes them."""
+        tables = [self.background, *(part.background for part in self.part)]
+        return all(table is None or table.recording is None or table.recording.at_hand for table in tables)
+
+    @property
     def source(self) -> str:
         """The file it was read from, for messages."""
         return self._source
@@ -212,24 +213,14 @@ class Recipe(Table):
     @property
     def count(self) -> int:
         """Number of records of all parts."""
-        return self._first_records[-1]
-
-    @cached_property
-    def _first_records(self) -> list[int]:
-        return list(accumulate((part.records for part in self.part), initial=0))
-
-    @cached_property
-    def _first_machines(self) -> list[int]:
-        return list(accumulate((part.machines for part in self.part), initial=0))
+        return sum(part.records for part in self.part)
 
     def place(self, record: int) -> Place:
         """Where `record` (0 ≤ record < count) stands in the corpus."""
         if not 0 <= record < self.count:
             raise BadInput(file=self.source, field="record", value=record, allowed=f"0 to {self.count - 1}")
-        part = bisect_right(self._first_records, record) - 1
-        local = record - self._first_records[part]
-        machine, in_machine = divmod(local, self.part[part].records_per_machine)
-        return Place(part, self._first_machines[part] + machine, local, machine, in_machine)
+        sizes = tuple((part.records, part.records_per_machine) for part in self.part)
+        return place_by_part(sizes, record) if self.order == "by_part" else place_interleaved(sizes, record)
 
 
 def load_recipe(path_or_name: str | Path) -> Recipe:

@@ -49,4 +49,5 @@ def _tidy(node: Any, kinds: dict[str, Any]) -> Any:
         return {key: _tidy(value, kinds) for key, value in kept.items()}
     name = re.sub(r"[^A-Za-z0-9.-]+", "_", kept.pop("setting"))
     kinds[name] = {"anyOf": kept.pop("anyOf")}
-    return {"$ref": f"#/$defs/{name}"} | kept
+    # Older drafts, which editors still follow, read nothing beside a bare reference.
+    return {"allOf": [{"$ref": f"#/$defs/{name}"}]} | kept

@@ -9,7 +9,8 @@ from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import Field, ValidationError, ValidationInfo, model_validator
+from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
 from datagen.errors import BadInput
@@ -17,34 +18,33 @@ from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recording_file import read_recording
 from datagen.recipes.settings import Between, Table
+from datagen.recordings.settings import CsvLayout
 
-Column = Annotated[int, Field(ge=1, le=1000)]
-LEARNT = ("sha256", "samples", "channels")
+Channel = Annotated[str, Field(min_length=1)]
+LEARNT = ("sha256", "samples", "rate_hz")
 
 
 class RecordingSettings(Table):
-    """A file in the recipe's folder (.npy, .npz, .csv, .wav), sampled at the rate of the records.
+    """A file in the recipe's folder (.mat, .npz, .npy, .csv, .wav, .nc), sampled at the rate of the records.
 
-    One column goes to both axes, each from its own place in the recording; two columns go to x and y from one place.
+    One channel goes to both axes, each from its own place in the recording; two go to x and y from one place.
     """
 
     file: Annotated[str, Field(min_length=1)]
     """Name of the file, as seen from the recipe's folder."""
     rate_hz: Annotated[float, Field(gt=0.0)] = 0.0
-    """Sampling rate of the recording, Hz; needed unless the file states it (.wav, or rate_hz in .npz)."""
-    columns: tuple[Column, ...] | None = Field(default=None, min_length=1, max_length=2, strict=False)
-    """Which column, from 1, or which two columns (x and y) of the file; all if it has no more than two."""
-    variable: str | None = None
-    """Name of the array in an .npz file that holds several."""
+    """Sampling rate of the recording, Hz; needed unless the file states it (.wav, or a variable rate_hz)."""
+    channels: tuple[Channel, ...] | None = Field(default=None, min_length=1, max_length=2, strict=False)
+    """Variable of the one channel, or of x and y, written as in the SPEC of an import; the only one if not given."""
+    csv: CsvLayout = CsvLayout()
+    """Layout of a text table."""
     gain_m_s2: Annotated[Distribution, Between(0.0)] = Fixed(1.0)
     """Acceleration for one unit of the file, m/s²; of whole numbers in .wav, for the full scale."""
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] = ""
     """SHA-256 of the file, found on reading; a recipe that states it accepts no other file."""
     samples: Annotated[int, Field(ge=1)] = 0
     """Samples of the recording, found on reading."""
-    channels: Annotated[int, Field(ge=1, le=2)] = 0
-    """Columns used, found on reading."""
-    path: str = Field(default="", exclude=True)
+    path: SkipJsonSchema[str] = Field(default="", exclude=True)
     """Where the file was found, not part of the recipe; empty where only what was learnt of it is at hand."""
 
     @model_validator(mode="before")
@@ -52,17 +52,21 @@ class RecordingSettings(Table):
     def _read(cls, value: object, info: ValidationInfo) -> object:
         if not isinstance(value, dict) or not isinstance(value.get("file"), str):
             return value
-        folder = (info.context or {}).get(FOLDER, Path())
-        path = Path(folder) / value["file"]
+        path = Path((info.context or {}).get(FOLDER, Path())) / value["file"]
         if not path.is_file() and all(name in value for name in LEARNT):
             return value
         return _learnt(value, path)
 
+    @property
+    def at_hand(self) -> bool:
+        """True if the file itself can be read, and not only what was learnt of it."""
+        return bool(self.path) and Path(self.path).is_file()
+
     def load(self) -> NDArray[np.float32]:
         """The recording (N, C) in units of the file; BadInput if the file is gone or another than was described."""
-        if not self.path or not Path(self.path).is_file():
+        if not self.at_hand:
             raise BadInput(f"the recording (SHA-256 {self.sha256}) is not at hand", file=self.path or self.file)
-        samples, sha256 = _loaded(self.path, self.variable, self.columns)
+        samples, sha256 = _loaded(self.path, self.channels, self.csv)
         if sha256 != self.sha256:
             raise BadInput("the recording has changed since the recipe was read", self.path, "sha256", sha256)
         return samples
@@ -70,11 +74,16 @@ class RecordingSettings(Table):
 
 def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
     """The recipe's table with what the file itself says; raises PydanticCustomError."""
-    columns = tuple(value["columns"]) if isinstance(value.get("columns"), list | tuple) else None
+    wishes = value.get("channels")
+    named = isinstance(wishes, list | tuple) and all(isinstance(wish, str) for wish in wishes)
     try:
-        read = read_recording(path, value.get("variable"), columns)
+        layout = CsvLayout.model_validate(value.get("csv", {}))
+        read = read_recording(path, tuple(wishes) if named and wishes else None, layout)
+    except ValidationError:
+        return value
     except BadInput as problem:
-        raise _refused(problem.problem or str(problem), problem.field or "file") from None
+        field = problem.field if problem.field in ("channels", "file") else "file"
+        raise _refused(f"{path.name}: {problem.problem}", field, problem.allowed) from None
     stated = value.get("rate_hz", read.rate)
     if stated is None:
         raise _refused(f"{path.name} does not state its sampling rate", "rate_hz", "a number of Hz")
@@ -83,14 +92,13 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
     sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
     if value.get("sha256", sha256) != sha256:
         raise _refused(f"{path.name} is another file: its SHA-256 is {sha256}", "sha256")
-    samples, channels = read.samples.shape
-    known = {"rate_hz": float(stated), "sha256": sha256, "samples": samples, "channels": channels, "path": str(path)}
-    return value | known
+    rate = float(stated) if type(stated) is int else stated
+    return value | {"rate_hz": rate, "sha256": sha256, "samples": read.samples.shape[0], "path": str(path)}
 
 
 @lru_cache(maxsize=4)
-def _loaded(path: str, variable: str | None, columns: tuple[int, ...] | None) -> tuple[NDArray[np.float32], str]:
-    samples = read_recording(Path(path), variable, columns).samples
+def _loaded(path: str, channels: tuple[str, ...] | None, layout: CsvLayout) -> tuple[NDArray[np.float32], str]:
+    samples = read_recording(Path(path), channels, layout).samples
     return samples, hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.corpora.format import IMPORTED, from_columns, global_attributes
+from datagen.corpora.format import COMPONENT_DIMENSIONS, IMPORTED, from_columns, global_attributes
 from datagen.recordings.recorded import Recorded
 from labels.envelope import band_envelope
-from labels.schema import BAND_EDGES, LABELS
+from labels.schema import LABELS
 
 if TYPE_CHECKING:
     import xarray
@@ -31,7 +31,7 @@ def imported_dataset(indices: Sequence[int], records: Sequence[Recorded], attrib
         "provenance": [record.provenance for record in records],
         "time": np.arange(first.acceleration.shape[0]) / first.rate,
         "axis": first.axes,
-        "band_edge": BAND_EDGES,
+        **{dim: parts for parts, (dim,) in COMPONENT_DIMENSIONS.items()},
     }
     if "y" in first.axes:
         columns["envelope"] = np.stack([_envelope(record) for record in records])

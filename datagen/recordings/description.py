@@ -9,12 +9,12 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.recordings.settings import BearingNumbers
 from datagen.recordings.source import Source
-from labels.schema import LABELS, UNKNOWN, Label
+from labels.schema import LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
 
-UNSOLVED: dict[str, Any] = {"model": "measured", "method": "none", "validity": "", "contact_law": UNKNOWN}
+UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "", "contact_law": UNKNOWN}
 HEALTHY: dict[str, Any] = dict.fromkeys(
     ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness"), 0.0
 ) | {"spalls": 0, "bridged": False, "profile": "none"}

@@ -45,13 +45,17 @@ class Imported:
 
 @dataclass(frozen=True)
 class _Planned:
-    """A record whose samples have been checked and dropped again: `piece` of `request`, with its index."""
+    """A record whose samples have been checked and dropped again: `piece` of `request`, with its index.
+
+    `content` is the hash by which its samples are known again.
+    """
 
     index: int
     request: Request
     piece: int
     key: Key
     bytes: int
+    content: str
 
 
 def import_recordings(spec: Spec, folder: Path, root: Path | None = None) -> Imported:
@@ -117,7 +121,7 @@ class _Plan:
             if self._is_new(record, request):
                 self._check_split(record, request)
                 size = record.acceleration.nbytes
-                self.records.append(_Planned(len(self.records), request, piece, record.key, size))
+                self.records.append(_Planned(len(self.records), request, piece, record.key, size, record.content))
 
     def _is_new(self, record: Recorded, request: Request) -> bool:
         name, where = record.labels["recording"], f"{request.name} ({request.place})"
@@ -170,11 +174,15 @@ def _write(folder: Path, number: int, shard: list[_Planned], manifest: Manifest)
 
 
 def _read_again(shard: list[_Planned]) -> Iterator[Recorded]:
-    wanted: dict[Request, set[int]] = {}
+    wanted: dict[Request, dict[int, str]] = {}
     for planned in shard:
-        wanted.setdefault(planned.request, set()).add(planned.piece)
-    for request, pieces in wanted.items():
-        yield from (record for piece, record in enumerate(read_recording(request)) if piece in pieces)
+        wanted.setdefault(planned.request, {})[planned.piece] = planned.content
+    for request, contents in wanted.items():
+        for piece, record in enumerate(read_recording(request)):
+            if piece in contents:
+                if record.content != contents[piece]:
+                    raise BadInput("the file has changed while it was imported", str(request.path))
+                yield record
 
 
 def _manifest(spec: Spec, listing: Listing, records: int) -> Manifest:

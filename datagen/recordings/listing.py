@@ -79,7 +79,7 @@ class _Finder:
         for path in self._globbed(recording, place):
             fitting = [k for k, row in enumerate(rows) if any(self._fits(path, name) for name in row.files)]
             if recording.table and not fitting:
-                raise BadInput(f"{self._below[path]} is not in the table {recording.table}", place)
+                raise BadInput(f"{self._name(path)} is not in the table {recording.table}", place)
             used.update(fitting)
             yield from ((path, rows[k]) for k in fitting) if recording.table else [(path, None)]
         for k, row in enumerate(rows):
@@ -99,7 +99,10 @@ class _Finder:
     def _globbed(self, recording: Recording, place: str) -> list[Path]:
         paths: dict[Path, None] = {}
         for pattern in recording.patterns:
-            fitting = [path for path in sorted(self.root.glob(pattern)) if path.is_file()]
+            try:
+                fitting = [path for path in sorted(self.root.glob(pattern)) if path.is_file()]
+            except (ValueError, NotImplementedError, IndexError):
+                raise BadInput(field="files", file=place, value=pattern, allowed='as in "folder/*.mat"') from None
             if not fitting and recording.absent_files == "skip":
                 self.absent.append(pattern)
             elif not fitting:
@@ -107,8 +110,12 @@ class _Finder:
             paths |= dict.fromkeys(fitting)
         return list(paths)
 
+    def _name(self, path: Path) -> str:
+        """The file's name from the root, where it lies below it."""
+        return self._below.get(path, path.as_posix())
+
     def _fits(self, path: Path, name: str) -> bool:
-        return fnmatch(self._below[path], name) or fnmatch(path.name, name)
+        return fnmatch(self._name(path), name) or fnmatch(path.name, name)
 
     def _listed(self, row: TableRow, recording: Recording) -> Path | None:
         """The file that a row means: at that place below the root, or anywhere below it if its name is the only one."""
@@ -136,13 +143,12 @@ class _Finder:
         if row:
             _refuse_two_speeds(settings, row)
             settings = merged(settings, row.settings)
-        name = self._below.get(path) or path.relative_to(self.root).as_posix()
         for override in recording.override:
             patterns = (override.files,) if isinstance(override.files, str) else override.files
             if any(self._fits(path, pattern) for pattern in patterns):
                 settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
         for channel in _channels(settings, where):
-            yield Request(recording.name, path, name, channel, settings, where)
+            yield Request(recording.name, path, self._name(path), channel, settings, where)
 
 
 _NOT_SETTINGS = ("name", "files", "table", "note_columns", "absent_files", "override")

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.recipes.recipe import FEWEST_SAMPLES
 from datagen.recordings.description import recording_labels
+from datagen.recordings.formats.reading import file_format
 from datagen.recordings.formats.wav_file import RATE_NAME
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
@@ -56,7 +57,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, axes)}
     for piece, (start, stop) in enumerate(_pieces(source, rate, counts.shape[0])):
         part = counts[start:stop]
-        speed, basis = shaft_speed(source, start / rate, stop / rate)
+        speed, basis = shaft_speed(source, rate, start / rate, stop / rate)
         own = {
             "recording": _name(request) + (f"#{piece}" if request.settings.get("cut_s") else ""),
             "speed_rpm": speed,
@@ -79,11 +80,12 @@ def _name(request: Request) -> str:
 
 
 def _rate(source: Source) -> float:
-    stated, held = source.positive("rate_hz"), source.arrays.get(RATE_NAME) if source.path.suffix == ".wav" else None
-    if held is not None:
-        if stated is not None and stated != float(held):
-            raise BadInput("the file says another rate", str(source.path), "rate_hz", stated, f"{float(held):g}")
-        stated = float(held)
+    stated = source.positive("rate_hz")
+    if file_format(source.path, source.setting("format")) == "wav":
+        held = float(source.arrays[RATE_NAME])
+        if stated not in (None, held):
+            raise BadInput("the file says another rate", str(source.path), "rate_hz", stated, f"{held:g}")
+        return held
     if stated is None:
         raise BadInput(
             "the sampling rate is not given", source.request.place, "rate_hz",

@@ -160,12 +160,14 @@ class RecordingSettings(Table):
 
 
 ALTERNATIVES = (("speed_rpm", "speed_hz", "tach"), ("extent_mm", "extent_deg"))
-REPLACED_TOGETHER = (*ALTERNATIVES, ("channel", "x", "y", "channel_name"))
+REPLACED_BY = {name: group for group in (*ALTERNATIVES, ("x", "y", "channel")) for name in group} | {
+    "channel": ("x", "y", "channel_name", "channel")
+}
 
 
 def merged(lower: dict[str, Any], upper: dict[str, Any]) -> dict[str, Any]:
     """Settings in which `upper` goes before `lower`; notes are joined, and alternatives replace each other."""
-    replaced = {name for group in REPLACED_TOGETHER if set(group) & set(upper) for name in group}
+    replaced = {name for given in upper for name in REPLACED_BY.get(given, ())}
     kept = {name: value for name, value in lower.items() if name not in replaced}
     notes = {**lower.get("notes", {}), **upper.get("notes", {})}
     return kept | upper | ({"notes": notes} if notes else {})

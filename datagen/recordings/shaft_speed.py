@@ -16,11 +16,14 @@ HYSTERESIS = 0.1
 FEWEST_PULSES = 3
 
 
-def shaft_speed(source: Source, start: float, stop: float) -> tuple[float, str]:
-    """Mean speed (rpm, NaN if unknown) from `start` to `stop` (s) and its basis, a value of the label `speed_basis`."""
+def shaft_speed(source: Source, rate: float, start: float, stop: float) -> tuple[float, str]:
+    """Mean speed (rpm, NaN if unknown) from `start` to `stop` (s) and its basis, a value of the label `speed_basis`.
+
+    `rate` is the vibration's, Hz.
+    """
     tach = source.setting("tach")
     if tach is not None:
-        return tach_speed(source, tach, start, stop), "tach"
+        return tach_speed(source, tach, tach.rate_hz or rate, start, stop), "tach"
     nominal = source.number("nominal_speed_rpm")
     for name, factor in (("speed_rpm", 1.0), ("speed_hz", 60.0)):
         measured = source.number(name) if nominal is None else source.or_none(name)
@@ -29,11 +32,10 @@ def shaft_speed(source: Source, start: float, stop: float) -> tuple[float, str]:
     return (math.nan, UNKNOWN) if nominal is None else (nominal, "nominal")
 
 
-def tach_speed(source: Source, tach: Tach, start: float, stop: float) -> float:
+def tach_speed(source: Source, tach: Tach, rate: float, start: float, stop: float) -> float:
     """Mean speed over the pulses from `start` to `stop` (s), rpm; raises BadInput if there are fewer than 3."""
-    rate = tach.rate_hz or source.positive("rate_hz")
     pulses = source.array(tach.variable, "tach.variable")
-    times = rising_edges(pulses, tach.threshold) / (rate or math.nan)
+    times = rising_edges(pulses, tach.threshold) / rate
     inside = times[(times >= start) & (times < stop)]
     if inside.size < FEWEST_PULSES:
         raise BadInput(

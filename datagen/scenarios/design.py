@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +43,9 @@ DIMENSIONS = (
     ("recording", 0, 1),
     ("noise_target", 0, 1),
 )
-TOTAL = sum(count for _, _, count in DIMENSIONS)
+FIRSTS = tuple(accumulate((count for _, _, count in DIMENSIONS), initial=0))
+PLACES = {(name, item): (first, count) for first, (name, item, count) in zip(FIRSTS, DIMENSIONS, strict=False)}
+TOTAL = FIRSTS[-1]
 BLOCK = 1024
 SOBOL_RESOLUTION = 2.0**-30
 
@@ -68,12 +71,8 @@ class Design:
 
 def dimension_of(purpose: str, item: int, position: int) -> int | None:
     """The dimension of the `position`-th number of a stream, or None if it has none."""
-    first = 0
-    for name, number, count in DIMENSIONS:
-        if (name, number) == (purpose, item):
-            return first + position if position < count else None
-        first += count
-    return None
+    first, count = PLACES.get((purpose, item), (0, 0))
+    return first + position if position < count else None
 
 
 @lru_cache(maxsize=16)
@@ -85,7 +84,7 @@ def _sobol_block(seed: int, part: int, block: int) -> NDArray[np.float64]:
     return np.asarray(engine.random(BLOCK))
 
 
-@lru_cache(maxsize=4 * TOTAL)
+@lru_cache(maxsize=2 * TOTAL)
 def _latin_cells(seed: int, part: int, points: int, dimension: int) -> NDArray[np.int32]:
     """The stratum (points,) of each point along one dimension."""
     generator = stream(seed, "part", part, "design", item=1 + dimension)

@@ -29,7 +29,7 @@ BEARING_NUMBERS = (
     ("ball_diameter_mm", "ball_diameter", 1e3),
     ("contact_angle_deg", "contact_angle", DEGREES_PER_RADIAN),
     ("row_offset_deg", "row_offset", DEGREES_PER_RADIAN),
-    ("load_deflection", "load_deflection", 1.0),
+    ("load_deflection_n_per_m_to_n", "load_deflection", 1.0),
     ("exponent", "exponent", 1.0),
     ("clearance_um", "clearance", 1e6),
 )
@@ -123,7 +123,7 @@ def _altered_bearing(base: Bearing, said: Values, factors: Values) -> Bearing:
     if said["elements"] is not None:
         numbers["exponent"] = ROLLER_EXPONENT if said["elements"] == "rollers" else BALL_EXPONENT
     bearing = Bearing(**numbers)
-    if said["load_deflection"] is None:
+    if said["load_deflection_n_per_m_to_n"] is None:
         bearing = replace(bearing, load_deflection=_load_deflection(base, bearing, said))
     return replace(bearing, load_deflection=bearing.load_deflection * factors["load_deflection"])
 

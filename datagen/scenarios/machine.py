@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from datagen.recipes.recipe import FEWEST_SAMPLES, Recipe, Signal, Split
@@ -50,13 +50,28 @@ class Machine:
 
 def draw_machine(recipe: Recipe, part_index: int, number: int, place: int) -> Machine:
     """Virtual machine `number` of the recipe, the `place`-th of the part with that index; BadInput if none can be."""
-    redraws: list[Redraw] = []
+    return _first_possible(_Wanted(recipe.hash, number, Draw(recipe, part_index, "machine", number, place)))
+
+
+@dataclass(frozen=True)
+class _Wanted:
+    """A machine of a recipe with this hash; two are equal if these are, since nothing else tells machines apart."""
+
+    recipe_hash: str
+    number: int
+    draw: Draw = field(compare=False)
+
+
+@lru_cache(maxsize=4)
+def _first_possible(wanted: _Wanted) -> Machine:
+    """The first attempt that gives a machine; kept, because the records of a machine ask for it one after another."""
+    draw, redraws = wanted.draw, list[Redraw]()
     for attempt in range(MOST_ATTEMPTS):
         try:
-            return _draw(Draw(recipe, part_index, "machine", number, place, attempt), tuple(redraws))
+            return _draw(replace(draw, attempt=attempt), tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("machine", attempt, refused.field, str(refused)))
-    raise given_up(recipe, recipe.part[part_index], f"machine {number}", redraws)
+    raise given_up(draw.recipe, draw.recipe.part[draw.part], f"machine {wanted.number}", redraws)
 
 
 def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:

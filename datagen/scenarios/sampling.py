@@ -8,7 +8,8 @@ import numpy as np
 
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.operation_settings import OperationSettings
-from datagen.recipes.recipe import Place, Recipe
+from datagen.recipes.recipe import Recipe
+from datagen.recipes.record_order import Place
 from datagen.scenarios.backgrounds import draw_noise_target, draw_stretch
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw

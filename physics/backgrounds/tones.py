@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+BLOCK = 256
+
 
 def tones(frequency: Array, amplitude: Array, phase: Array, samples: int, rate: float) -> Array:
     """Sum over lines of amplitude cos(2π frequency t + phase), (T, 2).
@@ -14,12 +16,17 @@ def tones(frequency: Array, amplitude: Array, phase: Array, samples: int, rate: 
     `frequency` (L,) Hz, `amplitude` (L,), `phase` (L, 2) rad, one a line and axis. Lines at or above half the `rate`
     (Hz) are left out, as by an anti-aliasing filter; those below 0 Hz lie at their absolute frequency.
     """
-    time = np.arange(samples) / rate
-    total = np.zeros((samples, 2))
+    blocks = -(-samples // BLOCK)
+    total = np.zeros((blocks, BLOCK, 2))
     for line in np.flatnonzero((np.abs(frequency) < rate / 2.0) & (amplitude != 0.0)):
-        angle = 2.0 * np.pi * frequency[line] * time
-        total += amplitude[line] * np.cos(angle[:, None] + phase[line])
-    return total
+        turn = 2.0 * np.pi * frequency[line] / rate
+        # cos(a + b) = cos a cos b - sin a sin b: a at the start of each block, b within it.
+        within = turn * np.arange(BLOCK)
+        for axis in (0, 1):
+            start = turn * BLOCK * np.arange(blocks) + phase[line, axis]
+            total[:, :, axis] += np.outer(amplitude[line] * np.cos(start), np.cos(within))
+            total[:, :, axis] -= np.outer(amplitude[line] * np.sin(start), np.sin(within))
+    return total.reshape(-1, 2)[:samples]
 
 
 def draw_phases(generator: np.random.Generator, lines: int) -> Array:

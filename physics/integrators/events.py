@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
-from physics.contact import ACTIVE, COMPRESSION, LAW, Law, Track, of_ball, press, set_time, touches
+from physics._jit import njit_lean
+from physics.contact import ACTIVE, Law, Track, compression_of, of_ball, touches
 from physics.motion import MotionModel, outer_load, relative_acceleration
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ SMALLEST_SHARE = 1e-9
 MOST_ITERATIONS = 60
 
 
-@njit
+@njit_lean
 def relative_motion(
     motion: MotionModel, time: float, step: float, state: Array, force: tuple[float, float], ends: Array
 ) -> None:
@@ -32,7 +32,7 @@ def relative_motion(
         ends[2, axis] = step * step * relative_acceleration(motion, state, axis, load[axis], force[axis])
 
 
-@njit
+@njit_lean
 def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float]:
     """Value, and derivative to the share x, of the quintic through both ends at the share `x` (0 to 1) of the step."""
     rise = end[0, axis] - begin[0, axis] - begin[1, axis] - 0.5 * begin[2, axis]
@@ -46,83 +46,60 @@ def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float
     return value, slope
 
 
-@njit
+@njit_lean
 def contact_condition(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    ball: int,
-    time: float,
-    step: float,
-    share: float,
-    begin: Array,
-    end: Array,
-) -> float:
-    """A number that is above zero while `ball` touches, at the `share` of the step."""
-    set_time(balls, frames, track, time + share * step)
+    balls: Array, law: Law, track: Track, ball: int, time: float, step: float, share: float, begin: Array, end: Array
+) -> tuple[float, float]:
+    """A number above zero while `ball` touches, at the `share` of the step, and its rate of compression, m/s."""
     x, u = quintic(begin, end, 0, share)
     y, v = quintic(begin, end, 1, share)
-    press(balls, frames, law, x, y, u / step, v / step)
+    compression, rate = compression_of(balls, track, ball, time + share * step, x, y, u / step, v / step)
     if law.no_tension:
         # Compression (m) is brought to the scale of a force so that one number carries both conditions.
-        return min(law.stiffness * 1e-3 * of_ball(balls, COMPRESSION, ball), of_ball(balls, LAW, ball))
-    return of_ball(balls, COMPRESSION, ball)
+        force = law.stiffness * max(compression, 0.0) ** law.exponent + law.damping * rate
+        return min(law.stiffness * 1e-3 * compression, force), rate
+    return compression, rate
 
 
-@njit
+@njit_lean
 def earliest_change(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    time: float,
-    step: float,
-    begin: Array,
-    end: Array,
-    suspects: Array,
-) -> tuple[float, int]:
-    """Share of the step and number of the ball that first contradicts the contact set.
+    balls: Array, law: Law, track: Track, time: float, step: float, begin: Array, end: Array, suspects: Array
+) -> tuple[float, int, float]:
+    """Share of the step, number and rate of compression (m/s) of the ball that first contradicts the contact set.
 
     `suspects` (M,) holds, per ball, the share of the step at which it was seen to contradict the set, or 0.
-    Returns (2.0, −1) if no suspect is confirmed.
+    Returns (2.0, −1, 0.0) if no suspect is confirmed.
     """
-    first_share, first_ball = 2.0, -1
+    first_share, first_ball, first_rate = 2.0, -1, 0.0
     for ball in range(suspects.size):
         if suspects[ball] > 0.0:
-            share = _root(balls, frames, law, track, ball, time, step, begin, end, min(suspects[ball], first_share))
+            upper = min(suspects[ball], first_share)
+            share, rate = _root(balls, law, track, ball, time, step, begin, end, upper)
             if share < first_share:
-                first_share, first_ball = share, ball
-    return first_share, first_ball
+                first_share, first_ball, first_rate = share, ball, rate
+    return first_share, first_ball, first_rate
 
 
-@njit
+@njit_lean
 def _root(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    ball: int,
-    time: float,
-    step: float,
-    begin: Array,
-    end: Array,
-    upper: float,
-) -> float:
-    """Earliest share at which `ball` leaves the state the contact set gives it, or 2.0 if it does not up to `upper`."""
+    balls: Array, law: Law, track: Track, ball: int, time: float, step: float, begin: Array, end: Array, upper: float
+) -> tuple[float, float]:
+    """Earliest share at which `ball` leaves the contact set's state, and the rate there; 2.0 if not by `upper`."""
     sign = 1.0 if of_ball(balls, ACTIVE, ball) > 0.5 else -1.0
-    high = upper
-    at_high = sign * contact_condition(balls, frames, law, track, ball, time, step, high, begin, end)
+    high, low = upper, 0.0
+    value, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)
+    at_high = sign * value
     if at_high > 0.0:
-        return 2.0
-    low = 0.0
-    at_low = sign * contact_condition(balls, frames, law, track, ball, time, step, low, begin, end)
+        return 2.0, 0.0
+    value, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+    at_low = sign * value
     if at_low <= 0.0:
         # A ball toggled at the start of the step sits at zero to round-off: look just behind it.
         low = 1e-4 * upper
-        at_low = sign * contact_condition(balls, frames, law, track, ball, time, step, low, begin, end)
+        value, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+        at_low = sign * value
         if at_low <= 0.0:
-            return 0.0
+            return 0.0, rate_low
     side = 0
     for _ in range(MOST_ITERATIONS):
         if high - low <= SMALLEST_SHARE:
@@ -130,7 +107,8 @@ def _root(
         middle = (at_low * high - at_high * low) / (at_low - at_high)
         if not low < middle < high:
             middle = 0.5 * (low + high)
-        value = sign * contact_condition(balls, frames, law, track, ball, time, step, middle, begin, end)
+        value, rate = contact_condition(balls, law, track, ball, time, step, middle, begin, end)
+        value *= sign
         if value > 0.0:
             low, at_low = middle, value
             if side == 1:
@@ -143,10 +121,10 @@ def _root(
             side = -1
             if value > -1e-18:
                 break
-    return high
+    return high, rate
 
 
-@njit
+@njit_lean
 def mark_suspects(balls: Array, law: Law, share: float, suspects: Array) -> None:
     """Note `share` for every ball that contradicts the contact set now and was not noted before."""
     for ball in range(suspects.size):

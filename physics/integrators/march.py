@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit, specialise
+from physics._jit import njit, njit_lean, specialise
 from physics.contact import ACTIVE, FORCE, Law, Track, count_changes, of_ball, press, reset_contact, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
@@ -30,8 +30,10 @@ MOST_CHANGES_PER_STEP = 100
 SHORTEST_GRADED_SHARE = 1.0 / 16.0
 LARGEST_ACCELERATION = 1e12
 
-# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension.
-LOGGED, UNLOCATED, HELD, PULLED = range(4)
+# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension, steps;
+# and for the next sample, balls in contact and in tension at the last.
+LOGGED, UNLOCATED, HELD, PULLED, STEPS, HELD_BEFORE, PULLED_BEFORE = range(7)
+TALLY_ENTRIES = 7
 
 
 class Grid(NamedTuple):
@@ -53,7 +55,8 @@ class Output(NamedTuple):
     """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
     (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
     `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
-    contact set; `tally` (4,)."""
+    contact set; `tally` (7,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are wrong, if the
+    method knows."""
 
     acceleration: Array
     state: Array
@@ -64,6 +67,7 @@ class Output(NamedTuple):
     change_made: NDArray[np.bool_]
     initial: Array
     tally: NDArray[np.int64]
+    budget: Array
 
 
 @njit
@@ -95,7 +99,8 @@ def locate(
         set_time(balls, frames, track, time + step)
         press_state(balls, frames, law, then)
     mark_suspects(balls, law, 1.0, suspects)
-    return earliest_change(balls, frames, law, track, time, step, begin, end, suspects)
+    share, ball, _ = earliest_change(balls, law, track, time, step, begin, end, suspects)
+    return share, ball
 
 
 @njit
@@ -104,7 +109,7 @@ def press_state(balls: Array, frames: Array, law: Law, state: Array) -> tuple[fl
     return press(balls, frames, law, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
 
 
-@njit
+@njit_lean
 def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
     """Move `ball` to the other side of the contact set and log it."""
     made = of_ball(balls, ACTIVE, ball) < 0.5

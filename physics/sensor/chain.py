@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.checks import require_not_negative
-from physics.sensor.mode import SensorMode, mode_acceleration
+from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
 from physics.sensor.recorder import Recorder
 from physics.trace import Trace
@@ -44,12 +44,13 @@ def sensed(chain: SensorChain, trace: Trace) -> Array:
     InvalidParameter if a resonance or the cutoff does not lie below half the trace's rate.
     """
     signal = trace.acceleration if chain.resonator_gain == 1.0 else chain.resonator_gain * trace.acceleration
-    for mode in chain.modes:
-        signal = signal + _of_outer_ring(mode, trace)
+    if chain.modes:
+        signal = signal + _of_outer_ring(chain.modes, trace)
     return signal if chain.mounting is None else mounted(chain.mounting, signal, trace.rate)
 
 
-def _of_outer_ring(mode: SensorMode, trace: Trace) -> Array:
+def _of_outer_ring(modes: tuple[SensorMode, ...], trace: Trace) -> Array:
     if trace.outer_displacement is None or trace.outer_velocity is None or trace.outer_acceleration is None:
         raise ValueError("sensor modes need a trace that kept the outer ring's motion: simulate(..., keep_outer=True)")
-    return mode_acceleration(mode, trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration, trace.rate)
+    motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
+    return mode_accelerations(modes, *motion, trace.rate)

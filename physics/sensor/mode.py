@@ -6,6 +6,7 @@ With z the stretch of the spring, z̈ + 2ζω ż + ω² z = −ẍo, the mass ac
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,25 +38,31 @@ class SensorMode:
         require_finite("gain", self.gain)
 
 
-def mode_acceleration(
-    mode: SensorMode, displacement: Array, velocity: Array, acceleration: Array, rate: float
+def mode_accelerations(
+    modes: Sequence[SensorMode], displacement: Array, velocity: Array, acceleration: Array, rate: float
 ) -> Array:
-    """Acceleration (T, 2) of the mode, m/s², at rest at t = 0, from the outer ring's motion (T, 2) at `rate` (Hz).
+    """Sum of the modes' accelerations (T, 2), m/s², at rest at t = 0, from the outer ring's motion (T, 2) at `rate`.
 
     Exact for the motion between two samples that is the polynomial of degree 5 through displacement (m), velocity
     (m/s) and acceleration (m/s²) at both, so that a push that ends between samples keeps its size. InvalidParameter if
-    the resonance does not lie below half the rate.
+    a resonance does not lie below half the rate.
     """
-    require_below_nyquist(mode.frequency, rate)
     push = _cubics(displacement, velocity, acceleration, 1.0 / rate)
+    return sum((_driven(mode, push, rate) for mode in modes), np.zeros_like(acceleration))
+
+
+def _driven(mode: SensorMode, push: Array, rate: float) -> Array:
+    """Acceleration (T, 2) of one mode under the cubics (4, T − 1, 2) of the outer ring's acceleration."""
+    require_below_nyquist(mode.frequency, rate)
     transition, response = _discretised(mode, 1.0 / rate)
-    force = np.einsum("im,mka->ika", response, -push)
     omega = 2.0 * math.pi * mode.frequency
     read = -np.array([omega**2, 2.0 * mode.damping * omega])
     trace, determinant = float(np.trace(transition)), float(np.linalg.det(transition))
-    source = np.zeros_like(acceleration)
-    source[1:] = np.einsum("i,ika->ka", read, force)
-    source[2:] += np.einsum("i,ika->ka", read @ transition - trace * read, force[:, :-1])
+    now, before = -read @ response, -(read @ transition - trace * read) @ response
+    source = np.zeros((push.shape[1] + 1, 2))
+    for power in range(CUBIC):
+        source[1:] += now[power] * push[power]
+        source[2:] += before[power] * push[power, :-1]
     return mode.gain * np.asarray(lfilter([1.0], [1.0, -trace, determinant], source, axis=0))
 
 

@@ -129,8 +129,9 @@ def plain_labels(index: int, spall: Spall | None) -> dict[str, Any]:
 def plain_passes(count: int, start: float) -> PassTable:
     """A table of `count` complete passes that begin at `start` (s)."""
     one, time = np.ones(count, np.int16), np.full(count, start)
-    truth = np.ones(count, np.bool_)
-    return PassTable(one, one, one - 1, time, time + 0.01, time + 0.02, time + 0.005, time + 0.015, truth, truth)
+    truth, gone = np.ones(count, np.bool_), np.full(count, np.nan)
+    begun, over = time + 0.005, time + 0.015
+    return PassTable(one, one, one - 1, time, time + 0.01, time + 0.02, begun, over, truth, truth, gone, gone)
 
 
 @pytest.fixture

@@ -12,7 +12,20 @@ from datagen.cli import app
 from datagen.plain import plain_json
 
 ROOT = Path(__file__).parents[2]
-COMMANDS = ("generate", "import", "check", "info", "preview", "chart", "catalog", "schema")
+COMMANDS = (
+    "generate",
+    "import",
+    "check",
+    "info",
+    "preview",
+    "report",
+    "paper",
+    "chart",
+    "classify",
+    "size",
+    "catalog",
+    "schema",
+)
 HEAVY = ("numpy", "numba", "xarray", "scipy", "pandas", "netCDF4", "pydantic", "joblib", "matplotlib", "rich")
 
 

@@ -23,8 +23,8 @@ def scenarios(name: str) -> list[Scenario]:
     return [draw_scenario(recipe, record) for record in range(recipe.count)]
 
 
-def test_the_shipped_datasets_are_the_three_promised() -> None:
-    assert sorted(shipped_recipes()) == ["fan_rig", "gearbox_rig", "quickstart"]
+def test_the_promised_datasets_are_shipped() -> None:
+    assert {"corpus", "fan_rig", "gearbox_rig", "quickstart", "size_ladder", "transfer"} <= set(shipped_recipes())
 
 
 @pytest.mark.parametrize(
@@ -107,3 +107,29 @@ def test_the_quick_start_holds_sixty_records_of_both_rigs_with_every_class_in_ev
 def test_outer_spalls_of_the_datasets_lie_near_the_load_zone() -> None:
     spalls: list[Spall] = [s.scene.spalls[0] for s in scenarios("quickstart") if s.location == "outer"]
     assert all(math.radians(225) <= spall.angle <= math.radians(315) for spall in spalls)
+
+
+def test_the_size_ladder_spans_lengths_tapers_loads_speeds_and_noises_in_the_shares_it_states() -> None:
+    recipe = load_recipe("size_ladder")
+    # Every fifth record of the parts with spalls shorter than the spacing: enough for shares, quick to draw.
+    drawn = [draw_scenario(recipe, record) for record in range(0, 1200, 5)]
+    spalls = [scenario.scene.spalls[0] for scenario in drawn]
+    spacings = [s.extent / scenario.scene.rig.bearing.spacing for s, scenario in zip(spalls, drawn, strict=True)]
+    lengths = [spall.length(scenario.scene.rig.bearing) for spall, scenario in zip(spalls, drawn, strict=True)]
+    assert min(lengths) >= 0.3e-3 * (1.0 - 1e-12)
+    assert max(spacings) <= 0.9 + 1e-3  # 0.9 spacings are stated in mm, rounded to 0.01 mm
+    # Log-uniform: about half lie below the geometric mean of the ends (1.7 mm or so); 5 standard deviations of 240.
+    assert abs(sum(length < 1.75e-3 for length in lengths) / len(lengths) - 0.5) < 0.17
+    shares = [(spall.entry_taper / spall.extent, spall.exit_taper / spall.extent) for spall in spalls]
+    assert all(0.05 <= entry <= 0.9 and 0.02 <= leave <= 0.2 for entry, leave in shares)
+    loads = [scenario.scene.operation.load / scenario.scene.rig.rated_load for scenario in drawn]
+    speeds = [scenario.scene.operation.shaft_speed * 30.0 / math.pi for scenario in drawn]
+    assert (min(loads) >= 0.2, max(loads) <= 5.0, min(speeds) >= 300.0, max(speeds) <= 3000.0) == (True,) * 4
+    noises = Counter(scenario.noise_target.ratio_db for scenario in drawn if scenario.noise_target is not None)
+    assert set(noises) == {200.0, 20.0, 10.0, 5.0, 0.0}
+    assert all(0.1 < count / len(drawn) < 0.3 for count in noises.values())  # equal shares, 4 deviations of 240 records
+    assert {spall.race for spall in spalls} == {"outer", "inner"}
+    assert {spall.profile for spall in spalls} == {"tukey", "ball_path"}
+    longest = [draw_scenario(recipe, record) for record in range(1200, 1344, 6)]
+    extents = [scenario.scene.spalls[0].extent / scenario.scene.rig.bearing.spacing for scenario in longest]
+    assert (min(extents) >= 0.9, max(extents) <= 2.0, max(extents) > 1.5) == (True, True, True)

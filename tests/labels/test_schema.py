@@ -85,5 +85,10 @@ def test_every_list_of_components_is_a_dimension_of_the_format():
     assert {label.components for label in LABELS if label.components} <= coordinates
 
 
-def test_only_release_and_regain_may_be_missing_from_a_pass():
-    assert [variable.name for variable in PASSES if variable.missing] == ["release_time", "regain_time"]
+def test_only_what_happens_to_its_load_may_be_missing_from_a_pass():
+    assert [variable.name for variable in PASSES if variable.missing] == [
+        "release_time",
+        "regain_time",
+        "fall_time",
+        "rise_time",
+    ]

@@ -24,6 +24,7 @@ def labels(**changes):
         "record": 17, "rate_hz": 65536.0, "duration_s": 0.5, "speed_rpm": 420.0, "load_n": 346.0, "extent_mm": 0.8,
         "depth": 12e-6, "extent": math.radians(2.0), "bearing_id": "gearbox-3", "bearing": "koyo_1205", "bpfo": 4.9,
         "bpfi": 7.1, "bsf": 2.6, "ftf": 0.41, "condition": "line", "location": "outer",
+        "recording": "", "channel": "", "model": "contact",
     }  # fmt: skip
     return values | changes
 
@@ -35,7 +36,7 @@ def test_every_alias_names_one_of_our_labels():
 def test_every_location_and_condition_has_a_word_there():
     assert set(FAULT_TYPE) == {*LOCATIONS, *LABEL["location"].imported}
     assert set(FAULT_TYPE.values()) <= set(FAULT_TYPES)
-    assert set(SEVERITY) == set(CONDITIONS)
+    assert set(SEVERITY) == {*CONDITIONS, *LABEL["condition"].imported}
 
 
 def test_a_faulty_record_reads_like_one_of_theirs():

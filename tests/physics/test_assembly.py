@@ -8,7 +8,16 @@ import pytest
 
 from physics.assembly import assemble, race_speed
 from physics.cage import CagePath, draw_slip_knots
-from physics.contact import COMPRESSION, FRAME_COSINE, FRAME_SINE, FRAME_SPEED, press, reset_contact, set_time
+from physics.contact import (
+    BALL_ROWS,
+    COMPRESSION,
+    FRAME_COSINE,
+    FRAME_SINE,
+    FRAME_SPEED,
+    press,
+    reset_contact,
+    set_time,
+)
 
 REST, MOVING = (1e-6, -6e-6), (2e-3, -3e-3)
 
@@ -38,7 +47,7 @@ def test_the_contact_angle_enters_as_its_cosine_to_the_power_n_plus_1(gearbox, b
 
 def test_padding_never_touches(gearbox, build_scene):
     model = assemble(build_scene(gearbox, bearing={"rows": 1, "balls": 7}))
-    assert model.balls.shape == (1, 9, 8)
+    assert model.balls.shape == (1, BALL_ROWS, 8)
     assert model.ball.tolist() == [0, 1, 2, 3, 4, 5, 6, -1]
     assert model.row.tolist() == [0] * 7 + [-1]
     set_time(model.balls, model.frames, model.track, 0.1)
@@ -49,10 +58,10 @@ def test_padding_never_touches(gearbox, build_scene):
 def test_rows_of_one_cage_lie_side_by_side_and_rows_of_two_cages_apart(gearbox, build_scene):
     scene = build_scene(gearbox)
     together = assemble(scene)
-    assert together.balls.shape == (1, 9, 24)
+    assert together.balls.shape == (1, BALL_ROWS, 24)
     assert together.row.tolist() == [0] * 12 + [1] * 12
     apart = assemble(dataclasses.replace(scene, second_cage=scene.cage))
-    assert apart.balls.shape == (2, 9, 12)
+    assert apart.balls.shape == (2, BALL_ROWS, 12)
     assert apart.row.tolist() == together.row.tolist()
     assert apart.ball.tolist() == together.ball.tolist() == [*range(12), *range(12)]
     assert net_force(scene) == pytest.approx(net_force(dataclasses.replace(scene, second_cage=scene.cage)), rel=1e-12)

@@ -30,7 +30,7 @@ def with_bearing(scene, **changes):
 @pytest.mark.parametrize(
     ("request_made", "told"),
     [
-        ({"method": "euler"}, 'method = "euler"; allowed: exponential_rk4, reference'),
+        ({"method": "euler"}, 'method = "euler"; allowed: exponential_rk4, runge_kutta4, '),
         ({"rate": 0.0}, r"rate = 0\.0 Hz; it must be above 0"),
         ({"rate": -5.0}, r"rate = -5\.0 Hz"),
         ({"rate": math.nan}, "rate = nan Hz"),

@@ -17,6 +17,7 @@ from datagen.recipes.spelling import suggestion
 Arrays = Mapping[str, NDArray[Any]]
 INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
 MOST_NAMES = 12
+ONLY_NAME = "data"
 
 
 class NoVariable(BadInput):

@@ -11,9 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.recordings.formats.arrays import Arrays
-
-ONLY_NAME = "data"
+from datagen.recordings.formats.arrays import ONLY_NAME, Arrays
 
 
 class _Members(Mapping[str, NDArray[Any]]):

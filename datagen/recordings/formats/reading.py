@@ -24,12 +24,18 @@ READERS: dict[str, Callable[[Path], Arrays]] = {
 }
 
 
-def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
-    """The arrays of a file whose format is `stated` or follows from its ending; raises BadInput."""
+def file_format(path: Path, stated: str | None) -> str:
+    """The format that is `stated`, or that the file's ending says; raises BadInput if it says none."""
     ending = path.suffix.lower().removeprefix(".")
     kind = stated or ENDINGS.get(ending, ending)
     if kind not in FORMATS:
         raise BadInput("the file's ending says no known format", str(path), "format", ending, ", ".join(FORMATS))
+    return kind
+
+
+def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
+    """The arrays of a file whose format is `stated` or follows from its ending; raises BadInput."""
+    kind = file_format(path, stated)
     try:
         return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
     except FileNotFoundError:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from datagen.errors import BadInput
-from datagen.recordings.formats.arrays import Arrays
+from datagen.recordings.formats.arrays import ONLY_NAME, Arrays
 
 RATE_NAME = "rate_hz"
 
@@ -26,7 +26,7 @@ def read_wav(path: Path) -> Arrays:
         raise BadInput(
             f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
         ) from None
-    return {"data": _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
+    return {ONLY_NAME: _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
 
 
 def _full_scale(samples: np.ndarray) -> np.ndarray:

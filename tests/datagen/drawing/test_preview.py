@@ -7,7 +7,7 @@ import pytest
 from datagen.drawing.frequency_panels import cursors
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.preview import draw_preview
+from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, plt
 from datagen.drawing.time_panels import _lanes, vertical_modes
@@ -15,6 +15,7 @@ from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
 from labels.description import label_values
 from labels.envelope import band_envelope, default_band
 from labels.truth import ball_passes
@@ -238,6 +239,59 @@ def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file,
     assert drawn["released"] >= drawn["passes"] - 2
     for name in ("recipe.png", "corpus.png"):
         assert png_size((tmp_path / name).read_bytes()) == (WIDTH * DPI, HEIGHT * DPI)
+
+
+def with_parts():
+    """A portrait whose background and mounted sensor are known."""
+    drawn = portrait("line, outer")
+    sensor = 0.5 * drawn.clean
+    background = drawn.acceleration - drawn.clean
+    return Portrait(
+        **vars_of(drawn) | {"acceleration": sensor + background, "sensor": sensor, "background": background}
+    )
+
+
+def test_clean_signal_background_and_their_sum_are_drawn_one_below_the_other():
+    drawn = with_parts()
+    with house_style():
+        figure = draw_sheet(drawn)
+        strips = {axes.get_title(loc="left").split()[0]: axes for axes in figure.axes[:3]}
+        spectra = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Amplitude"))
+        plt.close(figure)
+    assert list(strips) == ["Clean", "Background", "Sum,"]
+    for name, signal in (("Clean", drawn.sensor), ("Background", drawn.background), ("Sum,", drawn.acceleration)):
+        assert np.array_equal(strips[name].lines[0].get_ydata(), signal[:, 1])
+        assert f"RMS {np.sqrt(np.mean(signal[:, 1] ** 2)):.3g} m/s²" in strips[name].get_title(loc="left")
+    assert "background" in [line.get_label() for line in spectra.lines]
+
+
+def test_a_record_without_background_has_no_strips():
+    drawn = Portrait(**vars_of(with_parts()) | {"background": np.zeros((round(RATE * DURATION), 2))})
+    assert not drawn.has_parts
+    assert not portrait("line, outer").has_parts
+
+
+SENSORS = """
+[chain]
+modes = [{frequency_hz = 3000, damping = 0.02}]
+[background]
+pink.rms_m_s2 = 0.1
+mains_hum.amplitude_m_s2 = 0.05
+"""
+
+
+@pytest.mark.parametrize("stored", ["", "sensor = true\nbackground = true", "sensor = true"])
+def test_the_parts_of_a_stored_record_are_those_of_its_recipe(stored, tmp_path):
+    text = RECIPE.replace("[[part]]", SENSORS + "[[part]]").replace("clean = true", f"clean = true\n{stored}")
+    (tmp_path / "recipe.toml").write_text(text.replace("[part.background]\nwhite_rms_m_s2 = 0.02\n", ""))
+    made = recipe_portrait(tmp_path / "recipe.toml", 1)
+    generate(load_recipe(tmp_path / "recipe.toml"), tmp_path / "corpus", engine=Engine(workers=1))
+    read = corpus_portrait(tmp_path / "corpus", 1)
+    assert np.allclose(read.background, made.background, atol=1e-6)  # layers rounded to float32
+    assert made.has_parts
+    assert read.has_parts
+    assert np.allclose(read.sensor, made.sensor, atol=1e-5)
+    assert np.allclose(made.sensor + made.background, made.acceleration, atol=1e-5)  # float32 of each
 
 
 @pytest.mark.parametrize(

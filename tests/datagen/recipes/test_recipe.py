@@ -148,7 +148,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
             "at most 2, the records of each machine",
         ),
         ("records = 5", 'records = 5\ndesign = "sobel"', "part[1].design", "'sobol'"),
-        ("records = 5", 'records = 100001\ndesign = "latin_hypercube"', "part[1].design", "at most 100000 records"),
+        ("records = 5", 'records = 50001\ndesign = "latin_hypercube"', "part[1].design", "at most 50000 records"),
         ('"gearbox"', '"drawn"', "part[1].machine.bearing", "a drawn rig needs this setting"),
         (
             '"gearbox"',

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -16,12 +17,18 @@ from datagen.recipes.recipe_schema import recipe_schema, schema_text
 DATASETS = Path(__file__).parents[3] / "datasets"
 TYPES = {"number": (int, float), "integer": int, "string": str, "boolean": bool, "array": list, "object": dict}
 SCHEMA = recipe_schema()
+SUFFIXES = {
+    "µm": "_um", "mm": "_mm", "degrees": "_deg", "rpm": "_rpm", "Hz": "_hz", "kg": "_kg", "N/m": "_n_per_m",
+    "N s/m": "_n_s_per_m", "N": "_n", "m/s²": "_m_s2", "s": "_s", "dB": "_db", "µs": "_us", "mm/s": "_mm_per_s",
+    "N/mⁿ": "_n_per_m_to_n",
+}  # fmt: skip
 
 
 def accepts(schema: dict[str, Any], value: Any) -> bool:
     """Whether `value` is valid: the keywords that the schema of recipes uses, and no other."""
     rules = {
         "$ref": lambda to: accepts(SCHEMA["$defs"][to.removeprefix("#/$defs/")], value),
+        "allOf": lambda schemas: all(accepts(one, value) for one in schemas),
         "anyOf": lambda options: any(accepts(option, value) for option in options),
         "enum": lambda allowed: any(type(option) is type(value) and option == value for option in allowed),
         "const": lambda only: only == value,
@@ -90,6 +97,16 @@ def test_every_key_has_a_description_and_no_null() -> None:
     assert ": null" not in schema_text()
 
 
+def test_a_key_carries_the_unit_that_its_description_states_and_no_other() -> None:
+    units = "|".join(re.escape(unit) for unit in sorted(SUFFIXES, key=len, reverse=True))
+    for table in SCHEMA["$defs"].values():
+        for key, value in table.get("properties", {}).items():
+            stated = re.findall(rf", ({units})(?=[.;,:]|$)", value["description"])
+            carried = [suffix for suffix in SUFFIXES.values() if key.endswith(suffix)]
+            assert bool(stated) == bool(carried), key
+            assert not stated or any(SUFFIXES[unit] in carried for unit in stated), key
+
+
 def test_a_setting_takes_a_bare_value_of_its_range_or_any_distribution_of_such_values() -> None:
     spall = SCHEMA["$defs"]["SpallSettings"]
     assert spall["additionalProperties"] is False
@@ -97,7 +114,7 @@ def test_a_setting_takes_a_bare_value_of_its_range_or_any_distribution_of_such_v
     assert "µm" in depth["description"]
     assert accepts(depth, 12)
     assert not accepts(depth, -12)
-    kind = SCHEMA["$defs"][depth["$ref"].removeprefix("#/$defs/")]["anyOf"]
+    kind = SCHEMA["$defs"][depth["allOf"][0]["$ref"].removeprefix("#/$defs/")]["anyOf"]
     assert kind[0] == {"type": "number", "minimum": 0.0, "maximum": 10000.0}
     assert [next(iter(table["properties"])) for table in kind[1:]] == list(NAMES)
     race = SCHEMA["$defs"]["DefectSettings"]["properties"]["race"]

@@ -40,6 +40,8 @@ def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
         (("rate_hz = 1000", "rate_hz = -5"), "recording[1].rate_hz = -5; allowed: a number above 0"),
         (('unit = "g"\n', ""), "recording[1] (all): unit: the unit of the samples is not given; allowed: m/s2, g"),
         (('unit = "g"', 'unit = "G"'), 'line 5: recording[1].unit = "G"; allowed: m/s2, g'),
+        (('"*.mat"', '"/*.mat"'), 'recording[1] (all): files = "/*.mat"; allowed: as in "folder/*.mat"'),
+        (('"*.mat"', '""'), 'recording[1] (all): files = ""; allowed: as in'),
         (('"*.mat"', '"*.tam"'), 'recording[1] (all): files = "*.tam": no file below'),
     ],
 )  # fmt: skip
@@ -185,3 +187,35 @@ def test_the_command_ends_with_2_and_one_line_without_a_traceback(tmp_path: Path
         assert done.stderr.startswith("error: ")
         assert done.stderr.count("\n") == 1
     assert not (tmp_path / "c").exists()
+
+
+@pytest.mark.parametrize("trouble", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_an_import_that_breaks_off_while_writing_leaves_nothing(
+    trouble: BaseException, bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def breaks(*_: object) -> None:
+        raise trouble
+
+    mat("a.mat")
+    monkeypatch.setattr("datagen.recordings.importing.write_index", breaks)
+    with pytest.raises((BadInput, KeyboardInterrupt)):
+        bring(GOOD)
+    assert {path.name for path in tmp_path.iterdir()} == {"a.mat", "spec.toml"}
+
+
+def test_a_file_that_changes_during_the_import_is_noticed(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from datagen.recordings import importing, source
+
+    def meddling(*arguments: object) -> object:
+        mat("a.mat", noise(seed=99))
+        source._opened.cache_clear()
+        return manifest(*arguments)
+
+    mat("a.mat", noise(seed=1))
+    manifest = importing._manifest
+    monkeypatch.setattr(importing, "_manifest", meddling)
+    with pytest.raises(BadInput, match=r"a\.mat: the file has changed while it was imported"):
+        bring(GOOD)
+    assert not (tmp_path / "corpus").exists()

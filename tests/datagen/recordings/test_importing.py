@@ -194,3 +194,38 @@ def test_a_changed_file_of_an_imported_corpus_is_found(bring: Bring, mat: Mat, t
     assert check_corpus(tmp_path / "corpus").problems == (
         "manifest.json: its SPEC and files are not those whose hash it states",
     )
+
+
+def test_the_name_of_the_channel_alone_does_not_replace_its_variable(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    samples = mat("a.mat")
+    (tmp_path / "t.csv").write_text("file,channel_name\na.mat,DE\n")
+    corpus = bring('[[recording]]\nname = "all"\nunit = "m/s2"\nrate_hz = 1000\ny = "sig"\ntable = "t.csv"\n')
+    assert corpus.labels["recording"].tolist() == ["a DE"]
+    assert np.array_equal(corpus.signal(0), as_stored(samples, 1.0))
+
+
+def test_a_tach_beside_the_vibration_of_a_wave_file_is_timed_by_the_files_rate(bring: Bring, tmp_path: Path) -> None:
+    pulses = np.tile(np.repeat([0, 8000], [60, 20]), 50)
+    frames = np.stack([np.random.default_rng(0).integers(-9000, 9000, pulses.size), pulses], axis=1)
+    with wave.open(str(tmp_path / "a.sound"), "wb") as file:
+        file.setnchannels(2)
+        file.setsampwidth(2)
+        file.setframerate(4000)
+        file.writeframes(frames.astype("<i2").tobytes())
+    corpus = bring(
+        '[[recording]]\nname = "all"\nfiles = "*.sound"\nformat = "wav"\nunit = "g"\ny = "data[:,0]"\n'
+        'tach = {variable = "data[:,1]"}\n'
+    )
+    assert corpus.labels["rate_hz"][0] == 4000.0
+    assert corpus.labels["speed_rpm"][0] == pytest.approx(60.0 * 4000.0 / 80.0, rel=1e-12)
+
+
+def test_a_table_may_name_a_file_outside_the_root(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    samples = mat("elsewhere/a.mat")
+    (tmp_path / "inside").mkdir()
+    (tmp_path / "t.csv").write_text(f"file\n{tmp_path}/elsewhere/a.mat\n")
+    corpus = bring(
+        'root = "inside"\n[[recording]]\nname = "all"\nunit = "m/s2"\nrate_hz = 1000\ny = "sig"\ntable = "t.csv"\n'
+    )
+    assert corpus.labels["source_file"][0] == f"{tmp_path}/elsewhere/a.mat"
+    assert np.array_equal(corpus.signal(0), as_stored(samples, 1.0))

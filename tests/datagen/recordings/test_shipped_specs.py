@@ -43,7 +43,7 @@ def cwru(tmp_path: Path) -> Path:
         "12k/132@6_2.mat": {"X132_DE_time": column(8), "X132RPM": np.array([[1750.0]])},
         "3004.mat": {"X059_DE_time": column(9)},
         "3005.mat": {"X048_DE_time": column(10)},
-        "48k/174.mat": {"X173_DE_time": column(11), "X173_FE_time": column(12)},
+        "48k/174.mat": {"X173_DE_time": column(11), "X173RPM": np.array([[1796.0]])},
         "12k_Fan_End_IR007_0_278.mat": {"X278_DE_time": column(13), "X278_FE_time": column(14)},
     }
     for name, variables in files.items():
@@ -57,9 +57,9 @@ def test_files_laid_out_as_the_bearing_data_center_publishes_them_come_in(cwru: 
     assert told.startswith("152 not there: 100.mat, 106.mat, ")
     table = corpus.labels.set_index("recording")
     assert list(table.index) == ["97", "98", "99", "105", "132", "3004", "3005", "174", "278"]
-    assert table["speed_rpm"].tolist() == [1796, 1772, 1750, 1797, 1750, 1730, 1797, 1797, 1797]
+    assert table["speed_rpm"].tolist() == [1796, 1772, 1750, 1797, 1750, 1730, 1797, 1796, 1797]
     measured = [name for name in table.index if table["speed_basis"][name] == "measured"]
-    assert measured == ["97", "105", "132"]
+    assert measured == ["97", "105", "132", "174"]
     assert set(table["rate_hz"][["97", "98", "99", "174"]]) == {48000.0}
     assert set(table["rate_hz"][["105", "132", "3004", "3005", "278"]]) == {12000.0}
     assert table["location"].tolist() == ["none"] * 3 + ["inner", "outer", "inner", "ball", "inner", "inner"]

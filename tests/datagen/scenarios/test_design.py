@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import qmc
 
 from datagen.recipes.recipe import Recipe, parse_recipe
-from datagen.scenarios import design
+from datagen.scenarios import design, machine
 from datagen.scenarios.design import BLOCK, DIMENSIONS, TOTAL, Design, dimension_of
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -55,6 +55,12 @@ def test_a_latin_hypercube_is_exact_for_a_number_of_records_that_is_no_power_of_
         assert sorted(np.floor(column * 45).astype(int)) == list(range(45))
 
 
+def test_the_strata_of_different_settings_are_shuffled_apart() -> None:
+    numbers = unit_cube(draw_all(recipe_of("latin_hypercube", 64)))
+    correlation = np.corrcoef(numbers.T)[np.triu_indices(3, 1)]
+    assert np.all(np.abs(correlation) < 0.5)  # four standard deviations, 1/√63 each
+
+
 def test_machines_and_records_are_stratified_each_among_themselves() -> None:
     scenarios = draw_all(recipe_of("sobol", 128, records_per_machine=4))
     numbers = unit_cube(scenarios)
@@ -62,8 +68,8 @@ def test_machines_and_records_are_stratified_each_among_themselves() -> None:
     assert sorted(np.floor(numbers[::4, 2] * 32).astype(int)) == list(range(32))
     assert len({scenario.bearing_id for scenario in scenarios}) == 32
     # within a machine, four neighbouring points of a Sobol sequence fall into four quarters of each setting
-    for machine in numbers[:, 0].reshape(32, 4):
-        assert sorted(np.floor(machine * 4).astype(int)) == [0, 1, 2, 3]
+    for speeds in numbers[:, 0].reshape(32, 4):
+        assert sorted(np.floor(speeds * 4).astype(int)) == [0, 1, 2, 3]
 
 
 def test_a_sobol_design_fills_the_joint_space_more_evenly_than_random_draws() -> None:
@@ -92,6 +98,7 @@ def test_a_designed_record_is_remade_alone_and_in_any_order(kind: str) -> None:
     forward = draw_all(recipe_of(kind, 12, records_per_machine=3))
     design._sobol_block.cache_clear()
     design._latin_cells.cache_clear()
+    machine._first_possible.cache_clear()
     assert draw_scenario(recipe_of(kind, 12, records_per_machine=3), 7) == forward[7]
     assert [draw_scenario(recipe_of(kind, 12, records_per_machine=3), k) for k in range(11, -1, -1)] == forward[::-1]
 

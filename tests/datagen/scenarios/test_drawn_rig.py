@@ -141,7 +141,7 @@ def test_altered_geometry_scales_the_catalogues_k_as_hertz_scales_his() -> None:
         koyo.pitch_diameter, koyo.ball_diameter, 0.0, 0.52, koyo.outer_conformity
     )
     assert rig.bearing.load_deflection == pytest.approx(koyo.load_deflection * ratio, rel=1e-14)  # two roundings
-    (given,) = rigs(1, rig="gearbox", ball_diameter_mm=7.5, load_deflection=6e9)
+    (given,) = rigs(1, rig="gearbox", ball_diameter_mm=7.5, load_deflection_n_per_m_to_n=6e9)
     assert given.bearing.load_deflection == 6e9
     (other,) = rigs(1, rig="ims", pitch_diameter_mm=75)
     assert other.bearing.load_deflection == catalog.bearing("rexnord_za2115").load_deflection
@@ -160,3 +160,8 @@ def test_drawn_balls_that_do_not_fit_are_redrawn_and_counted() -> None:
     assert {redraw.field for redraw in redraws} == {"ball_diameter"}
     assert "do not fit" in redraws[0].reason
     assert {scenario.scene.rig.bearing.balls for scenario in scenarios} == {10, 14, 18}
+
+
+def test_a_drawn_machine_comes_back_from_the_text_of_its_scenario() -> None:
+    (scenario,) = draw(1, **BEARING, **RIG)
+    assert Scenario.from_json(scenario.to_json()) == scenario

@@ -38,6 +38,7 @@ PINNED = [
 PINNED_WORDS = ("extended", "outer", "train")
 HEALTHY: dict[str, Any] = {"name": "p", "records": 40, "machine": {"rig": "gearbox"}}
 LINE = {"condition": "line", "extent_deg": 2, "depth_um": 12}
+SOFT = {"rig": "gearbox", "load_deflection_n_per_m_to_n": 1e4}
 EXTENDED = {"condition": "extended", "extent_deg": 40, "depth_um": 6}
 
 
@@ -211,7 +212,7 @@ OVERRIDES = {
     "ball_diameter_mm": (7.0, 0.007),
     "contact_angle_deg": (9.0, math.pi / 20),
     "row_offset_deg": (9.0, math.pi / 20),
-    "load_deflection": (5.5e9, 5.5e9),
+    "load_deflection_n_per_m_to_n": (5.5e9, 5.5e9),
     "exponent": (1.4, 1.4),
     "clearance_um": (-2.5, -2.5e-6),
     "inner_mass_kg": (0.7, 0.7),
@@ -283,7 +284,10 @@ def test_an_impossible_machine_is_redrawn_once_for_all_its_records() -> None:
         ({"defect": {"condition": "line", "extent_mm": 1, "depth_um": 9, "entry_taper_deg": 20}}, "entry_taper"),
         ({"defect": LINE | {"count": 2, "angle_deg": 359.5, "separation_deg": 1.5}}, "overlap: 1.5 degrees apart"),
         ({"defect": LINE | {"row": 2}, "machine": {"rig": "cwru"}}, "spall on row 2"),
-        ({"operation": {"load_n": 1e7}, "machine": {"rig": "gearbox", "load_deflection": 1e4}}, "carries the load"),
+        (
+            {"operation": {"load_n": 1e7}, "machine": {"rig": "gearbox", "load_deflection_n_per_m_to_n": 1e4}},
+            "carries the load",
+        ),
     ],
 )
 def test_what_can_never_be_drawn_is_given_up_with_the_reason(settings: dict[str, Any], words: str) -> None:

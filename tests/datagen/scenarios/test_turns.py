@@ -98,6 +98,16 @@ def test_all_records_of_a_machine_may_share_its_spall_at_their_own_speeds_and_lo
     assert Counter(machine[0].condition for machine in machines[:5]) == Counter(healthy=1, line=2, extended=2)
 
 
+def test_spalls_of_machines_are_balanced_within_each_balanced_rig() -> None:
+    rigs = {"rig": {"balanced": ["gearbox", "fan"]}}
+    often_refused = DEFECT | {"line": {"extent_spacing": {"uniform": [0.5, 1.5]}}, "drawn_for": "machine"}
+    scenarios = draw_all(recipe_of(40, machine=rigs, defect=often_refused))
+    assert {redraw.scope for scenario in scenarios for redraw in scenario.redraws} == {"machine"}
+    for rig in ("gearbox", "fan"):
+        conditions = [scenario.condition for scenario in scenarios if scenario.rig == rig]
+        assert blocks(conditions, 5) == [Counter(healthy=1, line=2, extended=2)] * 4
+
+
 def test_the_first_records_of_a_machine_may_be_from_before_its_damage() -> None:
     defect = {"condition": "line", "extent_deg": {"uniform": [1, 3]}, "depth_um": 10, "roughness_um": 1}
     whole = draw_all(recipe_of(12, records_per_machine=3, defect=defect | {"drawn_for": "machine"}))

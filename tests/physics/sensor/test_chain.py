@@ -3,7 +3,7 @@ import pytest
 
 from physics.checks import InvalidParameter
 from physics.sensor.chain import SensorChain, sensed
-from physics.sensor.mode import SensorMode, mode_acceleration
+from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
 from physics.simulate import simulate
 
@@ -21,7 +21,7 @@ def test_by_default_the_sensor_shows_the_resonators_acceleration_alone(trace):
 
 def test_modes_add_to_the_resonator_and_the_mounting_comes_last(trace):
     motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
-    parts = [mode_acceleration(mode, *motion, trace.rate) for mode in MODES]
+    parts = [mode_accelerations([mode], *motion, trace.rate) for mode in MODES]
     together = 0.5 * trace.acceleration + parts[0] + parts[1]
     chain = SensorChain(MODES, 0.5, Mounting(9000.0, 4))
     assert sensed(chain, trace) == pytest.approx(mounted(Mounting(9000.0, 4), together, trace.rate), rel=1e-12)

@@ -1,0 +1,1 @@
+"""Benchmarks of classifiers: features of corpora, training, scoring, reports."""

@@ -1,0 +1,177 @@
+"""`classify`: learn from one corpus, test on others, report."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from datagen.benchmark.importance import importances
+from datagen.benchmark.impulse_training import impulse_training, ingredients_of
+from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.rows import Reading, Rows, read_rows
+from datagen.benchmark.score_log import log_run, write_line
+from datagen.benchmark.summary import summarise
+from datagen.benchmark.training import (
+    COPIES_DB,
+    LOWEST_BANDWIDTH,
+    SPEED_ERROR,
+    Model,
+    TrainingSet,
+    joined_labels,
+    train_models,
+    train_own,
+    train_rule,
+    training_records,
+    training_set,
+)
+from datagen.benchmark.verdicts import Tested, judge, pooled_draws
+from datagen.benchmark.windows import common_rate, read_windows
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from labels.rule import Rule
+
+if TYPE_CHECKING:
+    import pandas
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Benchmark:
+    """What is learned from, what is tested on, and how; `estimator` is the user's own, None for ours."""
+
+    train: Path
+    tests: tuple[Path, ...]
+    learner: str = "all"
+    estimator: Any | None = None
+    takes_windows: bool = False
+    bandwidth: float | None = None
+    doubt: float = 0.0
+    noise_db: tuple[float, ...] = ()
+    noise_draws: int = 10
+    workers: int = 2
+    curve: bool = False
+    options: dict[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def window_rate(self) -> float:
+        """Common rate of raw windows, Hz."""
+        return common_rate((self.train, *self.tests), self.reading().bandwidth)
+
+    def reading(self) -> Reading:
+        """How the records that are tested on are read."""
+        return Reading() if self.bandwidth is None else Reading(bandwidth=self.bandwidth)
+
+    def training_reading(self) -> Reading:
+        """How those that are learned from are: speeds only roughly known, any bandwidth, and noisy copies."""
+        return replace(self.reading(), speed_error=SPEED_ERROR, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB)
+
+
+def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
+    """The results as plain numbers, and what was said of every record; raises BadInput."""
+    began = time.monotonic()
+    training, labels = _learned_from(benchmark, say)
+    rule = train_rule(training)
+    models = _models(benchmark, training, labels)
+    results: dict[str, Any] = {
+        "train": str(benchmark.train),
+        "options": benchmark.options,
+        "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
+        "rule_threshold": rule.threshold,
+        "alarms": {model.name: model.alarm for model in models},
+        "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
+    }
+    if benchmark.curve:
+        results["learning_curve"] = learning_curve(training, benchmark.learner)
+    tested = []
+    results["tests"] = []
+    for folder in benchmark.tests:
+        found, summary = _test(benchmark, folder, rule, models, say)
+        tested.append(found)
+        results["tests"].append(summary)
+    results["seconds"] = time.monotonic() - began
+    return results, tested
+
+
+def _learned_from(benchmark: Benchmark, say: Say) -> tuple[TrainingSet, pandas.DataFrame | None]:
+    """The training set, and the labels of its records if it is a corpus."""
+    ingredients = ingredients_of(benchmark.train)
+    if ingredients is not None:
+        say("learning from plain impulse trains")
+        return impulse_training(ingredients, benchmark.training_reading(), benchmark.workers), None
+    places = [folder.resolve() for folder in benchmark.tests]
+    if Corpus(benchmark.train).manifest.imported:
+        raise BadInput("classifiers learn from simulated corpora only", str(benchmark.train), "--train")
+    labels = training_records(benchmark.train, benchmark.train.resolve() in places)
+    say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
+    return training_set(benchmark.train, labels, benchmark.training_reading(), benchmark.workers), labels
+
+
+def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> list[Model]:
+    if benchmark.estimator is None:
+        return train_models(training, benchmark.learner)
+    if benchmark.takes_windows and labels is not None:
+        raw = read_windows(benchmark.train, labels["record"].to_numpy(np.int64), benchmark.window_rate)
+        training = joined_labels(raw, labels)
+    return [train_own(training, benchmark.estimator, benchmark.takes_windows)]
+
+
+def _test(
+    benchmark: Benchmark, folder: Path, rule: Rule, models: list[Model], say: Say
+) -> tuple[Tested, dict[str, Any]]:
+    corpus = Corpus(folder)
+    imported = bool(corpus.manifest.imported)
+    if imported:
+        write_line(folder, {"began": benchmark.options, "train": str(benchmark.train)})
+    labels = tested_records(corpus, folder.resolve() == benchmark.train.resolve())
+    say(f"testing on {len(labels)} records of {folder}")
+    rows = _rows(folder, labels, benchmark.reading(), benchmark.workers)
+    raw = None
+    if benchmark.takes_windows:
+        raw = read_windows(folder, labels["record"].to_numpy(np.int64), benchmark.window_rate)
+    tested = judge(folder, labels, rows, rule, models, benchmark.doubt, imported, raw)
+    summary = summarise(tested)
+    levels = () if benchmark.takes_windows else benchmark.noise_db
+    summary["noise"] = [_noisy(benchmark, folder, labels, rule, models, level, say) for level in levels]
+    if imported:
+        log_run(folder, benchmark.train, benchmark.options, summary)
+    return tested, summary
+
+
+def tested_records(corpus: Corpus, also_trained: bool) -> pandas.DataFrame:
+    """Labels of the records to test on: the split "test" where the corpus is also learned from, all if not."""
+    labels = corpus.labels
+    chosen = labels[labels["split"] == "test"] if also_trained else labels
+    if chosen.empty:
+        raise BadInput("no record of the split test to score", str(corpus.folder), "--test")
+    return chosen
+
+
+def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int) -> Rows:
+    return read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers)
+
+
+def _noisy(
+    benchmark: Benchmark,
+    folder: Path,
+    labels: pandas.DataFrame,
+    rule: Rule,
+    models: list[Model],
+    level: float,
+    say: Say,
+) -> dict[str, Any]:
+    """Scores with white noise of that level (signal over noise, dB) added, all draws pooled."""
+    say(f"testing on {folder} with noise at {level:g} dB, {benchmark.noise_draws} draws")
+    pooled = []
+    for draw in range(benchmark.noise_draws):
+        reading = replace(benchmark.reading(), noise_db=level, noise_draw=draw)
+        rows = _rows(folder, labels, reading, benchmark.workers)
+        pooled.append(judge(folder, labels, rows, rule, models, benchmark.doubt, True))
+    joined = pooled_draws(pooled)
+    return {"snr_db": level, "draws": benchmark.noise_draws} | summarise(joined, predictions=False)

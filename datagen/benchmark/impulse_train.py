@@ -1,0 +1,149 @@
+"""A generator without contact physics, to compare with: impulses at ball pass orders that ring random resonances.
+
+What published synthetic sets do. It has bearings, speeds, slip, modulation and noise like those of a drawn machine, so
+what it lacks is the contact model alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import fftconvolve
+
+from labels.features.kinematics import Kinematics
+
+Array = NDArray[np.float64]
+LOCATIONS = ("none", "outer", "inner")
+
+
+@dataclass(frozen=True)
+class Ingredients:
+    """What a drawn machine has, each of which can be left out for an ablation."""
+
+    shaft_modulation: bool = True
+    machine_floor: bool = True
+    sensor_paths: bool = True
+    backgrounds: bool = True
+
+
+@dataclass(frozen=True)
+class Train:
+    """One record: `signal` (T,) at `rate` (Hz), what is known of it, its location and its machine."""
+
+    signal: Array
+    rate: float
+    kinematics: Kinematics
+    location: str
+    machine: int
+
+
+def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients | None = None) -> Train:
+    """The record with that number of a virtual machine; the same numbers always give the same record."""
+    ingredients = ingredients or Ingredients()
+    own = np.random.default_rng([seed, machine])
+    generator = np.random.default_rng([seed, machine, record + 1])
+    rate, duration = 25_600.0, float(generator.choice([0.4, 0.8, 1.2]))
+    kinematics = _bearing(own, generator)
+    location = LOCATIONS[record % len(LOCATIONS)]
+    paths = _paths(own if ingredients.sensor_paths else np.random.default_rng(seed), ingredients.sensor_paths)
+    floor = _floor(own if ingredients.machine_floor else generator)
+    size = int(rate * duration)
+    signal = floor * generator.standard_normal(size)
+    if ingredients.backgrounds:
+        signal += _background(own, generator, size, rate, kinematics)
+    if location != "none":
+        force = _impulses(own, generator, size, rate, kinematics, location, ingredients.shaft_modulation)
+        signal += fftconvolve(force, _ringing(paths, rate))[:size]
+    return Train(signal, rate, kinematics, location, machine)
+
+
+def _bearing(own: np.random.Generator, generator: np.random.Generator) -> Kinematics:
+    ratio = own.uniform(0.12, 0.27)
+    most = np.pi / np.arcsin(ratio)
+    balls = max(5, int(own.uniform(0.6, 0.95) * most))
+    ratio *= np.cos(np.radians(min(abs(own.normal(0.0, 8.0)), 25.0)))
+    speed = np.exp(own.uniform(np.log(500.0), np.log(3600.0))) / 60.0 * generator.uniform(0.75, 1.25)
+    return Kinematics(balls, float(ratio), float(0.5 / ratio * (1.0 - ratio**2)), float(speed))
+
+
+def _paths(own: np.random.Generator, drawn: bool) -> list[tuple[float, float, float]]:
+    """Frequency (Hz), damping and gain of each resonance."""
+    count = int(own.integers(1, 7)) if drawn else 1
+    return [
+        (
+            float(np.exp(own.uniform(np.log(800.0), np.log(11_000.0)))),
+            float(own.uniform(0.01, 0.08)),
+            float(own.uniform(0.1, 1.0)),
+        )
+        for _ in range(count)
+    ]
+
+
+def _floor(generator: np.random.Generator) -> float:
+    return float(np.exp(generator.uniform(np.log(0.03), np.log(6.0))))
+
+
+def _ringing(paths: list[tuple[float, float, float]], rate: float) -> Array:
+    time = np.arange(int(0.02 * rate)) / rate
+    total = np.zeros(time.size)
+    for frequency, damping, gain in paths:
+        omega = 2.0 * np.pi * frequency
+        total += gain * np.exp(-damping * omega * time) * np.sin(omega * time)
+    return np.asarray(total)
+
+
+def _impulses(
+    own: np.random.Generator,
+    generator: np.random.Generator,
+    size: int,
+    rate: float,
+    kinematics: Kinematics,
+    location: str,
+    modulated: bool,
+) -> Array:
+    slip = generator.uniform(0.0, 0.02)
+    cage = kinematics.ftf * (1.0 - slip)
+    order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)
+    period = 1.0 / (order * kinematics.shaft_hz)
+    count = int(size / rate / period) + 2
+    jitter = generator.uniform(0.002, 0.02)
+    times = np.cumsum(period * (1.0 + jitter * generator.standard_normal(count))) - period * generator.uniform()
+    turn = 2.0 * np.pi * kinematics.shaft_hz * times + generator.uniform(0.0, 2.0 * np.pi)
+    load = np.ones(count)
+    if location == "inner":
+        load = np.maximum(np.cos(turn) + own.uniform(-0.2, 0.8), 0.05)
+    elif modulated:
+        load = 1.0 + generator.uniform(0.0, 0.6) * np.cos(turn)
+    height = np.exp(generator.uniform(np.log(0.3), np.log(20.0))) * load
+    height = height * np.exp(0.2 * generator.standard_normal(count))
+    force = np.zeros(size)
+    inside = (times >= 0.0) & (times * rate < size - 1)
+    np.add.at(force, (times[inside] * rate).astype(np.int64), height[inside])
+    return force
+
+
+def _background(
+    own: np.random.Generator, generator: np.random.Generator, size: int, rate: float, kinematics: Kinematics
+) -> Array:
+    """Shaft and mains tones, a gear mesh with sidebands, and random knocks; levels are the machine's."""
+    time = np.arange(size) / rate
+    total = np.zeros(size)
+    tones = [(order * kinematics.shaft_hz, _level(own, 0.01, 3.0) / order) for order in range(1, 11)]
+    tones += [(order * float(own.choice([50.0, 60.0])), _level(own, 0.003, 0.6) / order) for order in range(1, 5)]
+    teeth, mesh = int(own.integers(17, 42)), _level(own, 0.001, 5.0)
+    tones += [((teeth + side) * kinematics.shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
+    for frequency, amplitude in tones:
+        if frequency < rate / 2.0:
+            total += amplitude * np.cos(2.0 * np.pi * frequency * time + generator.uniform(0.0, 2.0 * np.pi))
+    knocks = np.zeros(size)
+    count = int(generator.poisson(_level(own, 0.3, 30.0) * size / rate))
+    knocks[generator.integers(0, size, count)] = _level(own, 0.01, 20.0) * np.exp(
+        0.5 * generator.standard_normal(count)
+    )
+    return total + fftconvolve(knocks, _ringing(_paths(own, True), rate))[:size]
+
+
+def _level(own: np.random.Generator, low: float, high: float) -> float:
+    return float(np.exp(own.uniform(np.log(low), np.log(high))))

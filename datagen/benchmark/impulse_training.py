@@ -1,0 +1,62 @@
+"""A training set of plain impulse trains, made on the spot: what the contact model is compared with."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from datagen.benchmark.impulse_train import LOCATIONS, Ingredients, draw_train
+from datagen.benchmark.rows import Reading, signal_rows
+from datagen.benchmark.training import TrainingSet
+from datagen.errors import BadInput
+from labels.classifier import HEALTHY
+
+NAME = "impulse-trains"
+SEED = 20_140
+MACHINES = 240
+
+
+def ingredients_of(train: Path) -> Ingredients | None:
+    """The ingredients that `--train impulse-trains` or `impulse-trains-without-NAME` asks for; None for a folder.
+
+    Raises BadInput for a name that is no ingredient.
+    """
+    text = str(train)
+    if not text.startswith(NAME):
+        return None
+    left_out = text.removeprefix(NAME).removeprefix("-without-")
+    names = [field.name for field in fields(Ingredients)]
+    if left_out and left_out not in names:
+        allowed = ", ".join(f"{NAME}-without-{name}" for name in names)
+        raise BadInput(field="--train", value=text, allowed=f"a folder, {NAME}, {allowed}")
+    return Ingredients(**{left_out: False}) if left_out else Ingredients()
+
+
+def impulse_training(ingredients: Ingredients, reading: Reading, workers: int) -> TrainingSet:
+    """Rows of 240 virtual machines, one healthy record and one with a spall on each race of every machine."""
+    from joblib import Parallel, delayed, parallel_config
+
+    with parallel_config(backend="loky", inner_max_num_threads=1):
+        found = Parallel(n_jobs=workers)(
+            delayed(_machine)(machine, ingredients, reading) for machine in range(MACHINES)
+        )
+    return TrainingSet(
+        np.concatenate([part.table for part in found]),
+        np.concatenate([part.classes for part in found]),
+        np.concatenate([part.bearings for part in found]),
+        np.concatenate([part.records for part in found]),
+    )
+
+
+def _machine(machine: int, ingredients: Ingredients, reading: Reading) -> TrainingSet:
+    table, classes = [], []
+    for record, location in enumerate(LOCATIONS):
+        drawn = draw_train(SEED, machine, record, ingredients)
+        seed = [SEED, machine, record]
+        rows, _ = signal_rows(drawn.signal, drawn.rate, drawn.kinematics, reading, seed)
+        table += rows
+        classes += [HEALTHY if location == "none" else f"line {location}"] * len(rows)
+    bearings = np.full(len(table), f"machine_{machine:04}")
+    return TrainingSet(np.array(table), np.array(classes), bearings, np.full(len(table), machine))

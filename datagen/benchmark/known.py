@@ -1,0 +1,61 @@
+"""What the labels of a record say that a classifier may know: rate, geometry, speed. Nothing of its health."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from labels.classifier import joint_class
+from labels.features.kinematics import Kinematics, bearing_kinematics
+from labels.schema import UNKNOWN
+
+RPM = 60.0
+
+
+def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
+    """Kinematics of the record with these labels: from its geometry, or from its orders; None if it says neither, or no
+    speed."""
+    speed = _number(labels, "speed_rpm") / RPM
+    if not speed > 0.0:
+        return None
+    balls, pitch, ball = (_number(labels, name) for name in ("balls", "pitch_diameter", "ball_diameter"))
+    angle = _number(labels, "contact_angle")
+    if all(math.isfinite(value) for value in (balls, pitch, ball)):
+        return bearing_kinematics(int(balls), pitch, ball, angle if math.isfinite(angle) else 0.0, speed)
+    return _from_orders(labels, balls, speed)
+
+
+def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinematics | None:
+    """The two ball pass orders add up to the number of balls, so either of them and that number give all."""
+    outer, inner, spin = (_number(labels, name) for name in ("bpfo", "bpfi", "bsf"))
+    if not math.isfinite(balls):
+        balls = round(outer + inner) if math.isfinite(outer + inner) else math.nan
+    if not math.isfinite(outer):
+        outer = balls - inner
+    if not (math.isfinite(outer) and 0.0 < outer < balls / 2.0):
+        return None
+    ratio = 1.0 - 2.0 * outer / balls
+    guessed = 0.5 / ratio * (1.0 - ratio**2)
+    return Kinematics(int(balls), ratio, spin if math.isfinite(spin) else guessed, speed)
+
+
+def true_class(labels: Mapping[str, Any]) -> str:
+    """The class that a classifier learns from the record, or "unknown" where the labels do not say one of CLASSES."""
+    try:
+        return joint_class(str(labels["condition"]), str(labels["location"]))
+    except ValueError:
+        return UNKNOWN
+
+
+def true_location(labels: Mapping[str, Any]) -> str:
+    """none, outer or inner; "unknown" for everything else (a ball's fault too), which is predicted and not scored."""
+    said = str(labels["location"])
+    return said if said in ("none", "outer", "inner") else UNKNOWN
+
+
+def _number(labels: Mapping[str, Any], name: str) -> float:
+    try:
+        return float(labels[name])
+    except (KeyError, TypeError, ValueError):
+        return math.nan

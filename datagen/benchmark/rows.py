@@ -1,0 +1,154 @@
+"""Rows of the feature table of a corpus: one for each axis and window of a record, read shard by shard."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.benchmark.known import known_kinematics
+from datagen.corpus import Corpus
+from labels.features.analysis import analyse
+from labels.features.conditioning import COMMON_BANDWIDTH, Array
+from labels.features.kinematics import Kinematics
+from labels.features.table import FEATURE_NAMES, feature_values
+from labels.liveness import DEAD, is_dead, liveness
+
+if TYPE_CHECKING:
+    import pandas
+
+UNKNOWN_MACHINE = "no speed or no geometry"
+LONGEST_WINDOW = 1.25
+"""s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
+grows with the length of what is looked at; so long records are cut, and their windows vote."""
+RECORDS_A_TASK = 24
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How records are turned into rows.
+
+    `bandwidth` (Hz) limits all records alike; `window` (s) is the longest piece; white noise of `noise_db` (signal over
+    noise, None: none) is added in `noise_draw`. `speed_error` and `lowest_bandwidth` are for training on simulated
+    records, whose speed is exact and whose rate is one: the speed told is off by up to that share, and each record is
+    limited to a bandwidth drawn between that and its own; beside it as it is, a copy is read with white noise at a
+    level drawn from `copies_db`.
+    """
+
+    bandwidth: float = COMMON_BANDWIDTH
+    window: float = LONGEST_WINDOW
+    noise_db: float | None = None
+    noise_draw: int = 0
+    speed_error: float = 0.0
+    lowest_bandwidth: float | None = None
+    copies_db: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows (N, F) of the feature table, the record (N,) of each, and per record why it must not be classified."""
+
+    table: Array
+    record: NDArray[np.int64]
+    rejected: dict[int, str] = field(default_factory=dict)
+
+
+def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2) -> Rows:
+    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory."""
+    from joblib import Parallel, delayed, parallel_config
+
+    tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
+    if workers <= 1 or len(tasks) < 2:
+        found = [_task(folder, task, reading) for task in tasks]
+    else:
+        with parallel_config(backend="loky", inner_max_num_threads=1):
+            found = Parallel(n_jobs=workers, batch_size=1, max_nbytes=None)(
+                delayed(_task)(folder, task, reading) for task in tasks
+            )
+    tables = [rows.table for rows in found] or [np.empty((0, len(FEATURE_NAMES)))]
+    owners = [rows.record for rows in found] or [np.empty(0, dtype=np.int64)]
+    rejected: dict[int, str] = {}
+    for rows in found:
+        rejected |= rows.rejected
+    return Rows(np.concatenate(tables), np.concatenate(owners), rejected)
+
+
+def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
+    corpus = Corpus(folder)
+    labels = corpus.labels.set_index("record", drop=False)
+    table: list[Array] = []
+    owners: list[int] = []
+    rejected: dict[int, str] = {}
+    for record in records.tolist():
+        rows, reason = record_rows(corpus.waveform(record), labels.loc[record], reading)
+        table += rows
+        owners += [record] * len(rows)
+        if reason:
+            rejected[record] = reason
+    corpus.close()
+    stacked = np.array(table) if table else np.empty((0, len(FEATURE_NAMES)))
+    return Rows(stacked, np.array(owners, dtype=np.int64), rejected)
+
+
+def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> tuple[list[Array], str]:
+    """Rows of one record (T, A), one an axis and window, and why it must not be classified ("" if it may)."""
+    kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
+    if kinematics is None:
+        return [], UNKNOWN_MACHINE
+    rows: list[Array] = []
+    reasons: list[str] = []
+    for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
+        found, why = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis])
+        rows += found
+        reasons += why
+    return rows, reasons[0] if reasons and all(reasons) else ""
+
+
+def signal_rows(
+    signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]
+) -> tuple[list[Array], list[str]]:
+    """Rows of one axis (T,) and for each why it must not be classified; `seed` sets the random numbers."""
+    if is_dead(signal):
+        return [], [DEAD]
+    rows, reasons = [], []
+    for copy in range(1 if reading.copies_db is None else 2):
+        level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
+        stream = np.random.default_rng([*seed, reading.noise_draw, level, copy])
+        for piece in windows(_noisy(signal, reading, stream, copy), rate, reading.window):
+            given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
+            analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
+            rows.append(feature_values(analysis))
+            reasons.append(liveness(analysis, piece.size).reason)
+    return rows, reasons
+
+
+def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:
+    """The signal (T,) in as few equal pieces as are no longer than `longest` (s)."""
+    count = max(1, int(np.ceil(signal.size / rate / longest - 0.05)))
+    yield from np.array_split(signal, count)
+
+
+def _seed(labels: pandas.Series[Any]) -> list[int]:
+    """Numbers that follow from the record alone, whatever is read beside it."""
+    return [zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode()), int(labels["record"])]
+
+
+def _noisy(signal: Array, reading: Reading, stream: np.random.Generator, copy: int) -> Array:
+    level = reading.noise_db
+    if copy and reading.copies_db is not None:
+        level = stream.uniform(*reading.copies_db)
+    if level is None:
+        return signal
+    return signal + signal.std() * 10.0 ** (-level / 20.0) * stream.standard_normal(signal.size)
+
+
+def _bandwidth(rate: float, reading: Reading, stream: np.random.Generator) -> float:
+    top = min(reading.bandwidth, rate / 2.0)
+    if reading.lowest_bandwidth is None or reading.lowest_bandwidth >= top:
+        return top
+    return float(np.exp(stream.uniform(np.log(reading.lowest_bandwidth), np.log(top))))

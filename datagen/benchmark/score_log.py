@@ -1,0 +1,48 @@
+"""The log of scoring runs on recordings: one line a run, appended in that corpus's own folder, never rewritten."""
+
+from __future__ import annotations
+
+import json
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from datagen.corpora.manifest import read_manifest
+from datagen.errors import BadInput
+from datagen.records.versions import program_versions
+
+NAME = "scored_runs.jsonl"
+
+
+def log_path(folder: Path) -> Path:
+    """Where the runs that scored the corpus `folder` are listed."""
+    return folder / NAME
+
+
+def log_run(folder: Path, training: Path, options: dict[str, Any], summary: dict[str, Any]) -> None:
+    """Append one line: when, trained on which corpus (by its recipe's hash), with which options, and the scores.
+
+    Raises BadInput if the folder cannot be written: a run that leaves no trace is not made.
+    """
+    line = {
+        "time": datetime.now(UTC).isoformat(timespec="seconds"),
+        "train": str(training),
+        "recipe": read_manifest(training).identity.recipe_hash if training.is_dir() else "",
+        "options": options,
+        "versions": program_versions(),
+        "scores": {
+            name: {key: scores[key] for key in ("faults_balanced_accuracy", "false_alarms", "healthy", "rejected")}
+            for name, scores in summary["models"].items()
+        },
+    }
+    write_line(folder, line)
+
+
+def write_line(folder: Path, line: dict[str, Any]) -> None:
+    """Append one line to the log of a corpus; raises BadInput if that is impossible."""
+    try:
+        with log_path(folder).open("a", encoding="utf-8") as file:
+            file.write(json.dumps(line, default=str) + "\n")
+    except OSError as problem:
+        raise BadInput(f"runs on recordings are logged here, and it cannot be written: {problem.strerror}",
+                       str(log_path(folder))) from None  # fmt: skip

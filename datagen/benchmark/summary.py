@@ -1,0 +1,147 @@
+"""Scores of a tested corpus as plain numbers, ready for JSON."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
+from labels.classifier import CLASSES, condition_probability, location_probability
+from labels.features.conditioning import Array
+from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
+from labels.scores import (
+    accuracy,
+    accuracy_against,
+    area_under_roc,
+    balanced_accuracy,
+    bootstrap,
+    calibration_error,
+    confusion,
+    paired_difference,
+    reliability,
+)
+
+RACES = ("outer", "inner")
+AGAINST = ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")
+
+
+def race_balance(truth: Any, said: Any) -> float:
+    """Balanced accuracy over outer and inner; whatever else is said of such a record is an error."""
+    return balanced_accuracy(truth, said, RACES)
+
+
+def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
+    """Scores of the rule and of each model on one corpus, and what was said of each record."""
+    rule = tested.verdicts[0]
+    found: dict[str, Any] = {
+        "corpus": str(tested.folder),
+        "imported": tested.imported,
+        "records": len(tested.labels),
+        "locations": {name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
+        "models": {verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
+    }
+    if predictions:
+        found["predictions"] = _predictions(tested)
+    return found
+
+
+def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
+    truth, scored = tested.truth, tested.truth != UNKNOWN
+    faulty, healthy = np.isin(truth, RACES), truth == "none"
+    alarms = healthy & np.isin(said.location, RACES)
+    found: dict[str, Any] = {
+        "faults_balanced_accuracy": asdict(
+            bootstrap(race_balance, truth[faulty], said.location[faulty], strata=truth[faulty])
+        ),
+        "location_balanced_accuracy": asdict(
+            bootstrap(balanced_accuracy, truth[scored], said.location[scored], strata=truth[scored])
+        ),
+        "race_accuracy": asdict(bootstrap(accuracy, truth[faulty], said.race[faulty])),
+        "detection_auc": asdict(
+            bootstrap(area_under_roc, faulty[scored], said.score[scored], strata=faulty[scored], draws=500)
+        ),
+        "healthy": int(healthy.sum()),
+        "false_alarms": int(alarms.sum()),
+        "rejected": int((said.location == REJECTED).sum()),
+        "confusion": {
+            "rows": [*LOCATIONS, UNKNOWN],
+            "columns": [*LOCATIONS, REJECTED],
+            "counts": confusion(truth, said.location, (*LOCATIONS, UNKNOWN), (*LOCATIONS, REJECTED)).tolist(),
+        },
+    }
+    if said.name != RULE:
+        found |= _against_rule(tested, said, rule) | _calibration(tested, said)
+    return found | {"accuracy_against": _against(tested, said)}
+
+
+def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
+    """Paired differences of the model and the rule."""
+    truth, scored = tested.truth, tested.truth != UNKNOWN
+    faulty = np.isin(truth, RACES)
+    own = truth[faulty]
+    differences = {
+        "faults_balanced_accuracy": paired_difference(
+            race_balance, own, said.location[faulty], rule.location[faulty], strata=own
+        ),
+        "race_accuracy": paired_difference(accuracy, own, said.race[faulty], rule.race[faulty]),
+        "detection_auc": paired_difference(
+            area_under_roc, faulty[scored], said.score[scored], rule.score[scored], strata=faulty[scored], draws=500
+        ),
+    }
+    return {"minus_rule": {name: asdict(difference) for name, difference in differences.items()}}
+
+
+def _calibration(tested: Tested, said: Verdicts) -> dict[str, Any]:
+    known = tested.classes != UNKNOWN
+    if not known.any() or len(np.unique(tested.classes[known])) < 2:
+        return {}
+    spall = tested.classes[known] != CLASSES[0]
+    probability = 1.0 - said.probability[known, 0]
+    conditions = np.array([name.split()[0] for name in tested.classes])
+    return {
+        "reliability": reliability(spall, probability),
+        "calibration_error": calibration_error(spall, probability),
+        "condition_balanced_accuracy": asdict(
+            bootstrap(balanced_accuracy, conditions[known], said.condition[known], strata=conditions[known])
+        ),
+        "condition_confusion": {
+            "rows": list(CONDITIONS),
+            "columns": [*CONDITIONS, REJECTED],
+            "counts": confusion(conditions[known], said.condition[known], CONDITIONS, (*CONDITIONS, REJECTED)).tolist(),
+        },
+    }
+
+
+def _against(tested: Tested, said: Verdicts) -> dict[str, Any]:
+    faulty = np.isin(tested.truth, RACES)
+    right = (said.location == tested.truth)[faulty]
+    tables = {}
+    for name in AGAINST:
+        quantity: Array = tested.labels[name].to_numpy(np.float64)[faulty]
+        if np.unique(quantity[np.isfinite(quantity)]).size >= 2:
+            tables[name] = accuracy_against(quantity, right)
+    return tables
+
+
+def _predictions(tested: Tested) -> list[dict[str, Any]]:
+    found = []
+    for place, (_, row) in enumerate(tested.labels.iterrows()):
+        entry: dict[str, Any] = {
+            "record": int(row["record"]),
+            "recording": str(row["recording"]),
+            "bearing_id": str(row["bearing_id"]),
+            "truth": str(row["location"]),
+            "rejected": str(tested.reasons[place]),
+        }
+        for said in tested.verdicts:
+            entry[said.name] = {"location": str(said.location[place]), "score": float(said.score[place])}
+            if len(said.probability):
+                own = said.probability[place : place + 1]
+                entry[said.name] |= {
+                    "location_probability": dict(zip(LOCATIONS, location_probability(own)[0].tolist(), strict=True)),
+                    "condition_probability": dict(zip(CONDITIONS, condition_probability(own)[0].tolist(), strict=True)),
+                }
+        found.append(entry)
+    return found

@@ -1,0 +1,149 @@
+"""Training: which records are learned from, and the classifier that comes out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.benchmark.known import true_class
+from datagen.benchmark.rows import Reading, Rows, read_rows
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from labels.classifier import CLASSES, EVEN, HEALTHY, SpallClassifier
+from labels.features.conditioning import Array
+from labels.learners import LEARNERS
+from labels.rule import Rule, fit_rule
+
+if TYPE_CHECKING:
+    import pandas
+
+SPEED_ERROR = 0.02
+LOWEST_BANDWIDTH = 5500.0
+COPIES_DB = (-18.0, 12.0)
+FEWEST_BEARINGS = 4
+
+
+@dataclass(frozen=True)
+class TrainingSet:
+    """Rows (N, F) to learn from, their classes (N,) and virtual bearings (N,), and the records that they came from."""
+
+    table: Array
+    classes: NDArray[np.str_]
+    bearings: NDArray[np.str_]
+    records: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Model:
+    """Anything that gives probabilities (N, 5) of CLASSES, with the probability of a spall at which it is called.
+
+    `takes_windows` if it wants raw windows instead of features.
+    """
+
+    name: str
+    estimator: Any
+    alarm: float
+    takes_windows: bool = False
+
+    def probability(self, table: Array) -> Array:
+        """Probabilities (N, 5) of CLASSES; a class that the estimator never saw has 0."""
+        return class_probability(self.estimator, table)
+
+
+def class_probability(estimator: Any, table: Array) -> Array:
+    """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator."""
+    if hasattr(estimator, "predict_proba"):
+        return _by_name(np.asarray(estimator.predict_proba(table)), list(estimator.classes_))
+    said = np.asarray(estimator.predict(table) if hasattr(estimator, "predict") else estimator(table))
+    if said.ndim == 2:
+        return said
+    return np.asarray(said[:, None] == np.asarray(CLASSES)[None, :], dtype=np.float64)
+
+
+def _by_name(probability: Array, names: list[str]) -> Array:
+    found = np.zeros((len(probability), len(CLASSES)))
+    for column, name in enumerate(names):
+        found[:, CLASSES.index(str(name))] = probability[:, column]
+    return found
+
+
+def training_records(folder: Path, also_tested: bool) -> pandas.DataFrame:
+    """Labels of the records to learn from: without the split "test" where the corpus is also tested on.
+
+    Raises BadInput if it is a corpus of recordings, or holds too few virtual bearings.
+    """
+    labels = Corpus(folder).labels
+    classes = np.array([true_class(row) for _, row in labels.iterrows()])
+    chosen = labels[np.isin(classes, CLASSES)]
+    if also_tested:
+        chosen = chosen[chosen["split"] != "test"]
+    if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
+        allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
+        raise BadInput("too few virtual bearings to learn from", str(folder), "--train", None, allowed)
+    return chosen
+
+
+def training_set(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int) -> TrainingSet:
+    """Rows of the records with these labels, with their classes and bearings."""
+    rows = read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers)
+    return joined_labels(rows, labels)
+
+
+def joined_labels(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
+    """The rows with class and bearing of the record that each came from."""
+    by_record = labels.set_index("record", drop=False)
+    class_of = {record: true_class(row) for record, row in by_record.iterrows()}
+    bearing_of = by_record["bearing_id"].astype(str).to_dict()
+    owners = rows.record.tolist()
+    classes = np.array([class_of[record] for record in owners], dtype=np.str_)
+    bearings = np.array([bearing_of[record] for record in owners], dtype=np.str_)
+    return TrainingSet(rows.table, classes, bearings, rows.record)
+
+
+def train_rule(training: TrainingSet) -> Rule:
+    """The rule, its threshold set on the healthy ones; raises BadInput if there are none."""
+    healthy = training.table[training.classes == HEALTHY]
+    if len(healthy) == 0:
+        raise BadInput("no healthy record to set the rule's threshold on", field="--train")
+    return fit_rule(healthy)
+
+
+def train_models(training: TrainingSet, learner: str) -> list[Model]:
+    """One model a learner ("all": every one); raises BadInput if it cannot learn from this."""
+    try:
+        names = LEARNERS if learner == "all" else (learner,)
+        fitted = [
+            (name, SpallClassifier(name).fit(training.table, training.classes, training.bearings)) for name in names
+        ]
+        return [Model(name, classifier, classifier.alarm_) for name, classifier in fitted]
+    except ValueError as problem:
+        raise BadInput(f"cannot learn from this corpus: {problem}", field="--train") from None
+
+
+def train_own(training: TrainingSet, own: Any, takes_windows: bool) -> Model:
+    """The user's estimator, fitted if it can be; its spalls are called at even odds."""
+    if hasattr(own, "fit"):
+        own.fit(training.table, training.classes)
+    return Model(getattr(own, "__name__", type(own).__name__), own, EVEN, takes_windows)
+
+
+def load_estimator(path: str) -> Any:
+    """The user's estimator "module:Class" (made without arguments) or callable "module:function"; raises BadInput."""
+    import importlib
+    import sys
+
+    module, colon, name = path.partition(":")
+    if not colon:
+        raise BadInput(field="--estimator", value=path, allowed="module:Class or module:function")
+    if "" not in sys.path:
+        sys.path.insert(0, "")
+    try:
+        found: Callable[..., Any] = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError) as problem:
+        raise BadInput(f"cannot be loaded: {problem}", field="--estimator", value=path) from None
+    return found() if isinstance(found, type) else found

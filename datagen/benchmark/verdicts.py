@@ -1,0 +1,130 @@
+"""Testing: one vote a record, by the rule and by every model, on one corpus."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.benchmark.known import true_class, true_location
+from datagen.benchmark.rows import Rows
+from datagen.benchmark.training import Model
+from datagen.benchmark.votes import averaged, joined
+from labels.classifier import decide, location_probability
+from labels.features.conditioning import Array
+from labels.features.table import FEATURE_NAMES
+from labels.rule import STRENGTHS, Rule
+
+if TYPE_CHECKING:
+    import pandas
+
+REJECTED = "rejected"
+RULE = "rule"
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """What one model says of R records: its `location` (none, outer, inner or rejected), the race it would name, a
+    `score` that rises with suspicion, and probabilities of CLASSES (R, 5; empty for the rule)."""
+
+    name: str
+    location: NDArray[np.str_]
+    condition: NDArray[np.str_]
+    race: NDArray[np.str_]
+    score: Array
+    probability: Array = field(default_factory=lambda: np.empty((0, 5)))
+
+
+@dataclass(frozen=True)
+class Tested:
+    """A corpus with what was said of each of its R records."""
+
+    folder: Path
+    labels: pandas.DataFrame
+    truth: NDArray[np.str_]
+    classes: NDArray[np.str_]
+    reasons: NDArray[np.str_]
+    verdicts: tuple[Verdicts, ...]
+    imported: bool
+
+
+def judge(
+    folder: Path,
+    labels: pandas.DataFrame,
+    rows: Rows,
+    rule: Rule,
+    models: list[Model],
+    doubt: float,
+    imported: bool,
+    raw: Rows | None = None,
+) -> Tested:
+    """Verdicts of the rule and the models on the records with these labels.
+
+    A record is rejected where it shows no running machine, has no rows, or where the likeliest location has a
+    probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
+    """
+    records = labels["record"].to_numpy(np.int64)
+    reasons = np.array([rows.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
+    verdicts = [_of_rule(rule, rows, records, reasons)]
+    verdicts += [
+        _of_model(model, raw if model.takes_windows and raw is not None else rows, records, reasons, doubt)
+        for model in models
+    ]
+    truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
+    classes = np.array([true_class(row) for _, row in labels.iterrows()], dtype=np.str_)
+    return Tested(folder, labels, truth, classes, reasons, tuple(verdicts), imported)
+
+
+def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
+    means = averaged(rows.table, rows.record, records)
+    missing = ~np.isfinite(means[:, FEATURE_NAMES.index(STRENGTHS[0])])
+    table = np.where(missing[:, None], 0.0, means)
+    rejected = missing | (reasons != "")
+    location = np.where(rejected, REJECTED, rule.locations(table))
+    condition = np.where(location == "none", "healthy", np.where(rejected, REJECTED, "line"))
+    return Verdicts(RULE, location, condition, rule.races(table), np.where(missing, 0.0, rule.score(table)))
+
+
+def _of_model(
+    model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], doubt: float
+) -> Verdicts:
+    own = model.probability(rows.table) if len(rows.table) else np.empty((0, 5))
+    votes = joined(own, rows.record, records)
+    missing = ~np.isfinite(votes[:, 0])
+    votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
+    said = np.char.split(decide(votes, model.alarm).astype(str))
+    where = location_probability(votes)
+    rejected = missing | (reasons != "") | (where.max(axis=1) < doubt)
+    condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
+    location = np.where(rejected, REJECTED, np.array([words[1] if len(words) > 1 else "none" for words in said]))
+    race = np.where(where[:, 1] >= where[:, 2], "outer", "inner")
+    return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], votes)
+
+
+def pooled_draws(draws: list[Tested]) -> Tested:
+    """Several draws of one corpus as one, record after record."""
+    import pandas
+
+    first = draws[0]
+    return replace(
+        first,
+        labels=pandas.concat([tested.labels for tested in draws]),
+        truth=np.concatenate([tested.truth for tested in draws]),
+        classes=np.concatenate([tested.classes for tested in draws]),
+        reasons=np.concatenate([tested.reasons for tested in draws]),
+        verdicts=tuple(_pooled([tested.verdicts[place] for tested in draws]) for place in range(len(first.verdicts))),
+    )
+
+
+def _pooled(said: list[Verdicts]) -> Verdicts:
+    return Verdicts(
+        said[0].name,
+        np.concatenate([own.location for own in said]),
+        np.concatenate([own.condition for own in said]),
+        np.concatenate([own.race for own in said]),
+        np.concatenate([own.score for own in said]),
+        np.concatenate([own.probability for own in said]),
+    )

@@ -1,0 +1,60 @@
+"""Raw windows of a corpus, for estimators that make features of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from datagen.benchmark.rows import Rows
+from datagen.corpus import Corpus
+from labels.features.conditioning import Array
+
+WINDOW_SAMPLES = 4096
+MOST_WINDOWS = 8
+
+
+def common_rate(folders: Iterable[Path], bandwidth: float) -> float:
+    """The rate (Hz) that the windows of all corpora are resampled to: the lowest of theirs and twice the bandwidth."""
+    lowest = min(float(Corpus(folder).labels["rate_hz"].min()) for folder in folders)
+    return min(lowest, 2.0 * bandwidth)
+
+
+def read_windows(folder: Path, records: NDArray[np.int64], rate: float) -> Rows:
+    """Windows (N, 4096) at `rate` (Hz), in m/s², of at most eight places of each axis of a record.
+
+    What the window is too long for is padded with silence.
+    """
+    corpus = Corpus(folder)
+    rates = corpus.labels.set_index("record")["rate_hz"]
+    table: list[Array] = []
+    owners: list[int] = []
+    for record in records.tolist():
+        for signal in np.asarray(corpus.waveform(record), dtype=np.float64).T:
+            if np.isfinite(signal).all():
+                found = cut(resampled(signal, float(rates[record]), rate))
+                table += found
+                owners += [record] * len(found)
+    corpus.close()
+    stacked = np.array(table, dtype=np.float64) if table else np.empty((0, WINDOW_SAMPLES))
+    return Rows(stacked, np.array(owners, dtype=np.int64))
+
+
+def resampled(signal: Array, rate: float, target: float) -> Array:
+    """The signal (T,) at the `target` rate (Hz, not above `rate`): its Fourier components below half of that."""
+    size = round(signal.size * target / rate)
+    if size >= signal.size:
+        return signal
+    return np.asarray(fft.irfft(fft.rfft(signal)[: size // 2 + 1], size)) * (size / signal.size)
+
+
+def cut(signal: Array) -> list[Array]:
+    """At most eight windows of 4096 samples, spread evenly over the signal (T,)."""
+    if signal.size < WINDOW_SAMPLES:
+        return [np.pad(signal, (0, WINDOW_SAMPLES - signal.size))]
+    count = min(MOST_WINDOWS, signal.size // WINDOW_SAMPLES)
+    starts = np.linspace(0, signal.size - WINDOW_SAMPLES, count).astype(np.int64)
+    return [signal[start : start + WINDOW_SAMPLES] for start in starts]

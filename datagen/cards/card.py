@@ -1,0 +1,156 @@
+"""The card as Markdown: short sentences around tables of facts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from datagen.cards.facts import Facts, Kind, Solved
+from datagen.corpora.format import IMPORTED
+from datagen.runs.progress import for_people
+from labels.schema import LABEL, LABELS, UNKNOWN
+
+NOT_STATED = "not stated"
+OVERVIEW = "overview.png"
+
+
+def card_text(facts: Facts, source: str, pictures: Mapping[int, str]) -> str:
+    """The card of a corpus made from the recipe or SPEC `source` (TOML); `pictures` are files of example records."""
+    parts = [
+        *_head(facts), *_holdings(facts), *_examples(facts, pictures), *_ranges(facts), *_making(facts, source),
+        *_loading(facts), *_terms(facts),
+    ]  # fmt: skip
+    return "\n".join(parts) + "\n"
+
+
+def _head(facts: Facts) -> Iterable[str]:
+    info = facts.info
+    yield f"# {info.title or info.name}\n"
+    if facts.summary:
+        yield f"{facts.summary}\n"
+    kind = "recordings of real machines" if facts.origin == IMPORTED else "simulated records with exact labels"
+    shortest, longest = facts.durations_s
+    length = f"{shortest:g} s" if shortest == longest else f"{shortest:g} to {longest:g} s"
+    missing = f", {info.failed} could not be made" if info.failed else ""
+    rows = {
+        "name": f"`{info.name}`",
+        "kind": kind,
+        "records": f"{info.records} of {info.asked} asked for{missing}; the {_source(facts)} has {info.recipe_records}",
+        "bearings": f"{info.bearings} (label `bearing_id`; never divided between splits)",
+        "sampling": f"{', '.join(f'{rate:g} Hz' for rate in facts.rates_hz)}; {length} a record",
+        "size": f"{info.signal_seconds:.1f} s of signal in {info.shards} shards, {for_people(info.bytes)}",
+    }
+    yield from _table(("", ""), rows.items())
+
+
+def _source(facts: Facts) -> str:
+    return "SPEC" if facts.origin == IMPORTED else "recipe"
+
+
+def _holdings(facts: Facts) -> Iterable[str]:
+    yield "## What it holds\n"
+    splits = tuple(facts.splits)
+    rows = [(kind.condition, kind.location, kind.records, *(kind.by_split.get(s, 0) for s in splits))
+            for kind in facts.kinds]  # fmt: skip
+    total = ("all", "", facts.info.records, *facts.splits.values())
+    yield from _table(("condition", "location", "records", *splits), [*rows, total])
+    others = {name: counts for name, counts in facts.info.counts.items() if name not in ("condition", "location")}
+    told = [(f"`{name}`", _counts(counts)) for name, counts in others.items() if name != "split"]
+    yield from _table(("label", "records by value"), told)
+    yield f"![Counts and distributions of the labels]({OVERVIEW})\n"
+
+
+def _counts(counts: Mapping[str, int]) -> str:
+    return ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items())
+
+
+def _examples(facts: Facts, pictures: Mapping[int, str]) -> Iterable[str]:
+    yield "## Examples\n"
+    for kind in facts.kinds:
+        if kind.first in pictures:
+            yield f"Record {kind.first}: {_words(kind)}.\n"
+            yield f"![Record {kind.first}]({pictures[kind.first]})\n"
+
+
+def _words(kind: Kind) -> str:
+    known = [word for word in (kind.condition, kind.location) if word not in ("none", UNKNOWN)]
+    return ", ".join(known) or "nothing is known of its state"
+
+
+def _ranges(facts: Facts) -> Iterable[str]:
+    yield "## Ranges\n"
+    rows = []
+    for name, found in facts.info.ranges.items():
+        if name == "record":
+            continue
+        numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
+        rows.append((f"`{name}`", found.unit, *numbers, found.missing or ""))
+    yield from _table(("label", "unit", "smallest", "median", "largest", "unknown or not applicable"), rows)
+    yield "What each label means:\n"
+    yield from _table(("label", "meaning"), [(f"`{label.name}`", label.sentence) for label in LABELS])
+
+
+def _making(facts: Facts, source: str) -> Iterable[str]:
+    info = facts.info
+    yield "## How it was made\n"
+    if facts.origin == IMPORTED:
+        yield (
+            "Each record is the stored numbers of its file times their scale, in m/s², as float32; `provenance` in the "
+            "shards names file, SHA-256, variables, scale and notes of each. What the SPEC does not say is unknown.\n"
+        )
+    else:
+        yield from _table(
+            ("model", "method", "records", "step", "error estimate: median", "95 %", "largest", "not estimated"),
+            [_solved_row(one) for one in facts.solved],
+        )
+        yield f"`error_estimate`: {LABEL['error_estimate'].sentence}\n"
+        outside = f"{info.outside_validity} of {info.records} records are outside the model's range"
+        yield f"{outside}{':' if facts.validity else '.'}\n"
+        yield from (f"- {count}: {reason}" for reason, count in facts.validity.items())
+        if info.refused:
+            yield "\nImpossible draws, which were drawn again:\n"
+            rows = [(what, refused.count, refused.example) for what, refused in info.refused.items()]
+            yield from _table(("parameter", "refused", "one of the reasons"), rows)
+        yield f"\nCost: {info.worker_seconds:.1f} s of one worker, {info.made_per_second:.2g} times real time.\n"
+    hashes = [(name.replace("_", " "), f"`{value}`") for name, value in info.identity.items() if value]
+    yield from _table(("identity", "hash"), hashes)
+    yield from _table(("made with", "version"), info.made_with.items())
+    yield f"The {_source(facts)}, without what is as it is by default:\n"
+    yield f"```toml\n{source}```\n"
+
+
+def _solved_row(one: Solved) -> Sequence[object]:
+    steps = sorted({step for step in (one.shortest_step, one.longest_step) if step is not None})
+    errors = (one.median_error, one.error_95_percent, one.largest_error)
+    return (
+        one.model, one.method, one.records, " to ".join(f"{step * 1e6:.3g} µs" for step in steps),
+        *("" if error is None else f"{error:.2g}" for error in errors), one.errors_unknown or "",
+    )  # fmt: skip
+
+
+def _loading(facts: Facts) -> Iterable[str]:
+    yield "## Load it\n"
+    yield "```python"
+    yield "from datagen.corpus import Corpus"
+    yield 'corpus = Corpus("FOLDER")'
+    yield f"signal, labels = corpus.signal({facts.kinds[0].first}), corpus.labels"
+    yield "```\n"
+    yield 'or, without spallgen, `xarray.open_dataset("shards/shard_000000.nc")`.\n'
+    yield (
+        "`index.csv` has all labels, one row a record. Beside this card, `labels_bearing_datasets.csv` "
+        "has them in the words of the package `bearing-datasets`, one row a signal, and `croissant.json` describes the "
+        "files to search engines.\n"
+    )
+
+
+def _terms(facts: Facts) -> Iterable[str]:
+    yield "## Terms\n"
+    terms = {"licence": facts.terms.licence, "citation": facts.terms.citation, "address": facts.terms.url}
+    yield from _table(("", ""), [(name, text or NOT_STATED) for name, text in terms.items()])
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> Iterable[str]:
+    yield "| " + " | ".join(heads) + " |"
+    yield "|" + "---|" * len(heads)
+    for row in rows:
+        yield "| " + " | ".join(str(cell).replace("|", "\\|") for cell in row) + " |"
+    yield ""

@@ -1,0 +1,93 @@
+"""The corpus described to search engines: Croissant metadata (version 1.0), a JSON-LD document."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from datagen.cards.facts import Facts
+from datagen.corpora.index import PLACE_COLUMNS, index_path
+from datagen.corpora.shard import file_hash
+from labels.schema import LABELS
+
+CONFORMS_TO = "http://mlcommons.org/croissant/1.0"
+CONTEXT: dict[str, Any] = {
+    "@language": "en",
+    "@vocab": "https://schema.org/",
+    "cr": "http://mlcommons.org/croissant/",
+    "dct": "http://purl.org/dc/terms/",
+    "sc": "https://schema.org/",
+    "citeAs": "cr:citeAs",
+    "column": "cr:column",
+    "conformsTo": "dct:conformsTo",
+    "dataType": {"@id": "cr:dataType", "@type": "@vocab"},
+    "extract": "cr:extract",
+    "field": "cr:field",
+    "fileObject": "cr:fileObject",
+    "fileSet": "cr:fileSet",
+    "includes": "cr:includes",
+    "recordSet": "cr:recordSet",
+    "source": "cr:source",
+}
+TYPES = {"str": "sc:Text", "float64": "sc:Float", "int64": "sc:Integer", "bool": "sc:Boolean"}
+INDEX, SHARDS = "index.csv", "shards"
+
+
+def croissant_text(folder: Path, facts: Facts) -> str:
+    """The JSON-LD text for the corpus in `folder`; terms that nobody stated are left out."""
+    info, terms = facts.info, facts.terms
+    document = {
+        "@context": CONTEXT,
+        "@type": "sc:Dataset",
+        "conformsTo": CONFORMS_TO,
+        "name": info.name,
+        "description": " ".join(part for part in (info.title, facts.summary) if part) or info.name,
+        "license": terms.licence,
+        "citeAs": terms.citation,
+        "url": terms.url,
+        "version": info.identity["recipe_hash"],
+        "distribution": _files(folder),
+        "recordSet": [_labels()],
+    }
+    known = {name: value for name, value in document.items() if value}
+    return json.dumps(known, indent=1, ensure_ascii=False) + "\n"
+
+
+def _files(folder: Path) -> list[dict[str, Any]]:
+    index = {
+        "@type": "cr:FileObject",
+        "@id": INDEX,
+        "name": INDEX,
+        "description": "All labels, one row a record.",
+        "contentUrl": INDEX,
+        "encodingFormat": "text/csv",
+        "sha256": file_hash(index_path(folder)),
+    }
+    shards = {
+        "@type": "cr:FileSet",
+        "@id": SHARDS,
+        "name": SHARDS,
+        "description": "Signals and labels; manifest.json has the SHA-256 of each file.",
+        "encodingFormat": "application/x-netcdf",
+        "includes": "shards/*.nc",
+    }
+    return [index, shards]
+
+
+def _labels() -> dict[str, Any]:
+    columns = [(column, TYPES[label.dtype], label.sentence) for label in LABELS for column in label.columns]
+    places = [("sc:Text", "File of the record's signals."), ("sc:Integer", "Place of the record in that file.")]
+    columns += [(name, *place) for name, place in zip(PLACE_COLUMNS, places, strict=True)]
+    fields = [
+        {
+            "@type": "cr:Field",
+            "@id": f"records/{name}",
+            "name": name,
+            "description": sentence,
+            "dataType": kind,
+            "source": {"fileObject": {"@id": INDEX}, "extract": {"column": name}},
+        }
+        for name, kind, sentence in columns
+    ]
+    return {"@type": "cr:RecordSet", "@id": "records", "name": "records", "field": fields}

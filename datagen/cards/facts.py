@@ -1,0 +1,134 @@
+"""The facts that a card tells of a corpus."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from datagen.corpora.info import Info, corpus_info
+from datagen.corpora.manifest import Manifest
+from datagen.corpus import Corpus
+
+if TYPE_CHECKING:
+    import pandas
+
+SPLIT_ORDER = ("train", "validation", "test", "unknown")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Records of one condition and location: how many in each split, and the first of them."""
+
+    condition: str
+    location: str
+    records: int
+    by_split: dict[str, int]
+    first: int
+
+
+@dataclass(frozen=True)
+class Solved:
+    """How records were made by one model and method: range of `step` (s), spread of `error_estimate`.
+
+    Quantities without a known value are None; `errors_unknown` counts the records whose error was not estimated.
+    """
+
+    model: str
+    method: str
+    records: int
+    shortest_step: float | None
+    longest_step: float | None
+    median_error: float | None
+    error_95_percent: float | None
+    largest_error: float | None
+    errors_unknown: int
+
+
+@dataclass(frozen=True)
+class Terms:
+    """Licence, citation and address, as the recipe or SPEC states them; empty if it does not."""
+
+    licence: str
+    citation: str
+    url: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Everything a card tells; `validity` counts the records by reason for which the model is outside its range."""
+
+    info: Info
+    origin: str
+    summary: str
+    terms: Terms
+    kinds: tuple[Kind, ...]
+    solved: tuple[Solved, ...]
+    validity: dict[str, int]
+    rates_hz: tuple[float, ...]
+    durations_s: tuple[float, float]
+    splits: dict[str, int]
+
+
+def corpus_facts(folder: Path) -> Facts:
+    """The facts of the corpus in `folder`; raises BadInput if there is none, or none of its records is made."""
+    corpus = Corpus(folder)
+    manifest, table = corpus.manifest, corpus.labels
+    return Facts(
+        info=corpus_info(folder),
+        origin=manifest.origin,
+        summary=str(_stated(manifest, "summary")),
+        terms=Terms(*(str(_stated(manifest, name)) for name in ("licence", "citation", "url"))),
+        kinds=tuple(_kinds(table)),
+        solved=tuple(_solved(table)),
+        validity=_validity(table),
+        rates_hz=tuple(sorted(set(table["rate_hz"].tolist()))),
+        durations_s=(float(table["duration_s"].min()), float(table["duration_s"].max())),
+        splits={name: int((table["split"] == name).sum()) for name in SPLIT_ORDER if (table["split"] == name).any()},
+    )
+
+
+def _stated(manifest: Manifest, name: str) -> object:
+    return (manifest.recipe["spec"] if manifest.imported else manifest.recipe).get(name) or ""
+
+
+def _kinds(table: pandas.DataFrame) -> list[Kind]:
+    return [
+        Kind(
+            condition=str(condition),
+            location=str(location),
+            records=len(rows),
+            by_split={str(split): int(count) for split, count in rows["split"].value_counts().items()},
+            first=int(rows["record"].min()),
+        )
+        for (condition, location), rows in table.groupby(["condition", "location"])
+    ]
+
+
+def _solved(table: pandas.DataFrame) -> list[Solved]:
+    return [
+        Solved(
+            str(model), str(method), len(rows), _known(rows["step"].min()), _known(rows["step"].max()),
+            _known(rows["error_estimate"].median()), _known(rows["error_estimate"].quantile(0.95)),
+            _known(rows["error_estimate"].max()), int(rows["error_estimate"].isna().sum()),
+        )
+        for (model, method), rows in table.groupby(["model", "method"])
+    ]  # fmt: skip
+
+
+def _known(value: float) -> float | None:
+    return None if value != value else float(value)
+
+
+def _validity(table: pandas.DataFrame) -> dict[str, int]:
+    """Records by reason; the numbers in a reason differ from record to record and are left out."""
+    counts: dict[str, int] = {}
+    for text in table["validity"]:
+        for reason in {_without_numbers(part) for part in str(text).split("; ") if part}:
+            counts[reason] = counts.get(reason, 0) + 1
+    return dict(sorted(counts.items(), key=lambda item: -item[1]))
+
+
+def _without_numbers(reason: str) -> str:
+    return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", "…", reason)

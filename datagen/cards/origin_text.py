@@ -1,0 +1,24 @@
+"""What a corpus was made from, as TOML: the recipe without its defaults, or the SPEC of the imported recordings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from datagen.cards.toml_text import toml_text
+from datagen.corpora.manifest import Manifest
+from datagen.errors import BadInput
+
+MANIFEST = Path("manifest.json")
+
+
+def origin_text(manifest: Manifest) -> str:
+    """The recipe or SPEC of a corpus as TOML, without what is as it is by default."""
+    from datagen.recipes.recipe import parse_recipe
+    from datagen.recordings.spec import parse_spec
+
+    stored = manifest.recipe["spec"] if manifest.imported else manifest.recipe
+    try:
+        read = parse_spec(stored, MANIFEST) if manifest.imported else parse_recipe(stored, MANIFEST)
+    except BadInput:
+        return toml_text(stored)  # made by a version with other settings: shown as it is stored
+    return toml_text(read.model_dump(mode="json", exclude_defaults=True))

@@ -1,0 +1,24 @@
+"""`spallgen report`: the card of a corpus."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from datagen.commands.program import CorpusFolder, JsonFile, command, write_json
+
+
+@command("spallgen report out/quickstart --out out/quickstart-card")
+def report(
+    folder: CorpusFolder,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder; DIR/report if not given.")] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Write the card of a corpus: what it holds, how it was made, pictures, and its labels in other words."""
+    from datagen.cards.report import write_report
+
+    written = write_report(folder, out)
+    write_json(json_file, written)
+    print(f"{len(written.files)} files are in {written.folder}: {', '.join(written.files[:4])} and pictures")

@@ -1,0 +1,60 @@
+"""`spallgen size`: how long the spalls of a corpus are, told from its vibration and scored where the truth is known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
+from datagen.errors import BadInput
+
+if TYPE_CHECKING:
+    from datagen.sizing.score import SizeScores
+
+Estimator = Annotated[str | None, typer.Option("--estimator", metavar="module:Class", help="Another estimator.")]
+OutFolder = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for report, table and pictures.")]
+
+
+@command("spallgen size out/size_ladder --out out/size_report")
+def size(
+    folder: CorpusFolder,
+    estimator: Estimator = None,
+    load_known: Annotated[
+        bool, typer.Option("--load-known/--blind", help="Tell the estimator load and Hertz factor, or not.")
+    ] = True,
+    split: Annotated[
+        str | None, typer.Option(metavar="SPLIT", help="train, validation, test or all; test if there is one.")
+    ] = None,
+    workers: Annotated[int, typer.Option(metavar="N", min=1, help="Processes.")] = 1,
+    out: OutFolder = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Estimate the size of the spall in every record and score lag, arc, abstention and intervals."""
+    from datagen.sizing.report import summary_table, write_report
+    from datagen.sizing.score import score_sizes
+
+    if out is not None and out.exists() and not out.is_dir():
+        raise BadInput("it is a file", field="--out", value=str(out), allowed="a folder")
+    scores = score_sizes(folder, estimator, load_known, split, workers)
+    write_json(json_file, scores)
+    if out is not None:
+        write_report(scores, out)
+    _tell(scores)
+    if scores.summary is not None:
+        show_tables([summary_table(scores.summary)])
+    if out is not None:
+        print(f"report, table and pictures are in {out}")
+
+
+def _tell(scores: SizeScores) -> None:
+    told = sum(one.found for one in scores.records)
+    print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {told} with an estimate")
+    if scores.summary is not None:
+        return
+    for one in scores.records:
+        answer = (
+            f"{one.estimated_mm:.2f} mm on the {one.found_race} race" if one.found else f"no estimate: {one.outcome}"
+        )
+        print(f"record {one.record}: {answer}")

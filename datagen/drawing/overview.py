@@ -1,0 +1,125 @@
+"""The overview of a corpus: how many records of each kind in each split, and how the labels are distributed."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.drawing.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    faint_grid,
+    house_style,
+    outside_legend,
+    plt,
+)
+from labels.schema import LABEL
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+WIDTH, ROW_HEIGHT, DPI = 11.0, 2.7, 120
+ACROSS, MOST_DISTRIBUTIONS = 3, 5
+COLOURS = {"none": SKY, "outer": BLUE, "inner": VERMILLION, "ball": GREEN, "cage": PURPLE, "several": ORANGE}
+SPLIT_COLOURS = {"train": BLUE, "validation": ORANGE, "test": GREEN, "unknown": GREY}
+WORTH_SHOWING = ("speed_rpm", "load_n", "extent_mm", "snr_db", "depth", "mean_slip", "rate_hz", "error_estimate")
+SHOWN_IN = {"depth": (1e6, "µm")}
+BINS, FEW = 24, 8
+LOGARITHMIC_FROM = 20.0
+
+
+def overview_png(labels: pandas.DataFrame, name: str) -> bytes:
+    """The overview of a table of labels as the bytes of a PNG file."""
+    shown = [column for column in WORTH_SHOWING if _values(labels, column).size > 1][:MOST_DISTRIBUTIONS]
+    rows = -(-(1 + len(shown)) // ACROSS)
+    picture = io.BytesIO()
+    with house_style():
+        figure, grid = plt.subplots(rows, ACROSS, figsize=(WIDTH, ROW_HEIGHT * rows + 0.5), layout="constrained")
+        panels = list(np.ravel(grid))
+        draw_kinds(panels[0], labels)
+        for panel, column in zip(panels[1:], shown, strict=False):
+            draw_distribution(panel, labels, column)
+        for panel in panels[1 + len(shown) :]:
+            panel.set_axis_off()
+        figure.suptitle(f"{name}: {len(labels)} records", x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
+        figure.savefig(picture, dpi=DPI, format="png")
+        plt.close(figure)
+    return picture.getvalue()
+
+
+def _values(labels: pandas.DataFrame, column: str) -> NDArray[np.float64]:
+    """The distinct known values of a label that apply to more than healthy records alone."""
+    return np.unique(labels.loc[_applies(labels, column), column].dropna().to_numpy(dtype=np.float64))
+
+
+def _applies(labels: pandas.DataFrame, column: str) -> pandas.Series:
+    """Sizes of a spall are 0 by definition in healthy records, which says nothing of the spalls."""
+    sized = column in ("extent_mm", "depth")
+    return (labels["location"] != "none") if sized else (labels["record"] >= 0)
+
+
+def draw_kinds(axes: Axes, labels: pandas.DataFrame) -> None:
+    """Horizontal bars: records of each condition and location, divided by split."""
+    counts = labels.groupby(["condition", "location", "split"]).size().unstack(fill_value=0)
+    names = ["healthy" if location == "none" else f"{condition}, {location}" for condition, location in counts.index]
+    left = np.zeros(len(counts))
+    for split in (split for split in SPLIT_COLOURS if split in counts):
+        axes.barh(names, counts[split], left=left, color=SPLIT_COLOURS[split], height=0.65, label=split)
+        left += counts[split].to_numpy()
+    for place, total in enumerate(left):
+        axes.text(total, place, f" {total:.0f}", va="center", fontsize=8, color=INK)
+    axes.set(xlabel="records", xlim=(0.0, 1.15 * left.max()))
+    axes.invert_yaxis()
+    axes.tick_params(axis="y", length=0)
+    axes.set_title("Kinds")
+    outside_legend(axes)
+
+
+def draw_distribution(axes: Axes, labels: pandas.DataFrame, column: str) -> None:
+    """How often each value of a label occurs, in records, by defective part."""
+    factor, unit = SHOWN_IN.get(column, (1.0, LABEL[column].unit))
+    table = labels.loc[_applies(labels, column) & labels[column].notna()]
+    distinct = _values(labels, column) * factor
+    stacked = [
+        (place, table.loc[table["location"] == place, column].to_numpy(dtype=np.float64) * factor)
+        for place in (*COLOURS, "unknown")
+        if (table["location"] == place).any()
+    ]
+    colours = [COLOURS.get(place, GREY) for place, _ in stacked]
+    names = [place for place, _ in stacked]
+    if distinct.size <= FEW:
+        _draw_bars(axes, stacked, distinct, colours)
+    else:
+        logarithmic = distinct.min() > 0.0 and distinct.max() / distinct.min() > LOGARITHMIC_FROM
+        ends = (distinct.min(), distinct.max())
+        edges = (np.geomspace if logarithmic else np.linspace)(*ends, BINS + 1).tolist()
+        axes.hist([values for _, values in stacked], edges, stacked=True, color=colours, label=names)
+        if logarithmic:
+            axes.set_xscale("log")
+    axes.set(xlabel=unit if unit != "1" else "", ylabel="records")
+    axes.set_title(column.replace("_", " ").removesuffix(f" {unit.lower()}"))
+    faint_grid(axes)
+    if len(names) > 1:
+        outside_legend(axes)
+
+
+def _draw_bars(
+    axes: Axes, stacked: list[tuple[str, NDArray[np.float64]]], distinct: NDArray[np.float64], colours: list[str]
+) -> None:
+    """Bars at equal distances for a few distinct values."""
+    below = np.zeros(distinct.size)
+    for (place, values), colour in zip(stacked, colours, strict=True):
+        heights = np.array([(values == value).sum() for value in distinct])
+        axes.bar(np.arange(distinct.size), heights, bottom=below, color=colour, width=0.65, label=place)
+        below += heights
+    axes.set_xticks(np.arange(distinct.size), [f"{value:.6g}" for value in distinct])

@@ -1,0 +1,145 @@
+"""The sheet of a benchmark: scores with intervals, confusion, calibration, what accuracy hangs on, importances."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, house_style, plt
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
+WIDTH, ROW, DPI = 13.0, 3.0, 110
+MOST_FEATURES = 15
+
+
+def scores_png(results: dict[str, Any]) -> bytes:
+    """The sheet of the results of `classify` as the bytes of a PNG file: one row of panels a corpus, then the model."""
+    tests = results["tests"]
+    with house_style():
+        rows = len(tests) + 1
+        figure, axes = plt.subplots(rows, 4, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False)
+        for panels, test in zip(axes, tests, strict=False):
+            draw_scores(panels[0], test)
+            draw_confusion(panels[1], test)
+            draw_reliability(panels[2], test)
+            draw_against(panels[3], test)
+        draw_importances(axes[-1][0], results)
+        draw_curve(axes[-1][1], results)
+        for panel in axes[-1][2:]:
+            panel.axis("off")
+        picture = io.BytesIO()
+        figure.savefig(picture, dpi=DPI, format="png")
+        plt.close(figure)
+    return picture.getvalue()
+
+
+def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
+    """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals."""
+    keys = {"faults": "faults_balanced_accuracy", "race": "race_accuracy", "AUC": "detection_auc"}
+    models = test["models"]
+    for place, (name, scores) in enumerate(models.items()):
+        shift = (place - 0.5 * (len(models) - 1)) * 0.16
+        for spot, key in enumerate(keys.values()):
+            found = scores[key]
+            if np.isfinite(found["value"]):
+                axes.plot([spot + shift] * 2, [found["low"], found["high"]], color=COLOURS[place % 6], linewidth=2)
+                axes.plot(spot + shift, found["value"], "o", color=COLOURS[place % 6], markersize=4)
+        axes.plot([], [], "o-", color=COLOURS[place % 6], label=name)
+    axes.set_xticks(range(len(keys)), list(keys))
+    axes.set_xlim(-0.5, len(keys) - 0.5)
+    axes.set_ylim(0.0, 1.03)
+    axes.set_title(f"{Path(test['corpus']).name}: {test['records']} records")
+    axes.legend(loc="lower left")
+    faint_grid(axes)
+
+
+def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
+    """Truth against what the last model says."""
+    name, scores = list(test["models"].items())[-1]
+    table = scores["confusion"]
+    counts = np.array(table["counts"])
+    shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
+    axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.3, aspect="auto")
+    for row, column in np.ndindex(*counts.shape):
+        axes.text(column, row, str(counts[row, column]), ha="center", va="center", color=INK)
+    axes.set_xticks(range(len(table["columns"])), table["columns"])
+    axes.set_yticks(range(len(table["rows"])), table["rows"])
+    axes.set_xlabel(f"said by {name}")
+    axes.set_ylabel("truth")
+    axes.set_title("confusion")
+
+
+def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
+    """Share of spalls against the probability predicted."""
+    if not any("reliability" in scores for scores in test["models"].values()):
+        axes.axis("off")
+        return
+    axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
+    for place, (name, scores) in enumerate(test["models"].items()):
+        if "reliability" in scores:
+            curve = scores["reliability"]
+            axes.plot(curve["predicted"], curve["observed"], "o-", color=COLOURS[place % 6], markersize=3, label=name)
+    axes.legend(loc="upper left")
+    axes.set_xlabel("predicted probability of a spall")
+    axes.set_ylabel("share of spalls")
+    axes.set_title("reliability")
+
+
+def draw_against(axes: Axes, test: dict[str, Any]) -> None:
+    """Accuracy over fault records against the first quantity that varies."""
+    if not any(scores["accuracy_against"] for scores in test["models"].values()):
+        axes.axis("off")
+        return
+    axes.set_title("accuracy over faults")
+    axes.set_ylim(0.0, 1.03)
+    faint_grid(axes)
+    units = {
+        "snr_db": "SNR, dB",
+        "speed_rpm": "speed, rpm",
+        "extent_mm": "size, mm",
+        "extent_spacing": "size, ball spacings",
+    }
+    for place, scores in enumerate(test["models"].values()):
+        for quantity, table in list(scores["accuracy_against"].items())[:1]:
+            at, value = [point["at"] for point in table], [point["accuracy"] for point in table]
+            bars = [[v - p["low"] for v, p in zip(value, table, strict=True)],
+                    [p["high"] - v for v, p in zip(value, table, strict=True)]]  # fmt: skip
+            axes.errorbar(at, value, yerr=np.maximum(bars, 0.0), color=COLOURS[place % 6], marker="o", markersize=3)
+            axes.set_xlabel(units[quantity])
+
+
+def draw_importances(axes: Axes, results: dict[str, Any]) -> None:
+    """The features that the last model uses most."""
+    if not results["importances"]:
+        axes.axis("off")
+        return
+    name, table = list(results["importances"].items())[-1]
+    chosen = list(table.items())[:MOST_FEATURES][::-1]
+    axes.barh([row[0] for row in chosen], [row[1] for row in chosen], color=BLUE)
+    axes.tick_params(axis="y", labelsize=6.5)
+    axes.set_xlabel("rise of log loss when shuffled, nats")
+    axes.set_title(f"importances, {name}")
+
+
+def draw_curve(axes: Axes, results: dict[str, Any]) -> None:
+    """Balanced accuracy against the number of virtual bearings learned from."""
+    if "learning_curve" not in results:
+        axes.axis("off")
+        return
+    for place, (name, points) in enumerate(results["learning_curve"].items()):
+        bearings = [point["bearings"] for point in points]
+        axes.plot(
+            bearings, [point["value"] for point in points], "o-", color=COLOURS[place + 1], markersize=3, label=name
+        )
+        low, high = [point["low"] for point in points], [point["high"] for point in points]
+        axes.fill_between(bearings, low, high, color=COLOURS[place + 1], alpha=0.15, linewidth=0)
+    axes.set_xlabel("virtual bearings learned from")
+    axes.set_ylabel("balanced accuracy, rows")
+    axes.set_title("learning curve")
+    axes.legend(loc="lower right")

@@ -1,0 +1,87 @@
+"""All chapters together: which there are, and the folder of pictures and tables they make."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from datagen.corpora.atomic import write_atomically
+from datagen.drawing.style import house_style, plt
+from datagen.errors import BadInput
+from datagen.paper.chapter import Chapter
+from datagen.paper.tables import csv_text, page
+from datagen.plain import plain_json
+
+CHAPTERS = {
+    "5": "figure05_load_distribution",
+    "6": "figure06_stiffness",
+    "7": "figure07_contact_forces",
+    "8": "figure08_velocity_spectra",
+    "9": "figure09_envelope_spectra",
+    "10": "figure10_band_spectra",
+    "11": "figure11_fan_rig",
+    "q1": "question1_extended_profiles",
+    "q2": "question2_unequal_balls",
+    "q3": "question3_slip",
+}
+DPI = 100
+
+
+def chosen(figures: str | None) -> list[str]:
+    """Keys of the chapters named in a list with commas, in the order of the paper; BadInput names an unknown one."""
+    if figures is None:
+        return list(CHAPTERS)
+    asked = [part.strip().lower() for part in figures.split(",")]
+    for part in asked:
+        if part not in CHAPTERS:
+            raise BadInput(field="--figures", value=part, allowed=", ".join(CHAPTERS))
+    return [key for key in CHAPTERS if key in asked]
+
+
+def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) -> dict[str, Any]:
+    """Compute and draw the chapters `keys` into the folder `out`; returns what paper.json holds.
+
+    For each chapter name.png and name.csv, and for all paper.json and README.md. Raises BadInput if the folder cannot
+    be made or written into, before anything is computed.
+    """
+    _prepare(out)
+    chapters = []
+    for key in keys:
+        chapter: Chapter = import_module(f"datagen.paper.{CHAPTERS[key]}").chapter()
+        write_atomically(out / f"{chapter.name}.png", _picture(chapter))
+        write_atomically(out / f"{chapter.name}.csv", csv_text(chapter.rows).encode())
+        chapters.append(chapter)
+        report(chapter.title)
+    results = {chapter.name: _facts(chapter) for chapter in chapters}
+    write_atomically(out / "paper.json", plain_json(results).encode())
+    write_atomically(out / "README.md", page(chapters).encode())
+    return results
+
+
+def _prepare(out: Path) -> None:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        allowed = os.access(out, os.W_OK | os.X_OK)
+    except OSError as problem:
+        raise BadInput(f"cannot make this folder: {problem.strerror}", field="--out", value=str(out)) from None
+    if not allowed:
+        raise BadInput("cannot write into this folder", field="--out", value=str(out))
+
+
+def _picture(chapter: Chapter) -> bytes:
+    png = io.BytesIO()
+    with house_style():
+        figure = chapter.draw()
+        figure.savefig(png, dpi=DPI, format="png", metadata={"Software": None})
+        plt.close(figure)
+    return png.getvalue()
+
+
+def _facts(chapter: Chapter) -> dict[str, Any]:
+    rows = [asdict(row) | {"difference": row.difference} for row in chapter.rows]
+    return {"title": chapter.title, "text": chapter.text, "picture": f"{chapter.name}.png", "rows": rows}

@@ -1,0 +1,51 @@
+"""The estimator that comes with spallgen, and those that users bring."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from labels.spall_size.calibration import Calibration
+from labels.spall_size.estimator import SizeEstimator
+from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeEstimate
+
+CALIBRATION_FILE = Path(__file__).with_name("calibration.npz")
+SPOKEN = "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate"
+
+
+class AnyEstimator(Protocol):
+    """Anything that tells the size of the spall in one record."""
+
+    def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
+        """The size from acceleration (T, 2), m/s², sampled at `rate` (Hz)."""
+
+
+@cache
+def default_estimator() -> SizeEstimator:
+    """The estimator with the calibration fitted to the training split of datasets/size_ladder."""
+    with np.load(CALIBRATION_FILE) as file:
+        arrays: Mapping[str, NDArray[np.generic]] = {name: file[name] for name in file.files}
+    return SizeEstimator(Calibration.from_arrays(dict(arrays)))
+
+
+def find_estimator(name: str | None) -> AnyEstimator:
+    """The estimator called "module:Class", made without arguments, or the default one; BadInput if there is none."""
+    if name is None:
+        return default_estimator()
+    module, _, attribute = name.partition(":")
+    try:
+        made = getattr(importlib.import_module(module), attribute)()
+    except (ImportError, AttributeError, TypeError, ValueError) as problem:
+        raise BadInput(str(problem), field="--estimator", value=name, allowed=SPOKEN) from None
+    if not callable(getattr(made, "estimate", None)):
+        raise BadInput("it has no method estimate", field="--estimator", value=name, allowed=SPOKEN)
+    estimator: AnyEstimator = made
+    return estimator

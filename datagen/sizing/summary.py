@@ -1,0 +1,220 @@
+"""What the scored records say together: each target with its figure, and errors by what they depend on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
+from labels.event_scores import EventScores
+from labels.spall_size.known_size import known_size_factor
+
+NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
+CLEAN_DB = 60.0
+RESAMPLES = 2000
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A measured number with its 90 % bootstrap interval over `count` records, and its target if there is one."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    count: int
+    target: str = ""
+    met: bool | None = None
+
+
+def summarise(records: list[ScoredRecord], load_known: bool) -> dict[str, Any]:
+    """Figures, tables by dependence, and counts, ready for JSON."""
+    return {
+        "records": len(records),
+        "scorable": sum(one.scorable for one in records),
+        "without_event": sum(one.without_event for one in records),
+        "load_and_hertz_factor_given": load_known,
+        "figures": _figures(records, load_known),
+        "by": _tables(records),
+        "events": {
+            "within_100_us": _event_scores(one.events_in_time for one in records),
+            "within_0.5_degrees": _event_scores(one.events_in_arc for one in records),
+            "within_100_us, told records": _event_scores(one.events_in_time for one in records if one.found),
+            "within_0.5_degrees, told records": _event_scores(one.events_in_arc for one in records if one.found),
+        },
+        "long": _long(records),
+        "known_size_of_another_record": _known_size(records),
+        "seconds_per_record": {
+            "mean": float(np.mean([one.seconds for one in records])) if records else math.nan,
+            "largest_after_first": max((one.seconds for one in records[1:]), default=math.nan),
+        },
+    }
+
+
+def noise_level(one: ScoredRecord) -> float:
+    """The nominal noise level of a record, dB; infinite if it is clean, which is what 60 dB and more count as."""
+    if not one.snr_db < CLEAN_DB:
+        return math.inf
+    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - one.snr_db))
+
+
+def lag_error(one: ScoredRecord) -> float:
+    """|error| of the lag over its true value."""
+    return abs(one.lag - one.true_lag) / one.true_lag
+
+
+def extent_error(one: ScoredRecord) -> float:
+    """|error| of the extent over its true value."""
+    return abs(one.extent - one.true_extent) / one.true_extent
+
+
+def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], float]:
+    return lambda one: abs(arc(one) - one.true_extent) / one.true_extent
+
+
+RULES: dict[str, Callable[[ScoredRecord], float]] = {
+    "full size, own lag": _rule(lambda one: one.lag_arc),
+    "half size, own lag": _rule(lambda one: 2.0 * one.lag_arc),
+    "plain envelope lag": _rule(lambda one: one.envelope_arc),
+    "own lag and static release": _rule(lambda one: one.static_arc),
+}
+
+
+def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
+    scorable = [one for one in records if one.scorable]
+    told = [one for one in scorable if one.found]
+    figures: list[Figure] = []
+    for level in NOISE_LEVELS:
+        name = noise_name(level) + ("" if level == math.inf else " dB")
+        own = [one for one in told if noise_level(one) == level]
+        asked = [one for one in scorable if noise_level(one) == level]
+        figures.append(_figure(f"lag error, {name}", map(lag_error, own), {math.inf: 0.05, 10.0: 0.10}.get(level)))
+        arc_target = {math.inf: 0.10, 10.0: 0.15}.get(level) if load_known else None
+        figures.append(_figure(f"arc error, {name}", map(extent_error, own), arc_target))
+        figures += [_figure(f"arc error by rule: {rule}, {name}", map(error, own)) for rule, error in RULES.items()]
+        unanswered = (float(not one.found) for one in asked)
+        figures.append(_figure(f"no estimate, {name}", unanswered, 0.05 if level == math.inf else None))
+    silent = (float(not one.found) for one in records if one.without_event)
+    figures.append(_figure("abstention where there is no event", silent, 0.95, at_least=True))
+    for what, inside in (
+        ("lag", [one.lag_low <= one.true_lag <= one.lag_high for one in told]),
+        ("arc", [one.extent_low <= one.true_extent <= one.extent_high for one in told]),
+    ):
+        figures.append(_coverage(what, [float(value) for value in inside]))
+    return figures
+
+
+def _figure(name: str, values: Iterable[float], target: float | None = None, *, at_least: bool = False) -> Figure:
+    sample = np.array([value for value in values if math.isfinite(value)])
+    if sample.size == 0:
+        return Figure(name, math.nan, math.nan, math.nan, 0)
+    value, (low, high) = float(sample.mean()), _bootstrap(sample)
+    if target is None:
+        return Figure(name, value, low, high, sample.size)
+    met = value >= target if at_least else value <= target
+    return Figure(name, value, low, high, sample.size, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
+
+
+def _coverage(what: str, inside: list[float]) -> Figure:
+    plain = _figure(f"90 % interval of the {what} holds the truth", inside)
+    return Figure(plain.name, plain.value, plain.low, plain.high, plain.count, "0.85 to 0.95",
+                  bool(0.85 <= plain.value <= 0.95))  # fmt: skip
+
+
+def _bootstrap(sample: np.ndarray) -> tuple[float, float]:
+    generator = np.random.default_rng(sample.size)
+    means = sample[generator.integers(sample.size, size=(RESAMPLES, sample.size))].mean(axis=1)
+    low, high = np.quantile(means, [0.05, 0.95])
+    return float(low), float(high)
+
+
+Bin = tuple[float, str]
+
+
+def _tables(records: list[ScoredRecord]) -> dict[str, list[dict[str, Any]]]:
+    scorable = [one for one in records if one.scorable]
+    keys: dict[str, Callable[[ScoredRecord], Bin]] = {
+        "noise, dB": lambda one: (-noise_level(one), noise_name(noise_level(one))),
+        "size, spacings": _binned(lambda one: one.extent_spacing, (0.0, 0.05, 0.1, 0.2, 0.4, 0.9)),
+        "size, mm": _binned(lambda one: one.extent_mm, (0.0, 0.5, 1.0, 2.0, 4.0, 16.0)),
+        "true lag, samples": _binned(lambda one: one.true_lag * one.rate, (0.0, 10.0, 20.0, 50.0, 150.0, 1e9)),
+        "speed, rpm": _binned(lambda one: one.speed_rpm, (0.0, 600.0, 1200.0, 1800.0, 2400.0, 1e9)),
+        "load, N": _binned(lambda one: one.load_n, (0.0, 50.0, 200.0, 800.0, 1e9)),
+        "race": lambda one: (0.0, one.race),
+        "profile": lambda one: (0.0, one.profile),
+        "rig": lambda one: (0.0, one.rig),
+    }
+    return {name: _table(scorable, key) for name, key in keys.items()}
+
+
+def noise_name(level: float) -> str:
+    """ "clean" or the level in dB."""
+    return "clean" if level == math.inf else f"{level:g}"
+
+
+def _binned(of: Callable[[ScoredRecord], float], edges: tuple[float, ...]) -> Callable[[ScoredRecord], Bin]:
+    def place(one: ScoredRecord) -> Bin:
+        k = int(np.clip(np.searchsorted(edges, of(one), side="right") - 1, 0, len(edges) - 2))
+        return edges[k], f"over {edges[k]:g}" if k == len(edges) - 2 else f"{edges[k]:g}–{edges[k + 1]:g}"
+
+    return place
+
+
+def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], Bin]) -> list[dict[str, Any]]:
+    groups: dict[Bin, list[ScoredRecord]] = {}
+    for one in records:
+        groups.setdefault(key(one), []).append(one)
+    return [
+        {
+            "value": name,
+            "records": len(own),
+            "no_estimate": float(np.mean([not one.found for one in own])),
+            "lag_error": _mean([lag_error(one) for one in own if one.found]),
+            "lag_error_median": _median([lag_error(one) for one in own if one.found]),
+            "arc_error": _mean([extent_error(one) for one in own if one.found]),
+            "arc_error_median": _median([extent_error(one) for one in own if one.found]),
+        }
+        for (_, name), own in sorted(groups.items())
+    ]
+
+
+def _mean(values: list[float]) -> float:
+    return float(np.mean(values)) if values else math.nan
+
+
+def _median(values: list[float]) -> float:
+    return float(np.median(values)) if values else math.nan
+
+
+def _long(records: list[ScoredRecord]) -> dict[str, Any]:
+    """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was told."""
+    own = [one for one in records if one.has_events and not one.scorable]
+    told = [one for one in own if one.found]
+    errors = [min(abs(c - one.true_extent) for c in one.candidates) / one.true_extent for one in told if one.candidates]
+    return {"records": len(own), "told": len(told), "error_of_nearest_candidate": _mean(errors),
+            "median": _median(errors)}  # fmt: skip
+
+
+def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
+    """Arc error of told records before and after correction by one other told record of the same virtual bearing."""
+    told = [one for one in records if one.scorable and one.found]
+    before, after = [], []
+    for one in told:
+        others = [other for other in told if other.bearing_id == one.bearing_id and other.record != one.record]
+        if others:
+            known = max(others, key=lambda other: (noise_level(other), other.trust))
+            factor = known_size_factor(known.extent, known.true_extent)
+            before.append(extent_error(one))
+            after.append(abs(one.extent * factor - one.true_extent) / one.true_extent)
+    return {"records": len(before), "arc_error_without": _mean(before), "arc_error_with": _mean(after),
+            "median_without": _median(before), "median_with": _median(after)}  # fmt: skip
+
+
+def _event_scores(scores: Iterable[EventScores]) -> dict[str, float]:
+    total = sum(scores, NO_SCORES)
+    return {"precision": total.precision, "recall": total.recall, "f1": total.f1,
+            "true": total.true, "found": total.found}  # fmt: skip

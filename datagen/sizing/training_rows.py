@@ -1,0 +1,113 @@
+"""What the calibration is fitted to: pairs of candidates of the training records, clean and with two noises."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.scenarios.streams import stream
+from datagen.sizing.sized_records import SizedRecord, sized_records
+from labels.spall_size.event_truth import EventTruth
+from labels.spall_size.evidence import Evidence, gather_evidence
+from labels.spall_size.situation import Situation
+
+Array = NDArray[np.float64]
+
+LEVELS_DB = (math.inf, 20.0, 10.0, 5.0, 0.0)
+ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
+SHORTEST_LAG = 1.5  # samples
+LAG_SCALE = 0.12
+PLACE_TOLERANCE = 0.4
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One record under one noise: what was found and what is true.
+
+    `true_lag` in samples (NaN: no events); `lag` the same modulo the period (NaN: no events or the wrong race), `arc`
+    the spall's in rad (modulo the spacing), `quality` (P,) of each pair, 0 to 1.
+    """
+
+    record: int
+    bearing_id: str
+    situation: Situation
+    evidence: Evidence
+    true_lag: float
+    lag: float
+    arc: float
+    quality: Array
+
+
+def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Trial]:
+    """Every trial of the records of `splits` in a corpus that stores clean signals."""
+    from joblib import Parallel, delayed
+
+    records = sized_records(folder, load_known=True, splits=splits)
+    made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_of_record)(sized) for sized in records)
+    return [trial for several in made for trial in several]
+
+
+def _of_record(sized: SizedRecord) -> list[Trial]:
+    made = []
+    for signal in _signals(sized):
+        evidence = gather_evidence(signal, sized.rate, sized.situation.pass_periods())
+        if evidence is not None:
+            made.append(_trial(sized, replace(evidence, whitened=np.zeros(0))))  # the fit needs no signals
+    return made
+
+
+def _signals(sized: SizedRecord) -> Iterator[Array]:
+    """The y axis clean, as stored, and with noise of a level drawn from those of the size ladder."""
+    stored = sized.acceleration[:, 1]
+    clean = stored if sized.clean is None else sized.clean[:, 1]
+    generator = stream(0, "record", sized.record, "white_noise", item=1)
+    level = LEVELS_DB[int(generator.integers(len(LEVELS_DB)))]
+    yield clean
+    yield stored
+    yield clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size)
+
+
+def _trial(sized: SizedRecord, evidence: Evidence) -> Trial:
+    lag, arc, quality = math.nan, math.nan, np.zeros(evidence.pairs.lag.size)
+    truth = sized.truth
+    true_lag = truth.lag * sized.rate if truth is not None else math.nan
+    if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LAG:
+        turns = math.floor(true_lag / (0.97 * evidence.mean.period))
+        lag = max(true_lag - turns * evidence.mean.period, 1.0)
+        arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
+        quality = _quality(evidence, truth, lag)
+    bearing_id = str(sized.labels["bearing_id"])
+    return Trial(sized.record, bearing_id, sized.situation, evidence, true_lag, lag, arc, quality)
+
+
+def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:
+    """exp(−|log error of the lag| / 0.12), but 0 for pairs whose events lie elsewhere in the pass."""
+    period, pairs = evidence.mean.period, evidence.pairs
+    short = min(lag, period - lag)
+    error = np.minimum(np.abs(np.log(pairs.lag / lag)), np.maximum(_apart(pairs.lag - lag, period) - 0.5, 0.0) / short)
+    away = [
+        _apart(place - mean_place(evidence, times) - ONSET, period)
+        for place, times in ((pairs.entry, truth.first), (pairs.exit, truth.last))
+    ]
+    near = np.maximum(np.maximum(*away) - 2.5, 0.0) / short < PLACE_TOLERANCE
+    return np.asarray(np.exp(-error / LAG_SCALE) * near)
+
+
+def _apart(distance: Array, period: float) -> Array:
+    return np.abs((distance + 0.5 * period) % period - 0.5 * period)
+
+
+def mean_place(evidence: Evidence, times: Array) -> float:
+    """Where in the pass the events at `times` (K,), s, lie: samples from the anchor, modulo the period."""
+    anchor, period = evidence.alignment.place, evidence.mean.period
+    nearest = np.abs(anchor[None, :] - times[:, None] * evidence.rate).argmin(axis=1)
+    distance, weight = times * evidence.rate - anchor[nearest], evidence.alignment.weight[nearest]
+    turn = 2.0 * math.pi / period
+    middle = float(np.angle((weight * np.exp(1j * turn * distance)).sum())) / turn
+    unwrapped = (distance - middle + 0.5 * period) % period - 0.5 * period
+    return middle + float(np.median(unwrapped[weight >= np.median(weight)]))

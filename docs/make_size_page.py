@@ -1,0 +1,121 @@
+"""Writes the numbers of docs/size.md: `python docs/make_size_page.py LOAD_KNOWN.json BLIND.json`.
+
+Both files are `size_report.json` of `spallgen size CORPUS --out DIR`, with and without `--blind`.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+PAGE = Path(__file__).with_name("size.md")
+BEGIN, END = "<!-- size ladder: begin (written by docs/make_size_page.py) -->", "<!-- size ladder: end -->"
+LEVELS = ("clean", "20 dB", "10 dB", "5 dB", "0 dB")
+RULES = ("full size, own lag", "half size, own lag", "plain envelope lag", "own lag and static release")
+
+
+def figures(summary: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The figures of a summary by name."""
+    return {figure["name"]: figure for figure in summary["figures"]}
+
+
+def cell(figure: dict[str, Any] | None) -> str:
+    """A figure with its interval."""
+    if figure is None or figure["value"] is None:
+        return "–"
+    return f"{100 * figure['value']:.1f} ({100 * figure['low']:.1f}–{100 * figure['high']:.1f})"
+
+
+def by_noise(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
+    """Errors by noise, load known and blind, beside the rules."""
+    told, untold = figures(known), figures(blind)
+    rows = [
+        ("lag error", told, "lag error"),
+        ("arc error, load and Hertz factor given", told, "arc error"),
+        ("arc error, blind", untold, "arc error"),
+        *((f"arc error, {rule}", told, f"arc error by rule: {rule}") for rule in RULES),
+        ("no estimate, load given", told, "no estimate"),
+        ("no estimate, blind", untold, "no estimate"),
+    ]
+    lines = [f"| per cent (90 % interval) | {' | '.join(LEVELS)} |", "|---|" + "---|" * len(LEVELS)]
+    for title, source, name in rows:
+        lines.append(f"| {title} | " + " | ".join(cell(source.get(f"{name}, {level}")) for level in LEVELS) + " |")
+    return lines
+
+
+def targets(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
+    """Every target with its figure."""
+    lines = ["| target | asked | load given | blind |", "|---|---|---|---|"]
+    other = figures(blind)
+    for name, figure in figures(known).items():
+        if figure["target"]:
+            verdict = "met" if figure["met"] else "**missed**"
+            lines.append(
+                f"| {name} | {figure['target']} | {figure['value']:.3f}, {verdict} | {other[name]['value']:.3f} |"
+            )
+    return lines
+
+
+def dependences(known: dict[str, Any]) -> list[str]:
+    """Errors by what they depend on."""
+    lines = [
+        "| | | records | no estimate | lag error, mean (median) | arc error, mean (median) |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name, table in known["by"].items():
+        for row in table:
+            errors = [
+                "–" if row[f"{what}_error"] is None
+                else f"{100 * row[f'{what}_error']:.1f} ({100 * row[f'{what}_error_median']:.1f})"
+                for what in ("lag", "arc")
+            ]  # fmt: skip
+            silent = f"{100 * row['no_estimate']:.0f}"
+            lines.append(f"| {name} | {row['value']} | {row['records']} | {silent} | {errors[0]} | {errors[1]} |")
+    return lines
+
+
+def sentences(known: dict[str, Any]) -> list[str]:
+    """What is told in words."""
+    long, size, events = known["long"], known["known_size_of_another_record"], known["events"]
+    lines = [
+        f"- Beyond 0.9 ball spacings {long['told']} of {long['records']} records were told a size; the nearest "
+        f"candidate was off by {percent(long['error_of_nearest_candidate'])} on average, "
+        f"{percent(long['median'])} in the median.",
+        f"- With the known size of one other record of the same machine the arc error of {size['records']} records "
+        f"went from {percent(size['arc_error_without'])} to {percent(size['arc_error_with'])} (medians "
+        f"{percent(size['median_without'])} and {percent(size['median_with'])}).",
+    ]
+    for name, scores in events.items():
+        lines.append(
+            f"- Events {name.replace('_', ' ')}: precision {percent(scores['precision'])}, recall "
+            f"{percent(scores['recall'])}, F1 {percent(scores['f1'])} of {scores['true']} true ones."
+        )
+    lines.append(
+        f"- One record of a second took {known['seconds_per_record']['mean']:.2f} s of one processor on average."
+    )
+    return lines
+
+
+def percent(share: float | None) -> str:
+    """A share in per cent."""
+    return "–" if share is None else f"{100 * share:.1f} %"
+
+
+def main(known_file: str, blind_file: str) -> None:
+    """Replace what stands between the marks."""
+    known, blind = (json.loads(Path(file).read_text())["summary"] for file in (known_file, blind_file))
+    text = [
+        f"{known['records']} records of the test split, {known['scorable']} of them to be told a size, "
+        f"{known['without_event']} with no event or a lag below two samples. Errors are |error| / true where told.",
+        "", *by_noise(known, blind), "", *targets(known, blind), "", *sentences(known), "",
+        "With load and Hertz factor, errors in per cent:", "", *dependences(known),
+    ]  # fmt: skip
+    page = PAGE.read_text()
+    before, after = page.split(BEGIN)[0], page.split(END)[1]
+    PAGE.write_text(f"{before}{BEGIN}\n" + "\n".join(text) + f"\n{END}{after}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

@@ -1,0 +1,124 @@
+"""Writes the tables of docs/transfer.md from reports of `spallgen classify`: python docs/make_transfer.py REPORT.json …
+
+A report is named by the folder that it lies in; the first is the main run, the others are ablations.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+PAGE = Path(__file__).with_name("transfer.md")
+BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"
+ODD = {"197", "198", "199", "174", "201"}
+
+
+def interval(found: dict[str, Any]) -> str:
+    """A score with its interval; a dash where it is not defined."""
+    if found["value"] is None:
+        return "–"
+    return f"{found['value']:.3f} [{found['low']:.3f}, {found['high']:.3f}]"
+
+
+def without_odd(test: dict[str, Any], model: str) -> str:
+    """Balanced accuracy over outer and inner without the records that their publishers' readers call odd."""
+    shares = []
+    for race in ("outer", "inner"):
+        own = [entry for entry in test["predictions"] if entry["truth"] == race and entry["recording"] not in ODD]
+        if own:
+            shares.append(sum(entry[model]["location"] == race for entry in own) / len(own))
+    return f"{sum(shares) / len(shares):.3f}" if shares else "–"
+
+
+def odd_ones(test: dict[str, Any], model: str) -> str:
+    """What is said of the odd records."""
+    said = [
+        f"{entry['recording']} {entry[model]['location']}" for entry in test["predictions"] if entry["recording"] in ODD
+    ]
+    return ", ".join(said) or "–"
+
+
+def main_table(report: dict[str, Any]) -> list[str]:
+    """One row a corpus and model."""
+    lines = [
+        "| corpus | model | outer and inner, all records | without odd ones | race alone | AUC | minus rule | "
+        "false alarms | rejected | odd records |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for test in report["tests"]:
+        for name, scores in test["models"].items():
+            minus = scores.get("minus_rule", {}).get("faults_balanced_accuracy")
+            cells = (
+                Path(test["corpus"]).name,
+                name,
+                interval(scores["faults_balanced_accuracy"]),
+                without_odd(test, name),
+                interval(scores["race_accuracy"]),
+                interval(scores["detection_auc"]),
+                interval(minus) if minus else "",
+                f"{scores['false_alarms']} of {scores['healthy']}",
+                str(scores["rejected"]),
+                odd_ones(test, name),
+            )
+            lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def noise_table(report: dict[str, Any]) -> list[str]:
+    """Race accuracy and AUC under added white noise, with the difference to the rule."""
+    lines = ["| corpus | SNR, dB | model | race | minus rule | AUC | minus rule |", "|---|---|---|---|---|---|---|"]
+    for test in report["tests"]:
+        for noisy in test["noise"]:
+            for name, scores in noisy["models"].items():
+                minus = scores.get("minus_rule", {})
+                cells = (
+                    Path(test["corpus"]).name,
+                    f"{noisy['snr_db']:g}",
+                    name,
+                    interval(scores["race_accuracy"]),
+                    interval(minus["race_accuracy"]) if minus else "",
+                    interval(scores["detection_auc"]),
+                    interval(minus["detection_auc"]) if minus else "",
+                )
+                lines.append("| " + " | ".join(cells) + " |")
+    return lines if len(lines) > 2 else ["Not run."]
+
+
+def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
+    """Balanced accuracy over outer and inner, without odd records, of each report's models on each imported corpus."""
+    if len(reports) < 2:
+        return ["Not run."]
+    first = next(iter(reports.values()))
+    corpora = [Path(test["corpus"]).name for test in first["tests"] if test["imported"]]
+    lines = ["| learned from | model | " + " | ".join(corpora) + " |", "|---" * (len(corpora) + 2) + "|"]
+    for name, report in reports.items():
+        tests = {Path(test["corpus"]).name: test for test in report["tests"]}
+        for model in next(iter(tests.values()))["models"]:
+            cells = [without_odd(tests[corpus], model) for corpus in corpora]
+            lines.append(f"| {name} | {model} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def replaced(page: str, name: str, lines: list[str]) -> str:
+    """The page with new lines between the marks of one table."""
+    begin, end = BEGIN.format(name), END.format(name)
+    head, rest = page.split(begin)
+    return f"{head}{begin}\n" + "\n".join(lines) + f"\n{end}" + rest.split(end)[1]
+
+
+def main(paths: list[str]) -> None:
+    """Write the tables."""
+    reports = {Path(path).absolute().parent.name: json.loads(Path(path).read_text()) for path in paths}
+    first = next(iter(reports.values()))
+    page = PAGE.read_text(encoding="utf-8")
+    learned = f"Learned from {first['training_records']} simulated records; no real one."
+    page = replaced(page, "scores", [learned, "", *main_table(first)])
+    page = replaced(page, "noise", noise_table(first))
+    page = replaced(page, "ablation", ablation_table(reports))
+    PAGE.write_text(page, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,120 @@
+"""The baseline: is there a spall, on which race, and how long, each question with a calibrated probability."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.base import BaseEstimator, ClassifierMixin
+
+from labels.features.conditioning import Array
+from labels.features.table import FEATURE_NAMES
+from labels.learners import SEED, learner
+from labels.stage import Stage
+
+CLASSES = ("healthy", "line outer", "line inner", "extended outer", "extended inner")
+HEALTHY = "healthy"
+FALSE_ALARMS = 0.02
+RACE_PREFIXES = ("outer_", "inner_", "race_")
+SPALL_NAMES = (
+    "kurtosis",
+    "crest_factor",
+    "flat_kurtosis",
+    "band_kurtosis",
+    "median_band_kurtosis",
+    "decoy_evidence",
+    "largest_decoy",
+    "ball_evidence",
+    "cage_evidence",
+)
+EVEN = 0.5
+
+
+class SpallClassifier(ClassifierMixin, BaseEstimator):
+    """Three calibrated questions asked with one kind of learner ("forest", "logistic" or "boosting").
+
+    Spall or none, from the features of the two races' line families and of impulsiveness; outer or inner race, from the
+    families alone; line or extended, from all. Lines of the shaft, which belong to the machine, tell neither.
+    `alarm_` is the probability of a spall that `false_alarms` of the healthy records exceed, on bearings not learned
+    from.
+    """
+
+    def __init__(self, kind: str = "forest", seed: int = SEED, false_alarms: float = FALSE_ALARMS) -> None:
+        self.kind = kind
+        self.seed = seed
+        self.false_alarms = false_alarms
+
+    def fit(self, X: Array, y: NDArray[Any], groups: NDArray[Any] | None = None) -> SpallClassifier:
+        """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) are virtual bearings."""
+        X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
+        groups = np.arange(len(y)) if groups is None else np.asarray(groups)
+        self.classes_ = np.array(CLASSES)
+        faulty = y != HEALTHY
+        self.spall_ = self._stage().fit(_spall_columns(X), faulty, groups)
+        self.alarm_ = float(np.quantile(self.spall_.held_out[~faulty], 1.0 - self.false_alarms))
+        faults, fault_groups = X[faulty], groups[faulty]
+        self.race_ = self._stage().fit(_race_columns(faults), _ends_with(y[faulty], "inner"), fault_groups)
+        extended = np.char.startswith(y[faulty].astype(str), "extended")
+        # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
+        self.length_ = (
+            self._stage().fit(faults, extended, fault_groups) if extended.any() and not extended.all() else None
+        )
+        self.always_extended_ = bool(extended.all())
+        return self
+
+    def predict_proba(self, X: Array) -> Array:
+        """Probabilities (N, 5) of CLASSES; they sum to 1 in each row."""
+        X = np.asarray(X, dtype=np.float64)
+        spall, inner = self.spall_.probability(_spall_columns(X)), self.race_.probability(_race_columns(X))
+        long = np.full(len(X), float(self.always_extended_)) if self.length_ is None else self.length_.probability(X)
+        parts = (1.0 - long) * (1.0 - inner), (1.0 - long) * inner, long * (1.0 - inner), long * inner
+        return np.column_stack([1.0 - spall, *(spall * part for part in parts)])
+
+    def predict(self, X: Array) -> NDArray[np.str_]:
+        """The likeliest class (N,) of the rows whose probability of a spall passes the alarm; "healthy" for others."""
+        return decide(self.predict_proba(X), self.alarm_)
+
+    def _stage(self) -> Stage:
+        return Stage(learner(self.kind, self.seed), self.seed)
+
+
+def decide(probability: Array, alarm: float = EVEN) -> NDArray[np.str_]:
+    """The class (N,) that follows from probabilities (N, 5): the likeliest spall if that of any passes `alarm`."""
+    spall = 1.0 - probability[:, 0]
+    likeliest = np.asarray(CLASSES[1:])[probability[:, 1:].argmax(axis=1)]
+    return np.where(spall > alarm, likeliest, HEALTHY)
+
+
+def location_probability(probability: Array) -> Array:
+    """Probabilities (N, 3) of none, outer and inner from those (N, 5) of CLASSES."""
+    return np.column_stack(
+        [probability[:, 0], probability[:, 1] + probability[:, 3], probability[:, 2] + probability[:, 4]]
+    )
+
+
+def condition_probability(probability: Array) -> Array:
+    """Probabilities (N, 3) of healthy, line and extended from those (N, 5) of CLASSES."""
+    return np.column_stack(
+        [probability[:, 0], probability[:, 1] + probability[:, 2], probability[:, 3] + probability[:, 4]]
+    )
+
+
+def joint_class(condition: str, location: str) -> str:
+    """The one of CLASSES with this condition and location; ValueError for words that name none of them."""
+    name = HEALTHY if condition == HEALTHY else f"{condition} {location}"
+    if name not in CLASSES:
+        raise ValueError(f'condition "{condition}" and location "{location}"; allowed: {", ".join(CLASSES)}')
+    return name
+
+
+def _race_columns(table: Array) -> Array:
+    return np.asarray(table)[:, [name.startswith(RACE_PREFIXES) for name in FEATURE_NAMES]]
+
+
+def _spall_columns(table: Array) -> Array:
+    return np.asarray(table)[:, [name.startswith(RACE_PREFIXES) or name in SPALL_NAMES for name in FEATURE_NAMES]]
+
+
+def _ends_with(names: NDArray[Any], ending: str) -> NDArray[np.bool_]:
+    return np.asarray(np.char.endswith(names.astype(str), ending))

@@ -1,0 +1,45 @@
+"""Power spectral densities of acceleration and velocity at a stated resolution."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+Array = NDArray[np.float64]
+
+
+def power_density(signal: Array, rate: float, resolution: float) -> tuple[Array, Array]:
+    """Frequencies (F,) in Hz and one-sided densities (F,), unit² / Hz, of the `signal` (T,) without its mean.
+
+    Mean over Hann windows of 1/`resolution` seconds (Hz), spread evenly from the first sample to the last so that
+    neighbours overlap by half or more [Welch 1967]. ValueError if the signal is shorter than one window.
+    """
+    centred = np.asarray(signal, dtype=np.float64) - np.mean(signal)
+    size = round(rate / resolution)
+    if not 2 <= size <= centred.size:
+        raise ValueError(
+            f"a resolution of {resolution:g} Hz needs {size} samples (2 or more); there are {centred.size}"
+        )
+    window = 1.0 - np.cos(2.0 * np.pi * np.arange(size) / size)
+    count = math.ceil((centred.size - size) / (size / 2.0)) + 1
+    starts = np.round(np.linspace(0.0, centred.size - size, count)).astype(int)
+    power = np.mean([np.abs(fft.rfft(centred[first : first + size] * window)) ** 2 for first in starts], axis=0)
+    power *= 2.0 / (rate * np.sum(window**2))
+    power[0] /= 2.0
+    if size % 2 == 0:
+        power[-1] /= 2.0
+    return np.arange(power.size) * (rate / size), power
+
+
+def velocity_density(acceleration: Array, rate: float, resolution: float) -> tuple[Array, Array]:
+    """Frequencies (F,) in Hz and one-sided densities (F,) of the velocity, (m/s)²/Hz, of an `acceleration` (T,), m/s².
+
+    Each component over (2π f)²; the one at 0 Hz, which has no velocity, is 0.
+    """
+    frequency, power = power_density(acceleration, rate, resolution)
+    power[1:] /= (2.0 * np.pi * frequency[1:]) ** 2
+    power[0] = 0.0
+    return frequency, power

@@ -1,0 +1,127 @@
+"""Everything that features of one record are read from: spectra, families, refined speed. Computed once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, condition
+from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
+from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_shaft
+from labels.features.kinematics import Kinematics
+from labels.features.speed import Speed, refine_speed, vibration_lines
+
+NARROWEST_BAND = 3.5
+"""Width of the narrowest band, in BPFI: what holds three harmonics of either race's family."""
+OUTER_WINDOW = (-0.027, 0.013)
+"""Share of BPFO by which the line may lie off: a slipping cage lowers it, a contact angle of up to 15° raises it."""
+INNER_WINDOW = (-0.012, 0.020)
+"""The same of BPFI, which slip raises and a contact angle lowers."""
+UNCERTAIN_WINDOW = (-0.025, 0.025)
+"""The same where no harmonics of the shaft tell its speed."""
+CERTAIN_SPEED = 15.0
+"""Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records."""
+SLIP_TOLERANCE = 0.025
+SLIP_PRIOR = 0.012
+VIBRATION_ORDERS = 12.0
+DECOYS = (2.31, 2.63, 2.87, 3.17, 3.37, 3.71, 4.29, 4.61, 5.23, 5.83, 6.37, 6.71, 7.37, 8.29)
+"""Fundamentals, in orders, that no part of a bearing has by design: what other machines and chance put there."""
+RATIOS = (0.5, 2.0 / 3.0, 1.0, 1.5, 2.0)
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """One axis of one record: `record` its spectrum, `given` the kinematics at the speed given."""
+
+    record: Conditioned
+    given: Kinematics
+
+    @property
+    def top_hz(self) -> float:
+        """Highest frequency of interest in an envelope, Hz."""
+        return (ENVELOPE_HARMONICS * max(self.given.bpfo, self.given.bpfi) * 1.06 + 2.0) * self.given.shaft_hz
+
+    @cached_property
+    def envelopes(self) -> EnvelopeSpectra:
+        """Squared envelope spectra of all bands."""
+        return envelope_spectra(
+            self.record,
+            self.given.shaft_hz,
+            min(self.top_hz, 0.45 * self.record.bandwidth),
+            NARROWEST_BAND * self.given.bpfi * self.given.shaft_hz,
+        )
+
+    @cached_property
+    def _vibration(self) -> tuple[Lines, Array]:
+        top = max(self.top_hz, VIBRATION_ORDERS * self.given.shaft_hz)
+        return vibration_lines(self.record, self.given.shaft_hz, min(top, self.record.bandwidth))
+
+    @cached_property
+    def speed(self) -> Speed:
+        """The refined speed of the shaft."""
+        return refine_speed(self._vibration[0], self.envelopes, self.given)
+
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """Kinematics at the refined speed."""
+        return self.given.at(self.speed.shaft_hz)
+
+    @cached_property
+    def envelope_lines(self) -> Lines:
+        """Lines of the envelope spectra, without those of the shaft."""
+        excess = without_shaft(self.envelopes.excess, self.envelopes.step, self.speed.shaft_hz)
+        return lines_in(excess, self.envelopes.step)
+
+    @cached_property
+    def all_envelope_lines(self) -> Lines:
+        """Lines of the envelope spectra, the shaft's too."""
+        return lines_in(self.envelopes.excess, self.envelopes.step)
+
+    @cached_property
+    def vibration(self) -> Lines:
+        """Lines of the vibration's own spectrum, without those of the shaft."""
+        excess = without_shaft(self._vibration[1], self.record.step, self.speed.shaft_hz)
+        return lines_in(excess, self.record.step)
+
+    def envelope_family(self, order: float, harmonics: int = HARMONICS) -> Family:
+        """The strongest family near an order of the refined speed, in every band's envelope."""
+        shaft_hz = self.speed.shaft_hz
+        return find_family(self.envelope_lines, order * shaft_hz, SLIP_TOLERANCE, shaft_hz, SLIP_PRIOR, harmonics)
+
+    def race_family(self, lines: Lines, race: str) -> Family:
+        """The strongest family of the race "outer" or "inner" in `lines`, within what slip and contact angle allow."""
+        centre, tolerance = self.race_window(race)
+        return find_family(lines, centre, tolerance, self.speed.shaft_hz, SLIP_PRIOR)
+
+    def race_window(self, race: str) -> tuple[float, float]:
+        """Centre (Hz) and half width (a share) of where the first line of the race "outer" or "inner" may lie."""
+        order, window = (self.given.bpfo, OUTER_WINDOW) if race == "outer" else (self.given.bpfi, INNER_WINDOW)
+        if self.speed.evidence < CERTAIN_SPEED:
+            window = UNCERTAIN_WINDOW
+        centre = 1.0 + 0.5 * (window[0] + window[1])
+        return centre * order * self.speed.shaft_hz, 0.5 * (window[1] - window[0])
+
+    @cached_property
+    def outer(self) -> Family:
+        """Outer-race family in the envelopes."""
+        return self.race_family(self.envelope_lines, "outer")
+
+    @cached_property
+    def inner(self) -> Family:
+        """Inner-race family in the envelopes."""
+        return self.race_family(self.envelope_lines, "inner")
+
+    @cached_property
+    def decoys(self) -> Array:
+        """Evidence (D,) of families at fundamentals that belong to no part of the bearing, best band each."""
+        own = np.array([self.given.bpfo, self.given.bpfi, 2.0 * self.given.ball_spin])
+        near = [np.abs(order / np.outer(own, RATIOS) - 1.0).min() < 2.0 * SLIP_TOLERANCE for order in DECOYS]
+        chosen = [order for order, taken in zip(DECOYS, near, strict=True) if not taken][:8]
+        return np.array([self.envelope_family(order).evidence.max() for order in chosen])
+
+
+def analyse(signal: Array, rate: float, kinematics: Kinematics, bandwidth: float = COMMON_BANDWIDTH) -> Analysis:
+    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal."""
+    return Analysis(condition(signal, rate, bandwidth), kinematics)

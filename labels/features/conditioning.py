@@ -1,0 +1,101 @@
+"""From a raw signal to its spectrum over the common bandwidth, flattened so that no resonance or tone rules it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+Array = NDArray[np.float64]
+Spectrum = NDArray[np.complex128]
+
+COMMON_BANDWIDTH = 20_000.0
+"""Highest frequency that features look at, Hz: records of any higher rate are limited to it."""
+SHARE_OF_NYQUIST = 0.95
+BLOCKS = 96
+FEWEST_BINS = 24
+TONE_CEILING = 10.0
+"""A component is cut to this many times the local mean power; noise exceeds it once in e^10 components."""
+MEDIAN_OVER_MEAN = float(np.log(2.0))
+
+
+@dataclass(frozen=True)
+class Conditioned:
+    """Fourier components (F,) of a record from 0 to `bandwidth` (Hz), `step` Hz apart: raw, and flattened."""
+
+    raw: Spectrum
+    flat: Spectrum
+    step: float
+    bandwidth: float
+
+    @property
+    def duration(self) -> float:
+        """Length of the record that was used, s."""
+        return 1.0 / self.step
+
+    def waveform(self, spectrum: Spectrum) -> Array:
+        """The signal (T,) of a spectrum, sampled at about twice the bandwidth, up to a constant factor."""
+        return np.asarray(fft.irfft(spectrum, fft.next_fast_len(2 * spectrum.size, real=True)))
+
+
+def condition(signal: Array, rate: float, bandwidth: float = COMMON_BANDWIDTH) -> Conditioned:
+    """Spectrum of the `signal` (T,) sampled at `rate` (Hz) below `bandwidth` and below 0.95 of half the rate.
+
+    The end of the record is dropped where its length has no fast transform. The flat spectrum is divided by the square
+    root of the local mean power, taken from the median over 1/96 of the bandwidth, and tones are cut to ten times that.
+    ValueError for fewer than 64 samples, a rate of 0 or a signal that does not change.
+    """
+    signal = np.asarray(signal, dtype=np.float64)
+    if signal.ndim != 1 or signal.size < 64 or not rate > 0.0:
+        raise ValueError(f"{signal.shape} samples at {rate:g} Hz; features need at least 64 samples of one axis")
+    signal = signal[: _fast_length(signal.size)]
+    centred = signal - signal.mean()
+    if not centred.any():
+        raise ValueError("the signal does not change")
+    step = rate / signal.size
+    top = min(bandwidth, SHARE_OF_NYQUIST * rate / 2.0)
+    spectrum = np.asarray(fft.rfft(centred))[: int(top / step) + 1]
+    spectrum[0] = 0.0
+    return Conditioned(spectrum, _flattened(spectrum), step, top)
+
+
+def _fast_length(size: int) -> int:
+    while size > 64 and fft.next_fast_len(size, real=True) != size:
+        size -= 1
+    return size
+
+
+def local_mean_power(power: Array, block: int) -> Array:
+    """Mean power (…, F) of the noise under lines, from medians over half-overlapping blocks, log-linear between them.
+
+    The median of an exponential distribution is ln 2 times its mean.
+    """
+    size = power.shape[-1]
+    block = max(2, min(block, size))
+    hop = max(1, block // 2)
+    starts = np.arange(0, size - block + 1, hop)
+    medians = np.stack([np.median(power[..., start : start + block], axis=-1) for start in starts], axis=-1)
+    tiny = np.finfo(np.float64).tiny
+    levels = np.log(np.maximum(medians / MEDIAN_OVER_MEAN, tiny))
+    return np.exp(_linear_between(starts + 0.5 * (block - 1), levels, size))
+
+
+def _linear_between(centres: Array, levels: Array, size: int) -> Array:
+    """`levels` (…, B) at `centres` (B,), read at 0 … size − 1; constant beyond the ends."""
+    if centres.size == 1:
+        return np.broadcast_to(levels, (*levels.shape[:-1], size))
+    place = np.interp(np.arange(size), centres, np.arange(centres.size))
+    left = np.minimum(place.astype(np.int64), centres.size - 2)
+    share = place - left
+    return np.asarray(levels[..., left] * (1.0 - share) + levels[..., left + 1] * share)
+
+
+def _flattened(spectrum: Spectrum) -> Spectrum:
+    power = np.abs(spectrum) ** 2
+    local = local_mean_power(power, max(FEWEST_BINS, spectrum.size // BLOCKS))
+    # A stretch of exact silence (a filter's stop band) stays silent instead of being raised to noise.
+    local = np.maximum(local, 1e-12 * power.mean())
+    excess = power / local
+    return spectrum / np.sqrt(local) / np.sqrt(np.maximum(excess / TONE_CEILING, 1.0))

@@ -1,0 +1,86 @@
+"""Squared envelope spectra of a tree of bands, over their local noise floor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from labels.features.conditioning import Array, Conditioned, Spectrum, local_mean_power
+
+LEVELS = 4
+ENVELOPE_HARMONICS = 4.0
+FLOOR_ORDERS = 3.0
+FULL_SHARE = 0.85
+FEWEST_FLOOR_BINS = 16
+
+
+@dataclass(frozen=True)
+class EnvelopeSpectra:
+    """Squared envelope spectra of B bands on one axis of frequencies, `step` Hz apart from 0.
+
+    `excess` (B, F) is power over the local mean noise power; `depth` (B, F) the amplitude of each component over the
+    mean square envelope (the depth of modulation); `kurtosis` (B,) that of the band's complex signal, 0 for noise;
+    `edges` (B, 2) in shares of the bandwidth.
+    """
+
+    step: float
+    excess: Array
+    depth: Array
+    kurtosis: Array
+    edges: Array
+
+
+def band_edges(bandwidth: float, narrowest: float) -> Array:
+    """Edges (B, 2) in shares of the `bandwidth`: the whole, its halves, quarters and eighths, none below `narrowest`
+    (Hz) but the whole."""
+    edges = []
+    for level in range(LEVELS):
+        count = 2**level
+        if level and bandwidth / count < narrowest:
+            break
+        edges += [(part / count, (part + 1) / count) for part in range(count)]
+    return np.array(edges)
+
+
+def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrowest: float) -> EnvelopeSpectra:
+    """Envelope spectra of the flattened record up to `top_hz`, of bands no narrower than `narrowest` (Hz).
+
+    A band holds no difference of frequencies above its width; there the spectrum is set to its floor.
+
+    The floor is the median over stretches of three shaft orders, so it follows the slow fall of an envelope spectrum
+    and passes under lines.
+    """
+    edges = band_edges(record.bandwidth, narrowest)
+    count = max(FEWEST_FLOOR_BINS, int(top_hz / record.step) + 1)
+    power = np.zeros((len(edges), count))
+    square_mean, kurtosis = np.zeros(len(edges)), np.zeros(len(edges))
+    for band, (low, high) in enumerate(edges):
+        inside = record.flat[int(low * record.flat.size) : int(high * record.flat.size)]
+        power[band], square_mean[band], kurtosis[band] = _squared_envelope(inside, count)
+    block = max(FEWEST_FLOOR_BINS, int(FLOOR_ORDERS * shaft_hz / record.step))
+    floor = local_mean_power(power[:, 1:], block)
+    excess = np.zeros_like(power)
+    excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    widths = (edges[:, 1] - edges[:, 0]) * record.bandwidth
+    beyond = np.arange(count) * record.step > FULL_SHARE * widths[:, None]
+    excess[beyond] = 1.0
+    depth = np.sqrt(power) / square_mean[:, None]
+    depth[:, 0] = 0.0
+    return EnvelopeSpectra(record.step, excess, depth, kurtosis, edges)
+
+
+def _squared_envelope(inside: Spectrum, count: int) -> tuple[Array, float, float]:
+    """One-sided power (count,) of the Hann-windowed squared envelope of a band's Fourier components, the mean of that
+    envelope, and its excess kurtosis (mean fourth power over squared mean square, minus 2)."""
+    length = fft.next_fast_len(2 * max(inside.size, count))
+    padded = np.zeros(length, dtype=np.complex128)
+    padded[: inside.size] = inside
+    square = np.abs(fft.ifft(padded)) ** 2
+    mean = float(square.mean())
+    kurtosis = float(np.mean(square**2)) / max(mean**2, np.finfo(np.float64).tiny) - 2.0
+    window: NDArray[np.float64] = 1.0 - np.cos(2.0 * np.pi * np.arange(length) / length)
+    lines = np.asarray(fft.rfft((square - mean) * window))[:count] * (2.0 / length)
+    return np.abs(lines) ** 2, max(mean, float(np.finfo(np.float64).tiny)), kurtosis

@@ -1,0 +1,142 @@
+"""Evidence of a family of lines (a fundamental, its harmonics, its sidebands) in spectra over their noise floor.
+
+Evidence is the log likelihood ratio, in nats, of lines against exponential noise: for the mean r > 1 of a components it
+is a (r − 1 − ln r), so it means the same for records of any length and for lines of any width. What a search over n
+places would find in noise alone, about ln n, is taken off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from labels.features.conditioning import Array
+
+HARMONICS = 4
+WIDTHS = (0.0, 0.02, 0.06)
+"""Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so."""
+HANN_BINS = 1.5
+SHAFT_MARGIN = 0.025
+"""Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family."""
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Spectra over their floor, ready to be read between components: cumulated excess (B, F + 1), `step` apart."""
+
+    cumulated: Array
+    step: float
+
+    def mean(self, centres: Array, half_width: Array) -> Array:
+        """Mean excess (B, …) over centres ± half_width, in the unit of `step`; 0 beyond the spectrum's end."""
+        low, high = self._read(centres - half_width), self._read(centres + half_width)
+        beyond = (centres + half_width) > self.step * (self.cumulated.shape[-1] - 1.5)
+        return np.where(beyond, 0.0, (high - low) * (self.step / (2.0 * half_width)))
+
+    def _read(self, place: Array) -> Array:
+        # Component j covers (j − 1/2 … j + 1/2) steps; the cumulated sum at its left edge is entry j.
+        inner = np.clip(place / self.step + 0.5, 0.0, self.cumulated.shape[-1] - 1.0)
+        left = np.minimum(inner.astype(np.int64), self.cumulated.shape[-1] - 2)
+        share = inner - left
+        return np.asarray(self.cumulated[..., left] * (1.0 - share) + self.cumulated[..., left + 1] * share)
+
+
+def lines_in(excess: Array, step: float) -> Lines:
+    """Lines of spectra over their floor (B, F)."""
+    zero = np.zeros((*excess.shape[:-1], 1))
+    return Lines(np.concatenate([zero, np.cumsum(excess, axis=-1)], axis=-1), step)
+
+
+def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
+    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1."""
+    frequency = np.arange(excess.shape[-1]) * step
+    order = frequency / shaft_hz
+    margin = max(SHAFT_MARGIN * shaft_hz, 1.01 * step)
+    near = (np.abs(order - np.round(order)) * shaft_hz <= margin) & (order > 0.5)
+    # In a record of few turns the margin would cover a large part of the axis; then it counts nothing out.
+    if margin > 0.12 * shaft_hz:
+        return excess
+    return np.where(near, 1.0, excess)
+
+
+def evidence(ratio: Array, components: Array | float) -> Array:
+    """Log likelihood ratio, nats, of a mean excess `ratio` over that many `components`; 0 where it is not above 1."""
+    safe = np.maximum(ratio, 1.0)
+    return np.asarray(components * (safe - 1.0 - np.log(safe)))
+
+
+def harmonic_evidence(lines: Lines, fundamentals: Array, shaft_hz: float, width: float, harmonics: int) -> Array:
+    """Evidence (H, B, N) of each harmonic of N `fundamentals` (Hz) at one of WIDTHS."""
+    found = []
+    for k in range(1, harmonics + 1):
+        half = np.maximum(0.5 * k * width * shaft_hz, 0.75 * lines.step)
+        components = max(2.0 * float(half) / lines.step / HANN_BINS, 1.0)
+        found.append(evidence(lines.mean(k * fundamentals, half), components))
+    return np.stack(found)
+
+
+@dataclass(frozen=True)
+class Family:
+    """The strongest family with a fundamental in a window, band by band.
+
+    `evidence` (B,) in nats over all harmonics, `parts` (B, H) of each of them, `fundamental` (B,) in Hz.
+    """
+
+    evidence: Array
+    parts: Array
+    fundamental: Array
+
+
+def find_family(
+    lines: Lines, centre: float, tolerance: float, shaft_hz: float, prior: float = np.inf, harmonics: int = HARMONICS
+) -> Family:
+    """The strongest family whose fundamental lies within `tolerance` (a share) of `centre` (Hz), for each band.
+
+    `prior` is the standard deviation (a share) of a normal prior of the fundamental around the centre.
+    """
+    best: Family | None = None
+    for width in WIDTHS:
+        grid = _grid(centre, tolerance, max(lines.step, width * shaft_hz), harmonics)
+        parts = harmonic_evidence(lines, grid, shaft_hz, width, harmonics)
+        places = max(1.0, 2.0 * tolerance * centre * harmonics / max(lines.step, width * shaft_hz))
+        doubt = np.log(places) + 0.5 * ((grid / centre - 1.0) / prior) ** 2
+        total = parts.sum(axis=0) - doubt
+        best = _stronger(best, _at(total, parts, grid))
+    assert best is not None
+    return best
+
+
+def _grid(centre: float, tolerance: float, width: float, harmonics: int) -> Array:
+    count = int(np.ceil(2.0 * tolerance * centre * harmonics / width)) + 1
+    return centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(5, min(count, 400)))
+
+
+def _at(total: Array, parts: Array, grid: Array) -> Family:
+    place = total.argmax(axis=-1)
+    bands = np.arange(total.shape[0])
+    return Family(np.maximum(total[bands, place], 0.0), parts[:, bands, place].T, grid[place])
+
+
+def _stronger(old: Family | None, new: Family) -> Family:
+    if old is None:
+        return new
+    wins = new.evidence > old.evidence
+    return Family(
+        np.where(wins, new.evidence, old.evidence),
+        np.where(wins[:, None], new.parts, old.parts),
+        np.where(wins, new.fundamental, old.fundamental),
+    )
+
+
+def sideband_evidence(lines: Lines, fundamental: Array, spacing: float, shaft_hz: float, harmonics: int = 2) -> Array:
+    """Evidence (B,) of the first sidebands, `spacing` (Hz) apart from the harmonics of one fundamental a band."""
+    half = np.maximum(0.02 * shaft_hz, 0.75 * lines.step)
+    components = max(2.0 * float(half) / lines.step / HANN_BINS, 1.0)
+    bands = np.arange(fundamental.size)
+    total = np.zeros(fundamental.size)
+    for k in range(1, harmonics + 1):
+        for sign in (-1.0, 1.0):
+            centres = k * fundamental + sign * spacing
+            total += evidence(lines.mean(centres, half)[bands, bands], components)
+    return total

@@ -1,0 +1,61 @@
+"""What is known of a bearing in operation before its signal is looked at: orders of its parts and its speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """Ball pass orders of a bearing and the speed of its shaft.
+
+    `balls` in a row, `diameter_ratio` = Db cos α / Dp, `ball_spin` the spin of a ball in orders of the shaft,
+    `shaft_hz` the shaft's speed in Hz, which may be off by 2 %.
+    """
+
+    balls: int
+    diameter_ratio: float
+    ball_spin: float
+    shaft_hz: float
+
+    def __post_init__(self) -> None:
+        allowed = (
+            ("balls", self.balls, self.balls >= 3, "3 or more"),
+            ("diameter_ratio", self.diameter_ratio, 0.0 < self.diameter_ratio < 1.0, "between 0 and 1"),
+            ("ball_spin", self.ball_spin, self.ball_spin > 0.0, "above 0"),
+            ("shaft_hz", self.shaft_hz, 0.0 < self.shaft_hz < math.inf, "above 0"),
+        )
+        for name, value, fits, range_ in allowed:
+            if not fits:
+                raise ValueError(f"{name} = {value}; allowed: {range_}")
+
+    @property
+    def ftf(self) -> float:
+        """Order of the cage."""
+        return 0.5 * (1.0 - self.diameter_ratio)
+
+    @property
+    def bpfo(self) -> float:
+        """Order at which balls pass a point of the outer race."""
+        return self.balls * self.ftf
+
+    @property
+    def bpfi(self) -> float:
+        """Order at which balls pass a point of the inner race."""
+        return self.balls * (1.0 - self.ftf)
+
+    def at(self, shaft_hz: float) -> Kinematics:
+        """The same bearing at another speed."""
+        return replace(self, shaft_hz=shaft_hz)
+
+
+def bearing_kinematics(
+    balls: int, pitch_diameter: float, ball_diameter: float, contact_angle: float, shaft_hz: float
+) -> Kinematics:
+    """Kinematics of a bearing from its geometry (m, m, rad) and speed (Hz); ValueError if a number is impossible."""
+    if not 0.0 < ball_diameter < pitch_diameter:
+        raise ValueError(f"ball_diameter = {ball_diameter} m; allowed: above 0 and below pitch_diameter")
+    ratio = ball_diameter * math.cos(contact_angle) / pitch_diameter
+    spin = 0.5 * pitch_diameter / ball_diameter * (1.0 - ratio**2)
+    return Kinematics(int(balls), ratio, spin, shaft_hz)

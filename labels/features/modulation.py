@@ -1,0 +1,115 @@
+"""Features of the squared envelope spectra: defect families over their floor, in the best of all bands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from labels.features.analysis import Analysis
+from labels.features.conditioning import Array
+from labels.features.families import Lines, find_family, sideband_evidence
+from labels.features.feature import Feature
+
+SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope spectrum)"
+RACES = ("outer", "inner")
+STRENGTH_HARMONICS = 3
+
+
+def _race_rows(race: str, line: str) -> tuple[Feature, ...]:
+    return (
+        Feature(f"{race}_evidence", "ln nat", f"ln(1 + evidence of {line} and its harmonics 2 to 4), best band.", SES),
+        Feature(f"{race}_spread", "ln nat", f"ln(1 + evidence of {line}), the band at the 75 % quantile.", SES),
+        Feature(
+            f"{race}_others", "ln nat", f"ln(1 + evidence of {line} without its strongest harmonic), best band.", SES
+        ),
+        Feature(f"{race}_first", "ln nat", f"ln(1 + evidence of the first {line} line alone), best band.", SES),
+        Feature(
+            f"{race}_sidebands", "ln nat", f"ln(1 + evidence of {line} ± shaft, harmonics 1 and 2), best band.", SES
+        ),
+        Feature(f"{race}_cage", "ln nat", f"ln(1 + evidence of {line} ± cage, harmonics 1 and 2), best band.", SES),
+        Feature(f"{race}_depth", "ln", f"ln of the depth of modulation at the first {line} line, best band.", SES),
+        Feature(f"{race}_strength", "ln", f"ln of the mean height of {line} 1 to 3 over the floor, best band.", SES),
+        Feature(f"{race}_slip", "%", f"Distance of the {line} line from pure rolling at the refined speed.", SES),
+    )
+
+
+ROWS = (
+    *_race_rows("outer", "BPFO"),
+    *_race_rows("inner", "BPFI"),
+    Feature("race_evidence", "ln nat", "outer_evidence minus inner_evidence.", SES),
+    Feature("race_spread", "ln nat", "outer_spread minus inner_spread.", SES),
+    Feature("race_strength", "ln", "outer_strength minus inner_strength.", SES),
+    Feature("race_depth", "ln", "outer_depth minus inner_depth.", SES),
+    Feature("race_others", "ln nat", "outer_others minus inner_others.", SES),
+    Feature("ball_evidence", "ln nat", "ln(1 + evidence of twice the ball's spin frequency), best band.", SES),
+    Feature("cage_evidence", "ln nat", "ln(1 + evidence of the cage frequency), best band.", SES),
+    Feature(
+        "shaft_modulation", "ln nat", "ln(1 + evidence of shaft harmonics 1 to 4 in the envelopes), best band.", SES
+    ),
+    Feature("decoy_evidence", "ln nat", "ln(1 + median evidence at eight orders of no bearing part).", SES),
+    Feature("largest_decoy", "ln nat", "ln(1 + largest evidence at eight orders of no bearing part).", SES),
+)
+
+
+def measure(analysis: Analysis) -> dict[str, float]:
+    """Values of ROWS by name."""
+    known, shaft = analysis.kinematics, analysis.speed.shaft_hz
+    found: dict[str, float] = {}
+    for race, order in (("outer", known.bpfo), ("inner", known.bpfi)):
+        found |= {f"{race}_{name}": value for name, value in _race(analysis, race, order).items()}
+    for name in ("evidence", "spread", "strength", "depth", "others"):
+        found[f"race_{name}"] = found[f"outer_{name}"] - found[f"inner_{name}"]
+    turning = find_family(analysis.all_envelope_lines, shaft, 0.002, shaft)
+    decoys = analysis.decoys
+    return found | {
+        "ball_evidence": _log(analysis.envelope_family(2.0 * known.ball_spin).evidence.max()),
+        "cage_evidence": _log(analysis.envelope_family(known.ftf, 3).evidence.max()),
+        "shaft_modulation": _log(turning.evidence.max()),
+        "decoy_evidence": _log(float(np.median(decoys)) if decoys.size else 0.0),
+        "largest_decoy": _log(float(decoys.max()) if decoys.size else 0.0),
+    }
+
+
+def _race(analysis: Analysis, race: str, order: float) -> dict[str, float]:
+    family = analysis.outer if race == "outer" else analysis.inner
+    shaft, best = analysis.speed.shaft_hz, int(family.evidence.argmax())
+    others = family.parts.sum(axis=1) - family.parts.max(axis=1)
+    fundamental = family.fundamental
+    return {
+        "evidence": _log(family.evidence[best]),
+        "spread": _log(np.quantile(family.evidence, 0.75)),
+        "others": _log(others.max()),
+        "first": _log(family.parts[:, 0].max()),
+        "sidebands": _log(sideband_evidence(analysis.all_envelope_lines, fundamental, shaft, shaft).max()),
+        "cage": _log(
+            sideband_evidence(analysis.envelope_lines, fundamental, analysis.kinematics.ftf * shaft, shaft).max()
+        ),
+        "depth": _depth(analysis, fundamental),
+        "strength": float(np.log(max(line_strength(analysis.envelope_lines, *analysis.race_window(race)), 1e-3))),
+        "slip": 100.0 * abs(float(fundamental[best]) / (order * shaft) - 1.0),
+    }
+
+
+def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
+    """Mean height of a family's first three lines over the floor, both as amplitudes, in the best band.
+
+    The lines share a fundamental within `tolerance` (a share) of `centre` (Hz); each is read at the resolution of the
+    whole record.
+    """
+    count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
+    grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))
+    half = np.asarray(0.75 * lines.step)
+    heights = [np.sqrt(lines.mean(k * grid, half)) for k in range(1, STRENGTH_HARMONICS + 1)]
+    return float(np.mean(heights, axis=0).max())
+
+
+def _depth(analysis: Analysis, fundamental: Array) -> float:
+    """Largest depth of modulation at a band's own fundamental, ± one component or 1 % of the shaft speed."""
+    envelopes = analysis.envelopes
+    reach = max(1, int(0.01 * analysis.speed.shaft_hz / envelopes.step))
+    centre = np.round(fundamental / envelopes.step).astype(np.int64)
+    around = np.clip(centre[:, None] + np.arange(-reach, reach + 1), 0, envelopes.depth.shape[1] - 1)
+    return float(np.log(max(np.take_along_axis(envelopes.depth, around, axis=1).max(), 1e-6)))
+
+
+def _log(nats: float | np.floating) -> float:
+    return float(np.log1p(max(float(nats), 0.0)))

@@ -1,0 +1,94 @@
+"""Features of the vibration's own spectrum, as velocity orders, and of its cepstrum."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import fft
+
+from labels.features.analysis import VIBRATION_ORDERS, Analysis
+from labels.features.conditioning import Array
+from labels.features.feature import Feature
+
+ORDERS = "ISO 13373-2:2016 (narrow-band spectra, orders); Petersen et al. 2014, section 6 (low harmonics of BPFO)"
+CEPSTRUM = "Randall 2017, Mech. Syst. Signal Process. 97 (cepstrum analysis)"
+LINE_ORDERS = 0.03
+RAHMONICS = 2
+VELOCITY_HARMONICS = 6
+
+ROWS = (
+    Feature("shaft_evidence", "ln nat", "ln(1 + evidence of shaft harmonics, vibration and widest envelope).", ORDERS),
+    Feature("outer_vibration", "ln nat", "ln(1 + evidence of BPFO 1 to 4 in the vibration itself).", ORDERS),
+    Feature("inner_vibration", "ln nat", "ln(1 + evidence of BPFI 1 to 4 in the vibration itself).", ORDERS),
+    Feature("race_vibration", "ln nat", "outer_vibration minus inner_vibration.", ORDERS),
+    Feature("outer_velocity", "log10", "Share of velocity power at BPFO 1 to 6, up to their top.", ORDERS),
+    Feature("inner_velocity", "log10", "Share of velocity power at BPFI 1 to 6, up to their top.", ORDERS),
+    Feature("shaft_velocity", "log10", "Share of velocity power at shaft orders 1 to 8, up to order 12.", ORDERS),
+    Feature("outer_cepstrum", "1", "Height of the cepstrum at one and two BPFO periods over its scatter.", CEPSTRUM),
+    Feature("inner_cepstrum", "1", "Height of the cepstrum at one and two BPFI periods over its scatter.", CEPSTRUM),
+    Feature("shaft_cepstrum", "1", "Height of the cepstrum at one and two shaft periods over its scatter.", CEPSTRUM),
+)
+
+
+def measure(analysis: Analysis) -> dict[str, float]:
+    """Values of ROWS by name."""
+    shaft = analysis.speed.shaft_hz
+    outer, inner = (analysis.race_family(analysis.vibration, race) for race in ("outer", "inner"))
+    lines = {
+        "outer_vibration": float(np.log1p(outer.evidence[0])),
+        "inner_vibration": float(np.log1p(inner.evidence[0])),
+    }
+    velocity = _velocity_power(analysis)
+    cepstrum = _cepstrum(analysis)
+    return lines | {
+        "shaft_evidence": float(np.log1p(analysis.speed.evidence)),
+        "race_vibration": lines["outer_vibration"] - lines["inner_vibration"],
+        "outer_velocity": _share(analysis, velocity, float(outer.fundamental[0]), VELOCITY_HARMONICS),
+        "inner_velocity": _share(analysis, velocity, float(inner.fundamental[0]), VELOCITY_HARMONICS),
+        "shaft_velocity": _share(analysis, velocity, shaft, 8, VIBRATION_ORDERS * shaft),
+        "outer_cepstrum": _rahmonics(analysis, cepstrum, float(outer.fundamental[0])),
+        "inner_cepstrum": _rahmonics(analysis, cepstrum, float(inner.fundamental[0])),
+        "shaft_cepstrum": _rahmonics(analysis, cepstrum, shaft),
+    }
+
+
+def _velocity_power(analysis: Analysis) -> Array:
+    power = np.abs(analysis.record.raw) ** 2
+    frequency = np.arange(power.size) * analysis.record.step
+    # Below half a turn there is drift of sensors, not motion of the bearing.
+    return np.where(frequency > 0.5 * analysis.speed.shaft_hz, power / np.maximum(frequency, 1e-9) ** 2, 0.0)
+
+
+def _share(analysis: Analysis, power: Array, fundamental: float, harmonics: int, top: float | None = None) -> float:
+    """log10 of the share of `power` below `top` (Hz; half a spacing above the last line) that lies on the lines."""
+    step = analysis.record.step
+    reach = max(1.5, LINE_ORDERS * analysis.speed.shaft_hz / step)
+    last = min(power.size, int(((harmonics + 0.5) * fundamental if top is None else top) / step))
+    cumulated = np.concatenate([[0.0], np.cumsum(power[:last])])
+    centres = np.arange(1, harmonics + 1) * fundamental / step
+    low = np.clip((centres - reach).astype(np.int64), 0, last)
+    high = np.clip((centres + reach).astype(np.int64) + 1, 0, last)
+    share = float((cumulated[high] - cumulated[low]).sum()) / max(float(cumulated[-1]), np.finfo(np.float64).tiny)
+    return float(np.log10(max(share, 1e-6)))
+
+
+def _cepstrum(analysis: Analysis) -> Array:
+    """Real cepstrum of the flattened spectrum; quefrency n is n / (twice the bandwidth)."""
+    level = np.log(np.abs(analysis.record.flat) ** 2 + 1e-3)
+    level -= level.mean()
+    return np.asarray(fft.irfft(level, fft.next_fast_len(2 * level.size, real=True)))
+
+
+def _rahmonics(analysis: Analysis, cepstrum: Array, frequency: float) -> float:
+    """ln(1 + mean of the largest values near the rahmonics over the scatter around them)."""
+    rate = analysis.record.step * cepstrum.size
+    heights = []
+    for k in range(1, RAHMONICS + 1):
+        centre = k * rate / frequency
+        reach = max(1, round(0.006 * centre))
+        wide = slice(max(1, int(0.7 * centre)), min(cepstrum.size // 2, int(1.3 * centre) + 2))
+        near = slice(max(1, int(centre) - reach), min(cepstrum.size // 2, int(centre) + reach + 2))
+        if near.stop <= near.start:
+            return 0.0
+        scatter = 1.4826 * float(np.median(np.abs(cepstrum[wide]))) + 1e-12
+        heights.append(float(cepstrum[near].max()) / scatter)
+    return float(np.log1p(max(float(np.mean(heights)), 0.0)))

@@ -1,0 +1,49 @@
+"""Features of the waveform: how impulsive it is, whatever its scale."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from labels.features.analysis import Analysis
+from labels.features.conditioning import Array
+from labels.features.feature import Feature
+
+DYER = "Dyer & Stewart 1978, J. Mech. Design 100"
+SHAPES = "Lei et al. 2008, Expert Syst. Appl. 35, table of dimensionless parameters"
+KURTOGRAM = "Antoni 2007, Mech. Syst. Signal Process. 21 (fast kurtogram)"
+
+ROWS = (
+    Feature("kurtosis", "ln", "ln of the kurtosis of the waveform; ln 3 for noise.", DYER),
+    Feature("skewness", "1", "Size of the waveform's skewness, cut at 5.", SHAPES),
+    Feature("crest_factor", "ln", "ln of the 99.99 % quantile of the size over the RMS.", DYER),
+    Feature("shape_factor", "ln", "ln of the RMS over the mean size.", SHAPES),
+    Feature("impulse_factor", "ln", "ln of the 99.9 % quantile of the size over the mean size.", SHAPES),
+    Feature("flat_kurtosis", "ln", "ln of the kurtosis of the waveform with a flattened spectrum.", KURTOGRAM),
+    Feature("band_kurtosis", "ln", "ln(1 + largest spectral kurtosis of a band).", KURTOGRAM),
+    Feature("median_band_kurtosis", "ln", "ln(1 + median spectral kurtosis of the bands).", KURTOGRAM),
+)
+
+
+def measure(analysis: Analysis) -> dict[str, float]:
+    """Values of ROWS by name."""
+    wave = analysis.record.waveform(analysis.record.raw)
+    wave = wave / np.sqrt(np.mean(wave**2))
+    size = np.abs(wave)
+    mean = float(size.mean())
+    high, higher = np.quantile(size, (0.999, 0.9999))
+    kurtosis = np.maximum(analysis.envelopes.kurtosis, 0.0)
+    return {
+        "kurtosis": _log_kurtosis(wave),
+        "skewness": min(abs(float(np.mean(wave**3))), 5.0),
+        "crest_factor": float(np.log(higher)),
+        "shape_factor": float(-np.log(mean)),
+        "impulse_factor": float(np.log(high / mean)),
+        "flat_kurtosis": _log_kurtosis(analysis.record.waveform(analysis.record.flat)),
+        "band_kurtosis": float(np.log1p(kurtosis.max())),
+        "median_band_kurtosis": float(np.log1p(np.median(kurtosis))),
+    }
+
+
+def _log_kurtosis(wave: Array) -> float:
+    square = wave**2
+    return float(np.log(np.mean(square**2) / square.mean() ** 2))

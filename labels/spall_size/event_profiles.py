@@ -1,0 +1,43 @@
+"""How the energy runs through each event of a pair, in windows that scale with the lag between them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.mean_pass import MeanPass
+from labels.spall_size.pair_features import Pairs, RunningEnergy
+
+Array = NDArray[np.float64]
+
+EDGES = (-0.5, -0.35, -0.25, -0.17, -0.1, -0.05, -0.02, 0.02, 0.05, 0.1, 0.17, 0.25, 0.35, 0.5)
+PROFILED = (0, 1, 3)
+RIVALS = 3
+
+
+def profile_columns(mean: MeanPass, entry: float, leave: float, lag: float) -> list[float]:
+    """Log energies in 13 windows round either event, of the whole signal and of its low and high band."""
+    summed = RunningEnergy(mean)
+    edges = np.array(EDGES) * lag
+    columns: list[float] = []
+    for place in (entry, leave):
+        middle, half = place + 0.5 * (edges[1:] + edges[:-1]), np.maximum(0.5 * np.diff(edges), 0.5)
+        level = summed.level(middle - half, middle + half)
+        columns += [float(value) for channel in PROFILED for value in level[channel]]
+    return columns
+
+
+def rival_columns(pairs: Pairs, score: Array, best: int) -> list[float]:
+    """Score of the best pair, then the score and log relative lag of the next ones that differ from it in lag."""
+    columns = [float(score[best])]
+    order = np.argsort(-score)
+    apart = np.abs(np.log(pairs.lag[order] / pairs.lag[best])) > 0.03
+    rivals = order[apart][:RIVALS]
+    for k in range(RIVALS):
+        if k < rivals.size:
+            columns += [float(score[rivals[k]]), float(np.log(pairs.lag[rivals[k]] / pairs.lag[best]))]
+        else:
+            columns += [0.0, 0.0]
+    near = np.abs(np.log(pairs.lag / pairs.lag[best])) < 0.3
+    weight = np.maximum(score, 0.0) ** 2 * near
+    return [*columns, float((weight * np.log(pairs.lag / pairs.lag[best])).sum() / max(weight.sum(), 1e-12))]

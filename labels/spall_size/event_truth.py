@@ -1,0 +1,32 @@
+"""The events that a record truly holds: release and regain of each pass, or fall and rise of the ball's load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class EventTruth:
+    """Times (K,), s, of both events of every pass that has them; `kept` (K,) is True where contact was never lost."""
+
+    first: Array
+    last: Array
+    kept: NDArray[np.bool_]
+
+    @property
+    def lag(self) -> float:
+        """Median time between both events of a pass, s; NaN if no pass has them."""
+        return float(np.median(self.last - self.first)) if self.first.size else float("nan")
+
+
+def event_truth(release: Array, regain: Array, fall: Array, rise: Array) -> EventTruth:
+    """Events of the passes (N,): first release and last regain, else first fall and last rise; NaN: there is none."""
+    kept = ~np.isfinite(release)
+    first, last = np.where(kept, fall, release), np.where(kept, rise, regain)
+    there = np.isfinite(first) & np.isfinite(last)
+    return EventTruth(first[there], last[there], kept[there])

@@ -1,0 +1,66 @@
+"""From a record to pairs of candidate events: prewhitened, its passes tracked and lined up, on either race."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.alignment import Alignment, aligned
+from labels.spall_size.candidates import candidate_places
+from labels.spall_size.mean_pass import MeanPass, mean_pass
+from labels.spall_size.pair_features import Pairs, RecordFacts, candidate_pairs
+from labels.spall_size.pass_track import PassTrack, track_passes
+from labels.spall_size.prewhitening import prewhitened
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a record shows if its spall is on `race`: the passes, their mean and all pairs of candidates.
+
+    `rate` Hz; `deviation` is the standard deviation of the signal in its own unit.
+    """
+
+    race: str
+    rate: float
+    deviation: float
+    whitened: Array
+    track: PassTrack
+    alignment: Alignment
+    mean: MeanPass
+    pairs: Pairs
+
+
+def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -> Evidence | None:
+    """Evidence of `signal` (T,) for the race whose `pass_period` (s) shows most clearly; None without passes."""
+    whitened = prewhitened(signal)
+    energy = whitened**2
+    tracks = {race: track_passes(energy, rate, period) for race, period in pass_period.items()}
+    found = {race: track for race, track in tracks.items() if track is not None}
+    if not found:
+        return None
+    race = max(found, key=lambda name: found[name].score)
+    alignment = aligned(energy, rate, found[race])
+    if alignment is None:
+        return None
+    mean = mean_pass(whitened, alignment, found[race].period * rate)
+    places = candidate_places(mean)
+    if places.size < 2:
+        return None
+    facts = RecordFacts(
+        found[race].score,
+        race == "inner",
+        math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
+        _predictability(signal, whitened),
+    )
+    pairs = candidate_pairs(mean, places, facts)
+    return Evidence(race, rate, float(np.std(signal)), whitened, found[race], alignment, mean, pairs)
+
+
+def _predictability(signal: Array, whitened: Array) -> float:
+    """Log of how much more low-passed than white the signal is: variance over that of its differences."""
+    return math.log(float(np.var(signal)) / max(float(np.var(np.diff(signal))), 1e-300))

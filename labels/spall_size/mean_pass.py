@@ -1,0 +1,62 @@
+"""The mean ball pass: energy in bands, and the waveform itself, against the time from the anchor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.alignment import Alignment
+
+Array = NDArray[np.float64]
+
+# Edges as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold the entry.
+BAND_EDGES = (0.0, 0.03, 0.12, 0.5)
+CHANNELS = ("all", "low", "middle", "high")
+SHARPEST = 4.0
+
+
+@dataclass(frozen=True)
+class MeanPass:
+    """Weighted means over the passes at `offset` (S,) samples from the anchor, from −1.1 to 1.1 periods.
+
+    `energy` (4, S): of the prewhitened signal, whole and in three bands, each over its own median in the record;
+    `waveform` (S,): the prewhitened signal itself; `passes`: how many passes there are in effect; `period` samples.
+    """
+
+    offset: NDArray[np.int64]
+    energy: Array
+    waveform: Array
+    passes: float
+    period: float
+
+
+def mean_pass(whitened: Array, alignment: Alignment, period: float) -> MeanPass:
+    """The mean pass of `whitened` (T,); `period` in samples."""
+    reach = int(np.ceil(1.1 * period))
+    offset = np.arange(-reach, reach + 1)
+    anchor = np.round(alignment.place).astype(np.int64)
+    place = anchor[:, None] + offset
+    inside = (place >= 0) & (place < whitened.size)
+    weight = alignment.weight[:, None] * inside
+    total = np.maximum(weight.sum(axis=0), 1e-12)
+    place = np.clip(place, 0, whitened.size - 1)
+    channels = [whitened**2, *(band**2 for band in _bands(whitened))]
+    energy = [(weight * channel[place]).sum(axis=0) / total / _floor(channel) for channel in channels]
+    waveform = (weight * whitened[place]).sum(axis=0) / total
+    effective = float(alignment.weight.sum() ** 2 / max((alignment.weight**2).sum(), 1e-12))
+    return MeanPass(offset, np.array(energy), waveform, effective, period)
+
+
+def _bands(whitened: Array) -> list[Array]:
+    """The signal (T,) in each band, without phase shift."""
+    spectrum = np.fft.rfft(whitened)
+    share = np.fft.rfftfreq(whitened.size)
+    bands = [(share >= low) & (share < high) for low, high in pairwise(BAND_EDGES)]
+    return [np.fft.irfft(np.where(band, spectrum, 0.0), whitened.size) for band in bands]
+
+
+def _floor(energy: Array) -> float:
+    return max(float(np.median(energy)), 1e-300)

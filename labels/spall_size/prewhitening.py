@@ -1,0 +1,62 @@
+"""Prewhitening: the record with the ringing of its machine taken away, so that events stand alone."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve, solve_toeplitz
+
+Array = NDArray[np.float64]
+
+ORDER = 30
+REWEIGHTINGS = 2
+FLOOR_SHARE = 0.02
+RIDGE = 1e-9
+BLOCK = 1 << 15
+
+
+def prewhitened(signal: Array, order: int = ORDER) -> Array:
+    """Residual (T,) of a linear prediction of `signal` (T,) from its past, in units of its median magnitude.
+
+    A predictor by least squares would also learn the echo of a spall's exit after its entry; weights that fall with
+    the size of the residual make it learn the free ringing between events instead. Prediction looks back only, so an
+    event starts where it starts.
+    """
+    x = np.asarray(signal, dtype=np.float64) - np.mean(signal)
+    scale = float(x.std())
+    if scale == 0.0:
+        return np.zeros_like(x)
+    x = x / scale
+    coefficients = _least_squares_start(x, order)
+    for _ in range(REWEIGHTINGS):
+        coefficients = _reweighted(x, coefficients, order)
+    residual = _residual(x, coefficients)
+    return residual / max(float(np.median(np.abs(residual))), 1e-300)
+
+
+def _least_squares_start(x: Array, order: int) -> Array:
+    spectrum = np.fft.rfft(x, 2 * x.size)
+    covariance = np.fft.irfft(np.abs(spectrum) ** 2)[: order + 1]
+    covariance[0] *= 1.0 + RIDGE
+    return np.asarray(solve_toeplitz(covariance[:order], covariance[1:]))
+
+
+def _residual(x: Array, coefficients: Array) -> Array:
+    whole = np.convolve(x, np.concatenate([[1.0], -coefficients]))[: x.size]
+    whole[: coefficients.size] = 0.0
+    return whole
+
+
+def _reweighted(x: Array, coefficients: Array, order: int) -> Array:
+    power = _residual(x, coefficients) ** 2
+    weight = 1.0 / (power + FLOOR_SHARE * power.mean() + 1e-300)
+    weight[:order] = 0.0
+    gram, target = np.zeros((order, order)), np.zeros(order)
+    past = np.lib.stride_tricks.sliding_window_view(x, order + 1)
+    for start in range(0, past.shape[0], BLOCK):
+        rows = past[start : start + BLOCK]
+        weighted = rows[:, :order] * weight[order + start : order + start + rows.shape[0], None]
+        gram += weighted.T @ rows[:, :order]
+        target += weighted.T @ rows[:, order]
+    gram[np.diag_indices(order)] += RIDGE * np.trace(gram) / order
+    return np.asarray(solve(gram, target, assume_a="pos"))[::-1]

@@ -1,0 +1,67 @@
+"""Rules of the literature for the size of a spall, to compare with: a lag from the envelope, and a multiple of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import find_peaks, hilbert
+
+from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+
+Array = NDArray[np.float64]
+
+LONGEST_SHARE = 0.95
+SHORTEST_SAMPLES = 3
+
+
+def envelope_lag(signal: Array, rate: float, longest: float) -> float:
+    """Lag (s) of the first marked peak of the squared envelope's autocorrelation below `longest` (s); NaN if none.
+
+    Of the peaks that reach half the highest one's prominence, the first.
+    """
+    envelope = np.abs(hilbert(signal - np.mean(signal))) ** 2
+    envelope -= envelope.mean()
+    spectrum = np.abs(np.fft.rfft(envelope, 2 * envelope.size)) ** 2
+    correlation = np.fft.irfft(spectrum)[: int(longest * rate) + 1]
+    peaks, found = find_peaks(correlation, prominence=0.0)
+    kept = peaks >= SHORTEST_SAMPLES
+    peaks, prominence = peaks[kept], found["prominences"][kept]
+    if peaks.size == 0:
+        return math.nan
+    return float(peaks[prominence >= 0.5 * prominence.max()][0] / rate)
+
+
+@dataclass(frozen=True)
+class EnvelopeLagRule:
+    """Takes the spall for `share` times what a ball covers in the envelope's lag: 1 plain geometry, 2 the half-size
+    rule, by which the events show half the spall."""
+
+    share: float = 1.0
+
+    def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
+        """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
+
+        If the race is not known, it is taken for the outer one.
+        """
+        signal = acceleration if acceleration.ndim == 1 else acceleration[:, -1]
+        race = situation.race or "outer"
+        period, bearing = situation.pass_periods()[race], situation.bearing()
+        lag = envelope_lag(signal, rate, LONGEST_SHARE * period)
+        if math.isnan(lag):
+            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, f"envelope lag, {self.share:g} times")
+        arc = lag / period * bearing.spacing
+        return SizeEstimate(
+            SizeOutcome.ESTIMATED,
+            f"envelope lag, {self.share:g} times",
+            race,
+            lag=lag,
+            lag_arc=arc,
+            extent=min(self.share * arc, math.pi),
+            extent_mm=min(self.share * arc, math.pi) * bearing.raceway_radius(race) * 1e3,
+            candidates=(min(self.share * arc, math.pi),),
+            pass_period=period,
+        )

@@ -1,0 +1,63 @@
+"""What the person who asks for a size knows of the machine."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from physics.bearing import Bearing
+from physics.checks import require, require_not_negative, require_positive
+
+PLACEHOLDER_FACTOR = 1e10
+
+
+@dataclass(frozen=True)
+class Situation:
+    """Geometry and shaft speed (rad/s, to about ±2 %) of a recorded bearing, SI units.
+
+    `load` (N) and `load_deflection` (N/mⁿ, the Hertz factor) make the size more accurate, `race` ("outer", "inner")
+    spares finding it out; each is None if unknown.
+    """
+
+    balls: int
+    rows: int
+    pitch_diameter: float
+    ball_diameter: float
+    shaft_speed: float
+    contact_angle: float = 0.0
+    load: float | None = None
+    load_deflection: float | None = None
+    exponent: float = 1.5
+    race: str | None = None
+
+    def __post_init__(self) -> None:
+        require_positive("shaft_speed", self.shaft_speed, "rad/s")
+        if self.load is not None:
+            require_not_negative("load", self.load, "N")
+        require(self.race in (None, "outer", "inner"), f'race = "{self.race}"; allowed: outer, inner', "race")
+        self.bearing()
+
+    def bearing(self) -> Bearing:
+        """The bearing; without a Hertz factor its stiffness means nothing."""
+        return Bearing(
+            "recorded",
+            self.balls,
+            self.rows,
+            self.pitch_diameter,
+            self.ball_diameter,
+            self.load_deflection or PLACEHOLDER_FACTOR,
+            self.exponent,
+            self.contact_angle,
+        )
+
+    @property
+    def load_known(self) -> bool:
+        """True if the release arc can be computed."""
+        return self.load is not None and self.load > 0.0 and self.load_deflection is not None
+
+    def pass_periods(self) -> dict[str, float]:
+        """Nominal time between two ball passes for each race that comes into question, s."""
+        bearing = self.bearing()
+        orders = {"outer": bearing.bpfo, "inner": bearing.bpfi}
+        chosen = orders if self.race is None else {self.race: orders[self.race]}
+        return {race: 2.0 * math.pi / (order * self.shaft_speed) for race, order in chosen.items()}

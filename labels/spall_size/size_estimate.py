@@ -1,0 +1,66 @@
+"""The answer of a size estimator: a size with its doubt, or no size and why."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Interval = tuple[float, float]
+UNKNOWN: Interval = (math.nan, math.nan)
+NO_TIMES = np.zeros((0, 2))
+
+
+class SizeOutcome(Enum):
+    """How an estimate ended."""
+
+    ESTIMATED = "estimated"
+    TOO_SHORT = "the record holds fewer than four ball passes"
+    NO_PASSES = "no ball passes stand out of the record"
+    NO_EVENT_PAIR = "the passes show no two events that could be trusted to be entry and exit"
+
+
+@dataclass(frozen=True)
+class SizeEstimate:
+    """Size of the spall of one record.
+
+    `lag` between the events in s, `lag_arc` the arc of the race that a ball covers in it, `extent` of the spall (rad)
+    and `extent_mm` along its race, each with an interval that holds the truth in 90 % of cases. `candidates` (rad):
+    the extents that give the same timing, `extent` the first, the others whole ball spacings longer. `event_times`
+    (K, 2), s: both events of each pass that was heard. `trust` is the probability given to the pair of events.
+    Without an estimate the numbers are NaN and `reason` says why.
+    """
+
+    outcome: SizeOutcome
+    method: str
+    race: str = ""
+    lag: float = math.nan
+    lag_interval: Interval = UNKNOWN
+    lag_arc: float = math.nan
+    extent: float = math.nan
+    extent_interval: Interval = UNKNOWN
+    extent_mm: float = math.nan
+    extent_mm_interval: Interval = UNKNOWN
+    candidates: tuple[float, ...] = ()
+    pass_period: float = math.nan
+    trust: float = 0.0
+    event_times: Array = field(default_factory=lambda: NO_TIMES)
+
+    @property
+    def found(self) -> bool:
+        """True if there is a size."""
+        return self.outcome is SizeOutcome.ESTIMATED
+
+    @property
+    def reason(self) -> str:
+        """Why there is no estimate; empty if there is one."""
+        return "" if self.found else self.outcome.value
+
+    @property
+    def lag_degrees(self) -> float:
+        """Arc of the race covered between the events, degrees."""
+        return math.degrees(self.lag_arc)

@@ -1,0 +1,38 @@
+"""How much shorter the time between the events is than the spall, from load, Hertz factor and geometry."""
+
+from __future__ import annotations
+
+import math
+
+from physics.bearing import Bearing
+from physics.rolling import hanging_reach
+
+# Mean over spall centres within ±25 degrees (one standard deviation) of the load's direction of its cosine.
+USUAL_SHARE_OF_PEAK = 0.91
+
+
+def static_compression(bearing: Bearing, load: float) -> float:
+    """Compression (m) of a ball at a spall near the middle of the load zone under a radial `load`, N [P14 Eq. 24]."""
+    peak = bearing.stribeck_peak_load(abs(load))
+    return USUAL_SHARE_OF_PEAK * (peak / bearing.load_deflection) ** (1.0 / bearing.exponent)
+
+
+def release_arc(bearing: Bearing, race: str, load: float) -> float:
+    """Arc (rad) from a sharp edge to where the ball has dropped by its static compression and is released."""
+    return hanging_reach(race, bearing.raceway_radius(race), bearing.ball_radius, static_compression(bearing, load))
+
+
+def arc_of_lag(lag: float, shaft_speed: float, race: str, bearing: Bearing) -> float:
+    """Arc (rad) of a race that a ball covers in `lag` (s) at the nominal cage speed of `shaft_speed` (rad/s)."""
+    cage = bearing.cage_speed(shaft_speed)
+    return lag * (cage if race == "outer" else shaft_speed - cage)
+
+
+def arc_with_static_release(lag_arc: float, bearing: Bearing, race: str, load: float) -> float:
+    """Arc of a spall (rad): that between the events plus twice the static release arc (MODEL.md, point 4)."""
+    return lag_arc + 2.0 * release_arc(bearing, race, load)
+
+
+def spacing_share(arc: float, bearing: Bearing) -> float:
+    """An arc (rad) in ball spacings."""
+    return arc / (2.0 * math.pi / bearing.balls)

@@ -1,0 +1,62 @@
+"""One question with two answers: a learner whose probabilities are calibrated on bearings it has not seen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.features.conditioning import Array
+
+FOLDS = 5
+EDGE = 1e-4
+
+
+class Stage:
+    """A two-class learner with Platt's calibration; `held_out` (N,) are its calibrated held-out probabilities."""
+
+    def __init__(self, estimator: Any, seed: int = 0) -> None:
+        self.estimator = estimator
+        self.seed = seed
+
+    def fit(self, table: Array, answer: NDArray[np.bool_], groups: NDArray[Any]) -> Stage:
+        """Learn the probability that `answer` (N,) is True from rows (N, F); rows of one group stay on one side.
+
+        ValueError if an answer is given by fewer than two groups.
+        """
+        from sklearn.base import clone
+        from sklearn.linear_model import LogisticRegression
+
+        folds = min(FOLDS, *(len(np.unique(groups[answer == side])) for side in (False, True)))
+        if folds < 2:
+            raise ValueError("each answer must be given by two virtual bearings or more")
+        raw = self._held_out(table, answer, groups, folds)
+        weight = np.where(answer, 1.0 / max(answer.mean(), 1e-9), 1.0 / max(1.0 - answer.mean(), 1e-9))
+        self.calibration = LogisticRegression(C=10.0).fit(_logit(raw)[:, None], answer, sample_weight=weight)
+        self.held_out = self._calibrated(raw)
+        self.estimator = clone(self.estimator).fit(table, answer)
+        return self
+
+    def probability(self, table: Array) -> Array:
+        """Calibrated probability (N,) that the answer is True, if both answers were equally likely beforehand."""
+        return self._calibrated(self.estimator.predict_proba(table)[:, 1])
+
+    def _held_out(self, table: Array, answer: NDArray[np.bool_], groups: NDArray[Any], folds: int) -> Array:
+        from sklearn.base import clone
+        from sklearn.model_selection import StratifiedGroupKFold
+
+        raw = np.full(len(answer), answer.mean())
+        split = StratifiedGroupKFold(folds, shuffle=True, random_state=self.seed)
+        for train, test in split.split(table, answer, groups):
+            if np.unique(answer[train]).size == 2:
+                raw[test] = clone(self.estimator).fit(table[train], answer[train]).predict_proba(table[test])[:, 1]
+        return raw
+
+    def _calibrated(self, raw: Array) -> Array:
+        return np.asarray(self.calibration.predict_proba(_logit(raw)[:, None])[:, 1])
+
+
+def _logit(probability: Array) -> Array:
+    inside = np.clip(probability, EDGE, 1.0 - EDGE)
+    return np.asarray(np.log(inside / (1.0 - inside)))

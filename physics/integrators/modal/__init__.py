@@ -1,0 +1,1 @@
+"""The modal method: the linear part in modes, one adaptive march, one file a concern."""

@@ -1,0 +1,99 @@
+"""Which step to try next: as long as pace, kinks, the grid and balls about to change sides allow."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_inline
+from physics.contact import ACTIVE, count_ahead, of_ball
+from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE, Stops
+from physics.integrators.modal.memory import (
+    BALL,
+    CAREFUL,
+    CELL,
+    GRADED,
+    LEFT,
+    NO_BALL,
+    ON_GRID,
+    PACE,
+    STOP,
+    TIME,
+    UNITS,
+    Memory,
+    Stride,
+)
+
+Array = NDArray[np.float64]
+
+# A stride is taken only if no ball would change sides within this many times its length.
+LOOK_AHEAD = 1.0
+NEARLY = 1e-6
+
+
+@njit_inline
+def active_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
+    """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`."""
+    while place < stops.time.size and stops.time[place] < finish:
+        if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
+            return stops.time[place]
+        place += 1
+    return finish
+
+
+@njit_inline
+def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> int:
+    """Power of two of the samples that may be passed over from here in one step; 0 if it has to be one or less."""
+    clock, marks = memory.clock, memory.marks
+    if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0 or marks[CELL] < marks[CAREFUL]:
+        return 0
+    level = grid.levels
+    while level > 0:
+        length = (1 << level) * grid.interval
+        finish = clock[TIME] + length
+        if (
+            clock[PACE] >= length
+            and marks[CELL] + UNITS * (1 << level) <= (grid.samples - 1) * UNITS
+            and active_kink(balls, stops, marks[STOP], finish) >= finish
+            and count_ahead(balls, LOOK_AHEAD * length) == 0
+        ):
+            break
+        level -= 1
+    return level
+
+
+@njit_inline
+def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple[int, int, float, float]:
+    """Row of the step's weights (0 if they have to be computed), its units (0 if it ends off the grid), its end (s),
+    and where to go on (s), beyond a kink at its end."""
+    clock, marks = memory.clock, memory.marks
+    unit, time = grid.interval / UNITS, clock[TIME]
+    if marks[BALL] != NO_BALL:
+        left = clock[LEFT]
+        length = left if left <= clock[GRADED] else 0.5 * left
+        units = int(length / unit + 0.5)
+        if marks[ON_GRID] == 1 and units > 0 and abs(left / unit - int(left / unit + 0.5)) < NEARLY:
+            return units, units, time + units * unit, time + units * unit
+        return 0, 0, time + length, time + length
+    level = stride_level(balls, grid, stops, memory)
+    if level > 0:
+        units = UNITS * (1 << level)
+        return UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit
+    sample_end = (marks[CELL] // UNITS + 1) * UNITS
+    reach = int((time + clock[PACE]) / unit + NEARLY)
+    units = min(sample_end, max(marks[CELL] + 1, reach)) - marks[CELL]
+    target = (marks[CELL] + units) * unit
+    smallest = SMALLEST_STEP_SHARE * grid.interval
+    kink = active_kink(balls, stops, marks[STOP], target - smallest)
+    if kink < target - smallest:
+        nudge = KINK_NUDGE_SHARE * grid.interval
+        return 0, 0, kink - nudge, kink + nudge
+    return units if marks[ON_GRID] == 1 else 0, units, target, target
+
+
+@njit_inline
+def pass_stops(grid: Stride, stops: Stops, memory: Memory) -> None:
+    """Count on to the first kink that is still ahead."""
+    passed = memory.clock[TIME] + SMALLEST_STEP_SHARE * grid.interval
+    while memory.marks[STOP] < stops.time.size and stops.time[memory.marks[STOP]] <= passed:
+        memory.marks[STOP] += 1

@@ -1,0 +1,141 @@
+"""How long steps may be: the tolerance, what the past foretells, and what the start and end of contact ask for."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_inline, njit_lean
+from physics.contact import Law, count_dips
+from physics.integrators.modal.memory import (
+    BALL,
+    BEFORE,
+    BUDGET,
+    GRADED,
+    LEFT,
+    ON_GRID,
+    PACE,
+    RATIO,
+    SQUARES,
+    TOLERANCE,
+    UNITS,
+    Memory,
+    Stride,
+)
+
+Array = NDArray[np.float64]
+
+# Error of Simpson's rule, in which the method's quadrature consists, over one step: its length to the fifth times the
+# fourth derivative over 2880; and, relative, for the force (t − t0)^1.5 with which contact starts and ends.
+SIMPSON_ERROR = 1.0 / 2880.0
+START_ERROR = 0.0024
+# Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
+UNIT_ERROR = 0.29
+# A step is taken back if its error exceeds the tolerance this many times, and the next is doubled if it stays below
+# this share of it: the error grows by the fifth power of the length.
+REJECTED, DOUBLED = 4.0, 1.0 / 32.0
+
+
+@njit_inline
+def graded_length(law: Law, speed: float, tolerance: float) -> float:
+    """Longest step (s) next to an instant at which a ball starts or ceases to touch at `speed` (m/s)."""
+    return (tolerance / (START_ERROR * law.stiffness * max(abs(speed), 1e-12) ** 1.5)) ** 0.4
+
+
+@njit_inline
+def set_foretelling(ratio: float, foretelling: Array) -> None:
+    """Fill `foretelling` (5,): weights of the cubic's value in the middle of a step, and what turns a deviation from it
+    into the error of the step over its length.
+
+    The cubic runs through the force at the beginning and in the middle of the step before, `ratio` times as long, and
+    at both ends of the step.
+    """
+    a, b = ratio, 0.5 * ratio
+    foretelling[0] = 0.25 * (0.5 + b) / ((a - b) * a * (a + 1.0))
+    foretelling[1] = -0.25 * (0.5 + a) / ((a - b) * b * (b + 1.0))
+    foretelling[2] = 0.5 * (0.5 + a) * (0.5 + b) / (a * b)
+    foretelling[3] = 0.5 * (0.5 + a) * (0.5 + b) / ((1.0 + a) * (1.0 + b))
+    foretelling[4] = 96.0 * SIMPSON_ERROR / ((0.5 + a) * (0.5 + b))
+
+
+@njit_lean
+def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
+    """Let the tolerance follow the acceleration of `samples` samples."""
+    square = memory.clock[SQUARES] / (grid.seen_samples + samples)
+    memory.clock[TOLERANCE] = max(grid.least, grid.share * math.sqrt(square))
+
+
+@njit_lean
+def meet_change(
+    law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
+) -> None:
+    """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression."""
+    clock, marks = memory.clock, memory.marks
+    unit = grid.interval / UNITS
+    clock[GRADED] = max(graded_length(law, speed, clock[TOLERANCE]), unit / UNITS)
+    jump = UNIT_ERROR * unit * law.damping * abs(speed)
+    if marks[ON_GRID] == 1 and jump < clock[TOLERANCE] and clock[GRADED] > unit:
+        left = unit * int(left / unit + 0.5)
+        clock[BUDGET] += jump * jump
+    marks[BALL], clock[LEFT] = ball, left
+    if not losing:
+        clock[PACE] = min(clock[PACE], clock[GRADED])
+        clock[GRADED] = step
+
+
+@njit_inline
+def dipped(balls: Array, memory: Memory, step: float, units: int) -> bool:
+    """Whether some ball seems to change sides and back within the step, which is then to be halved."""
+    if units == 1 or count_dips(balls, memory.noted, step) == 0:
+        return False
+    memory.clock[PACE] = 0.5 * step
+    return True
+
+
+@njit_inline
+def judge(
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    units: int,
+    force: tuple[float, float],
+    middle: tuple[float, float],
+    after: tuple[float, float],
+) -> bool:
+    """Set the pace by how well the past foretold the force in the middle of the step; False to take it back."""
+    clock, told, past = memory.clock, memory.foretelling, memory.past
+    tolerance = clock[TOLERANCE]
+    if clock[BEFORE] == 0.0:
+        clock[BUDGET] += tolerance * tolerance
+        clock[PACE] = min(max(2.0 * step, clock[PACE]), grid.interval)
+        return True
+    ratio = clock[BEFORE] / step
+    if ratio != clock[RATIO]:
+        clock[RATIO] = ratio
+        set_foretelling(ratio, told)
+    error = 0.0
+    for axis in range(2):
+        foretold = told[0] * past[0, axis] + told[1] * past[1, axis] + told[2] * force[axis] + told[3] * after[axis]
+        error += abs(foretold - middle[axis])
+    error *= step * told[4]
+    if error > REJECTED * tolerance and units > 1:
+        clock[PACE] = 0.5 * step
+        return False
+    clock[BUDGET] += error * error
+    if error > tolerance:
+        clock[PACE] = max(0.5 * step, grid.interval / UNITS)
+    elif error < DOUBLED * tolerance:
+        clock[PACE] = 2.0 * step
+    elif error > 2.0 * DOUBLED * tolerance and step < clock[PACE]:
+        clock[PACE] = step
+    return True
+
+
+@njit_inline
+def remember(memory: Memory, step: float, force: tuple[float, float], middle: tuple[float, float]) -> None:
+    """Keep the contact force of the step that was taken, which foretells that of the next."""
+    past = memory.past
+    past[0, 0], past[0, 1], past[1, 0], past[1, 1] = force[0], force[1], middle[0], middle[1]
+    memory.clock[BEFORE] = step

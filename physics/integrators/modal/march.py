@@ -1,0 +1,286 @@
+"""Marching on the modes with steps as long as the scene allows, every contact change located and every kink a stop.
+
+Steps are whole numbers of units, a sixteenth of a sample, or two, four, eight samples; the samples inside such a stride
+are exact responses of the modes to the contact force of the step's stages. Everything is measured by one tolerance, the
+momentum (N s) by which a step or a contact change may be wrong: the length of steps from how well the past of the
+contact force foretells it, how exactly a change is located from the jump of force it makes, how finely steps are graded
+next to it from how fast contact begins or ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_inline, njit_lean, specialise
+from physics.contact import ACTIVE, Law, Track, count_changes, note_motion, of_ball, reset_contact, set_time
+from physics.integrators.march import (
+    DONE,
+    LARGEST_ACCELERATION,
+    LOG_FULL,
+    LOGGED,
+    MOST_CHANGES_PER_STEP,
+    NOT_FINITE,
+    SMALLEST_STEP_SHARE,
+    STEPS,
+    UNLOCATED,
+    Output,
+    Stops,
+    toggle,
+)
+from physics.integrators.modal.choice import next_step, pass_stops
+from physics.integrators.modal.flow import REST_OUTPUT, LinearFlow, set_rest
+from physics.integrators.modal.judgement import dipped, judge, meet_change, remember, set_tolerance
+from physics.integrators.modal.location import locate
+from physics.integrators.modal.memory import (
+    BALL,
+    BEFORE,
+    BUDGET,
+    CAREFUL,
+    CELL,
+    LEFT,
+    NO_BALL,
+    ON_GRID,
+    PACE,
+    SQUARES,
+    TIME,
+    TRIED,
+    UNITS,
+    Memory,
+    Stride,
+)
+from physics.integrators.modal.output import keep, record, remaining_force, write_inside
+from physics.integrators.modal.weights import set_inside, set_step
+
+Array = NDArray[np.float64]
+
+# What a look at a trial step says: take it, or go on from where it began.
+TAKE, AGAIN = range(2)
+
+
+@njit_lean
+def begin(
+    balls: Array, frames: Array, law: Law, track: Track, flow: LinearFlow, grid: Stride, memory: Memory, output: Output
+) -> tuple[float, float]:
+    """Fill the tables of weights, find the first contact set, write sample 0; the remaining contact force (N)."""
+    clock, marks = memory.clock, memory.marks
+    for k in range(1, UNITS + 1):
+        set_step(flow.rows, memory.weights[k], k * (grid.interval / UNITS), memory.phi)
+    for level in range(1, grid.levels + 1):
+        size = 1 << level
+        set_step(flow.rows, memory.weights[UNITS + level], size * grid.interval, memory.phi)
+        set_inside(flow.rows, memory.inside[size : 2 * size - 1], size * grid.interval, memory.phi[0])
+    state = memory.states[0]
+    set_rest(flow, 0.0, memory.rest)
+    set_time(balls, frames, track, 0.0)
+    remaining_force(balls, frames, law, flow, state, memory.rest)
+    reset_contact(balls, law)
+    for ball in range(output.initial.size):
+        output.initial[ball] = of_ball(balls, ACTIVE, ball)
+    force = remaining_force(balls, frames, law, flow, state, memory.rest)
+    clock[:] = 0.0
+    marks[:] = 0
+    clock[PACE], marks[BALL], marks[ON_GRID] = grid.interval, NO_BALL, 1
+    clock[SQUARES] = record(balls, flow, state, memory.rest, 0, 1, output) + grid.seen * grid.seen_samples
+    set_tolerance(grid, memory, 1)
+    keep(balls, flow, state, memory.rest, force, 0.0, 0, output)
+    return force
+
+
+@njit_lean
+def change_sides(balls: Array, memory: Memory, output: Output) -> None:
+    """Let the ball of the contact change ahead change sides now."""
+    toggle(balls, memory.marks[BALL], memory.clock[TIME], output)
+    memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
+
+
+@njit_lean
+def look(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    flow: LinearFlow,
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    units: int,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
+    after: tuple[float, float],
+    halfway: bool,
+    output: Output,
+) -> int:
+    """What to do about the trial step `now` to `then` that some ball contradicts: TAKE it or AGAIN.
+
+    AGAIN: shorter, or up to the change that was located, or from here with a ball that has just changed sides.
+    """
+    clock, marks, rest = memory.clock, memory.marks, memory.rest
+    if units > UNITS:
+        marks[CAREFUL] = marks[CELL] + units
+        return AGAIN
+    if marks[TRIED] >= MOST_CHANGES_PER_STEP:
+        output.tally[UNLOCATED] += count_changes(balls, law)
+        reset_contact(balls, law)
+        return TAKE
+    marks[TRIED] += 1
+    share, ball, speed = locate(
+        balls, frames, law, track, flow, clock[TIME], step, now, force, then, after, rest, halfway,
+        memory.ends, memory.suspects,
+    )  # fmt: skip
+    if ball < 0:
+        set_time(balls, frames, track, clock[TIME] + step)
+        return TAKE
+    meet_change(law, grid, memory, share * step, ball, of_ball(balls, ACTIVE, ball) > 0.5, speed, step)
+    if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
+        return AGAIN
+    change_sides(balls, memory, output)
+    return AGAIN
+
+
+@njit_inline
+def land(grid: Stride, memory: Memory, units: int, beyond: float) -> None:
+    """Move the clock to the end of a step of `units`, or off the grid to `beyond` (s)."""
+    clock, marks = memory.clock, memory.marks
+    unit = grid.interval / UNITS
+    if units > 0:
+        marks[CELL] += units
+        marks[ON_GRID] = 1
+    else:
+        near = int(beyond / unit + 0.5)
+        marks[ON_GRID] = abs(beyond - near * unit) < SMALLEST_STEP_SHARE * grid.interval
+        marks[CELL] = near if marks[ON_GRID] == 1 else int(beyond / unit)
+    clock[TIME] = marks[CELL] * unit if marks[ON_GRID] == 1 else beyond
+
+
+@njit_inline
+def write_sample(
+    balls: Array,
+    flow: LinearFlow,
+    grid: Stride,
+    memory: Memory,
+    state: Array,
+    force: tuple[float, float],
+    units: int,
+    output: Output,
+) -> bool:
+    """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite."""
+    clock, marks = memory.clock, memory.marks
+    if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0:
+        return True
+    marks[TRIED] = 0
+    sample, weight = marks[CELL] // UNITS, max(1, units // UNITS)
+    square = record(balls, flow, state, memory.rest, sample, weight, output)
+    keep(balls, flow, state, memory.rest, force, clock[TIME], sample, output)
+    clock[SQUARES] += weight * square
+    set_tolerance(grid, memory, sample + 1)
+    return square < LARGEST_ACCELERATION**2
+
+
+@njit_inline
+def arrive(
+    balls: Array,
+    frames: Array,
+    track: Track,
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    jump: float,
+    output: Output,
+) -> bool:
+    """What follows a `step` (s) that was taken; True if it changes the contact force.
+
+    A ball changes sides if this was the instant, and a kink is passed in a `jump` (s).
+    """
+    clock, marks = memory.clock, memory.marks
+    if marks[BALL] != NO_BALL:
+        clock[LEFT] -= step
+        if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
+            return False
+        change_sides(balls, memory, output)
+        return True
+    if jump > 0.0:
+        set_time(balls, frames, track, clock[TIME])
+        clock[BEFORE], clock[PACE] = 0.0, min(clock[PACE], grid.interval)
+        return True
+    return False
+
+
+def _unbound(*_arguments: object) -> Any:
+    raise RuntimeError("a march needs the step of a method: use bind_modal_method")
+
+
+# Bound by `bind_modal_method`: the step of the method, pasted into the march.
+step_pasted: Callable[..., tuple[int, float, float]] = _unbound
+
+
+def _march(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    flow: LinearFlow,
+    grid: Stride,
+    stops: Stops,
+    memory: Memory,
+    output: Output,
+) -> int:
+    """Fill `output` from the first state of `memory` at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
+    now, then, rest = memory.states[0], memory.states[1], memory.rest
+    clock, marks = memory.clock, memory.marks
+    force = begin(balls, frames, law, track, flow, grid, memory, output)
+    room = output.change_time.size
+    while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
+        pass_stops(grid, stops, memory)
+        row, units, target, beyond = next_step(balls, grid, stops, memory)
+        start, step = clock[TIME], target - clock[TIME]
+        if row == 0:
+            set_step(flow.rows, memory.weights[0], step, memory.phi)
+        before = rest[0, REST_OUTPUT], rest[1, REST_OUTPUT]
+        note_motion(balls, memory.noted)
+        halfway, mx, my = step_pasted(
+            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then, rest
+        )
+        after = remaining_force(balls, frames, law, flow, then, rest)
+        if marks[BALL] == NO_BALL:
+            action = TAKE
+            if halfway + count_changes(balls, law) > 0:
+                action = look(
+                    balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, halfway > 0,
+                    output,
+                )  # fmt: skip
+                after = remaining_force(balls, frames, law, flow, then, rest)
+            elif dipped(balls, memory, step, units):
+                action = AGAIN
+            if action == TAKE and not judge(grid, memory, step, units, force, (mx, my), after):
+                action = AGAIN
+            if action != TAKE:
+                set_time(balls, frames, track, start)
+                set_rest(flow, start, rest)
+                force = remaining_force(balls, frames, law, flow, now, rest)
+                continue
+        output.tally[STEPS] += 1
+        remember(memory, step, force, (mx, my))
+        if units > UNITS:
+            write_inside(
+                balls, frames, law, track, flow, memory.inside, units // UNITS, now, memory.between, then, before, rest,
+                force, (mx, my), after, start, grid.interval, marks[CELL] // UNITS, output,
+            )  # fmt: skip
+        now, then = then, now
+        force = after
+        land(grid, memory, units, beyond)
+        if arrive(balls, frames, track, grid, memory, step, beyond - target, output):
+            force = remaining_force(balls, frames, law, flow, now, rest)
+        if not write_sample(balls, flow, grid, memory, now, force, units, output):
+            return NOT_FINITE
+    output.budget[0] = clock[BUDGET]
+    return DONE if output.tally[LOGGED] < room else LOG_FULL
+
+
+def bind_modal_method(name: str, step: Callable[..., tuple[int, float, float]]) -> Callable[..., int]:
+    """The march with `step` built in, compiled and cached under the method's `name`."""
+    return specialise(_march, f"march_{name}", lean=True, step_pasted=step)

@@ -1,0 +1,178 @@
+"""The benchmark on a tiny corpus: splits by bearing, own estimators, logs, reports."""
+
+import json
+import shutil
+
+import numpy as np
+import pandas
+import pytest
+from typer.testing import CliRunner
+
+from datagen.benchmark.classify import tested_records as records_to_test
+from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, windows
+from datagen.benchmark.score_log import log_path, write_line
+from datagen.benchmark.training import class_probability, load_estimator, training_records
+from datagen.benchmark.votes import averaged, joined
+from datagen.benchmark.windows import WINDOW_SAMPLES, cut, resampled
+from datagen.cli import app
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from labels.classifier import CLASSES
+from labels.features.table import FEATURE_NAMES
+
+
+class Guesser:
+    """A scikit-learn estimator that learns shares only."""
+
+    def fit(self, X, y):
+        self.classes_, counts = np.unique(y, return_counts=True)
+        self.shares = counts / counts.sum()
+        self.columns = X.shape[1]
+        return self
+
+    def predict_proba(self, X):
+        assert X.shape[1] == self.columns
+        return np.tile(self.shares, (len(X), 1))
+
+
+def always_outer(table):
+    """A callable that has seen nothing."""
+    assert table.shape[1] in (len(FEATURE_NAMES), WINDOW_SAMPLES)
+    return np.full(len(table), "line outer")
+
+
+@pytest.fixture
+def classify(tiny_corpus, tmp_path, monkeypatch):
+    """Function (*options) → results of `spallgen classify` learned from the tiny corpus and scored on a copy of it."""
+    copy = tmp_path / "copy"
+    shutil.copytree(tiny_corpus, copy)
+    (tmp_path / "own_estimators.py").write_text(
+        f"import sys\nsys.path.insert(0, {str(tmp_path)!r})\n"
+        "import numpy as np\n"
+        "class Guesser:\n"
+        "    def fit(self, X, y):\n"
+        "        self.classes_, counts = np.unique(y, return_counts=True)\n"
+        "        self.shares = counts / counts.sum()\n"
+        "        return self\n"
+        "    def predict_proba(self, X):\n"
+        "        return np.tile(self.shares, (len(X), 1))\n"
+        "def always_outer(table):\n"
+        "    return np.full(len(table), 'line outer')\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+
+    def run(*options):
+        file = tmp_path / "results.json"
+        command = ["classify", "--train", tiny_corpus, "--test", copy, "--workers", "1", "--json", file, *options]
+        done = CliRunner().invoke(app, [str(part) for part in command], catch_exceptions=False)
+        return done, json.loads(file.read_text()) if done.exit_code == 0 else None
+
+    return run
+
+
+def test_a_corpus_learned_from_and_tested_on_is_divided_by_virtual_bearing(tiny_corpus, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(tiny_corpus, copy)
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    kept_back = sorted(index["bearing_id"].unique())[::4]
+    index["split"] = np.where(index["bearing_id"].isin(kept_back), "test", "train")
+    index.to_csv(copy / "index.csv", index=False)
+    test = records_to_test(Corpus(copy), also_trained=True)
+    train = training_records(copy, also_tested=True)
+    assert set(test["bearing_id"]) == set(kept_back)
+    assert not set(train["bearing_id"]) & set(kept_back)
+    assert len(training_records(copy, also_tested=False)) == len(index)
+
+
+def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
+    done, results = classify("--estimator", "own_estimators:Guesser", "--out", tmp_path / "report")
+    assert done.exit_code == 0
+    scores = results["tests"][0]["models"]["Guesser"]
+    assert set(scores["confusion"]["columns"]) == {"none", "outer", "inner", "rejected"}
+    assert set(results["importances"]["Guesser"]) == set(FEATURE_NAMES)
+    assert (tmp_path / "report" / "report.png").read_bytes().startswith(b"\x89PNG")
+    assert json.loads((tmp_path / "report" / "report.json").read_text())["training_records"] == 14
+
+
+@pytest.mark.parametrize("inputs", ["features", "windows"])
+def test_a_function_that_names_classes_is_scored_too(classify, inputs):
+    done, results = classify("--estimator", "own_estimators:always_outer", "--input", inputs)
+    assert done.exit_code == 0
+    scores = results["tests"][0]["models"]["always_outer"]
+    said = {prediction["always_outer"]["location"] for prediction in results["tests"][0]["predictions"]}
+    assert said <= {"outer", "rejected"}
+    assert scores["confusion"]["counts"][2][2] == 0  # no inner record is called inner
+
+
+@pytest.mark.parametrize(
+    "options",
+    [("--learner", "oracle"), ("--estimator", "nowhere:Thing"), ("--input", "windows"), ("--noise-db", "loud")],
+)
+def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options):
+    assert classify(*options)[0].exit_code == 2
+
+
+def test_probabilities_are_sorted_by_the_names_of_the_classes():
+    guess = Guesser().fit(np.zeros((3, 2)), np.array(["line outer", "healthy", "line outer"]))
+    found = class_probability(guess, np.zeros((1, 2)))
+    assert found[0, CLASSES.index("line outer")] == pytest.approx(2.0 / 3.0)
+    assert found[0, CLASSES.index("extended inner")] == 0.0
+    assert class_probability(always_outer, np.zeros((2, len(FEATURE_NAMES))))[:, 1].tolist() == [1.0, 1.0]
+
+
+def test_a_module_without_that_name_is_refused():
+    with pytest.raises(BadInput, match="module:Class"):
+        load_estimator("numpy")
+
+
+def test_votes_are_geometric_means_of_the_rows_of_a_record():
+    probability = np.array([[0.8, 0.2], [0.2, 0.8], [0.9, 0.1]])
+    found = joined(probability, np.array([3, 3, 5]), np.array([3, 5, 7]))
+    np.testing.assert_allclose(found[:2], [[0.5, 0.5], [0.9, 0.1]])
+    assert np.isnan(found[2]).all()
+    assert averaged(probability, np.array([3, 3, 5]), np.array([3]))[0, 0] == pytest.approx(0.5)
+
+
+def test_long_records_are_cut_into_equal_windows_that_lose_nothing():
+    pieces = list(windows(np.arange(25_000.0), 1000.0, 10.0))
+    assert [piece.size for piece in pieces] == [8334, 8333, 8333]
+    np.testing.assert_array_equal(np.concatenate(pieces), np.arange(25_000.0))
+    assert len(list(windows(np.arange(1290.0), 1000.0, 1.25))) == 1  # 3 % longer is still one
+
+
+def test_a_record_without_a_speed_is_rejected_with_its_reason(tiny_corpus):
+    labels = Corpus(tiny_corpus).labels.iloc[0].copy()
+    labels["speed_rpm"] = np.nan
+    assert record_rows(np.zeros((100, 2)), labels, Reading()) == ([], UNKNOWN_MACHINE)
+
+
+def test_noise_is_added_at_the_level_asked_and_another_in_each_draw(tiny_corpus):
+    corpus = Corpus(tiny_corpus)
+    labels, signal = corpus.labels.iloc[0], corpus.waveform(0)[:, :1]
+    clean, one, again, other = (
+        record_rows(signal, labels, reading)[0][0]
+        for reading in (
+            Reading(),
+            Reading(noise_db=-10.0),
+            Reading(noise_db=-10.0),
+            Reading(noise_db=-10.0, noise_draw=1),
+        )
+    )
+    np.testing.assert_array_equal(one, again)
+    assert not np.array_equal(one, clean)
+    assert not np.array_equal(one, other)
+
+
+def test_raw_windows_of_any_rate_hold_the_same_tone():
+    tone = np.cos(2.0 * np.pi * 100.0 * np.arange(10_000) / 10_000.0)
+    slow = resampled(tone, 10_000.0, 2000.0)
+    np.testing.assert_allclose(slow, np.cos(2.0 * np.pi * 100.0 * np.arange(2000) / 2000.0), atol=1e-9)
+    assert [window.size for window in cut(tone)] == [WINDOW_SAMPLES, WINDOW_SAMPLES]
+
+
+def test_runs_on_recordings_are_listed_line_by_line(tmp_path):
+    write_line(tmp_path, {"first": 1})
+    write_line(tmp_path, {"second": 2})
+    assert [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()] == [{"first": 1}, {"second": 2}]
+    with pytest.raises(BadInput, match="logged"):
+        write_line(tmp_path / "nowhere", {})

@@ -1,0 +1,35 @@
+"""What a classifier may know of a record, from its labels."""
+
+import math
+
+import pytest
+
+from datagen.benchmark.known import known_kinematics, true_class, true_location
+
+GEOMETRY = {"balls": 9, "pitch_diameter": 39.04e-3, "ball_diameter": 7.94e-3, "contact_angle": 0.0}
+UNKNOWN = dict.fromkeys(GEOMETRY, math.nan)
+
+
+def test_geometry_and_orders_say_the_same():
+    by_geometry = known_kinematics(GEOMETRY | {"speed_rpm": 1800.0})
+    by_orders = known_kinematics(UNKNOWN | {"balls": 9, "bpfo": by_geometry.bpfo, "bsf": math.nan, "speed_rpm": 1800.0})
+    assert by_orders.bpfi == pytest.approx(by_geometry.bpfi)
+    # For a contact angle of 0 the spin follows from the diameter ratio.
+    assert by_orders.ball_spin == pytest.approx(by_geometry.ball_spin)
+    assert by_geometry.shaft_hz == 30.0
+
+
+def test_both_ball_pass_orders_tell_the_number_of_balls():
+    assert known_kinematics(UNKNOWN | {"bpfo": 3.585, "bpfi": 5.415, "speed_rpm": 1800.0}).balls == 9
+
+
+@pytest.mark.parametrize("labels", [GEOMETRY, GEOMETRY | {"speed_rpm": math.nan}, UNKNOWN | {"speed_rpm": 1800.0}])
+def test_without_speed_or_geometry_nothing_is_known(labels):
+    assert known_kinematics(labels) is None
+
+
+def test_what_is_no_class_of_ours_is_unknown_and_not_scored():
+    assert true_class({"condition": "line", "location": "outer"}) == "line outer"
+    assert true_class({"condition": "unknown", "location": "outer"}) == "unknown"
+    assert true_location({"location": "outer"}) == "outer"
+    assert true_location({"location": "ball"}) == "unknown"

@@ -1,0 +1,161 @@
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.io
+from typer.testing import CliRunner
+
+from datagen.cards.croissant import croissant_text
+from datagen.cards.facts import corpus_facts
+from datagen.cards.origin_text import origin_text
+from datagen.cards.report import CARD, METADATA, VOCABULARY, Report, write_report
+from datagen.cards.toml_text import toml_text
+from datagen.cards.vocabulary_table import vocabulary_table
+from datagen.cli import app
+from datagen.corpora.index import LABEL_COLUMNS
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe, parse_recipe
+from datagen.recordings.importing import import_recordings
+from datagen.recordings.spec import load_spec
+
+SPEC = """
+name = "two"
+title = "Two recordings"
+licence = "CC BY 4.0"
+citation = "A. Nybody, 2020"
+url = "https://example.org/two"
+[[recording]]
+name = "all"
+files = "*.mat"
+unit = "g"
+rate_hz = 4000
+y = "sig"
+table = "t.csv"
+"""
+
+
+@pytest.fixture(scope="session")
+def measured(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An imported corpus of two recordings, of which one has a known speed."""
+    folder = tmp_path_factory.mktemp("measured")
+    for seed, name in enumerate(("good", "bad")):
+        scipy.io.savemat(folder / f"{name}.mat", {"sig": np.random.default_rng(seed).standard_normal((2000, 1))})
+    (folder / "t.csv").write_text("file,location,speed_rpm,channel_name\ngood.mat,none,,a\nbad.mat,outer,1500,b\n")
+    (folder / "spec.toml").write_text(SPEC)
+    import_recordings(load_spec(folder / "spec.toml"), folder / "corpus")
+    return folder / "corpus"
+
+
+@pytest.fixture(scope="session")
+def report(tiny_corpus: Path, tmp_path_factory: pytest.TempPathFactory) -> Report:
+    """The report of the tiny simulated corpus."""
+    return write_report(tiny_corpus, tmp_path_factory.mktemp("report") / "card")
+
+
+def test_the_facts_are_those_of_the_index(tiny_corpus: Path) -> None:
+    facts, table = corpus_facts(tiny_corpus), Corpus(tiny_corpus).labels
+    assert sum(kind.records for kind in facts.kinds) == len(table) == 14
+    for kind in facts.kinds:
+        rows = table[(table["condition"] == kind.condition) & (table["location"] == kind.location)]
+        assert (kind.records, kind.first) == (len(rows), rows["record"].min())
+        assert sum(kind.by_split.values()) == len(rows)
+    assert facts.splits == table["split"].value_counts().to_dict()
+    assert sum(one.records for one in facts.solved) == 14
+    assert facts.solved[0].largest_error == table["error_estimate"].max()
+    assert facts.durations_s == (1638 / 32768, 1638 / 32768)
+
+
+def test_every_file_of_a_report_is_written_and_every_picture_of_the_card_is_there(report: Report) -> None:
+    folder = Path(report.folder)
+    assert sorted(path.name for path in folder.iterdir()) == sorted(report.files)
+    text = (folder / CARD).read_text()
+    pictures = [line.partition("](")[2].rstrip(")") for line in text.splitlines() if line.startswith("![")]
+    assert len(pictures) == 1 + len(report.facts.kinds)
+    for name in pictures:
+        assert (folder / name).read_bytes().startswith(b"\x89PNG")
+    assert text.startswith("# A few short records\n")
+    assert "| all |  | 14 |" in text
+    assert "not stated" in text
+
+
+def test_the_recipe_in_the_card_makes_the_same_corpus(tiny_corpus: Path, tiny: Recipe) -> None:
+    text = origin_text(Corpus(tiny_corpus).manifest)
+    assert parse_recipe(tomllib.loads(text), Path("card")).hash == tiny.hash
+
+
+def test_toml_text_is_read_back_as_the_same_data() -> None:
+    data = {
+        "name": 'quo"te\nline', "number": 0.1, "whole": 3, "truth": True, "list": [1.5, "a"], "odd key": 1,
+        "small": {"choice": ["a", "b"]}, "deep": {"inner": {"x": {"uniform": [1.0, 2.0]}}},
+        "part": [{"name": "one", "machine": {"rig": "fan"}, "defect": {"line": {"a": {"b": 1}}}}, {"name": "two"}],
+    }  # fmt: skip
+    assert tomllib.loads(toml_text(data | {"nothing": None, "empty": []})) == data
+
+
+def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Path) -> None:
+    document = json.loads(croissant_text(tiny_corpus, corpus_facts(tiny_corpus)))
+    assert document["@type"] == "sc:Dataset"
+    index = next(entry for entry in document["distribution"] if entry["@type"] == "cr:FileObject")
+    content = (tiny_corpus / index["contentUrl"]).read_bytes()
+    assert index["sha256"] == hashlib.sha256(content).hexdigest()
+    fields = [field["source"]["extract"]["column"] for field in document["recordSet"][0]["field"]]
+    assert fields == content.decode().splitlines()[0].split(",")
+    assert set(LABEL_COLUMNS) < set(fields)
+    assert "license" not in document
+
+
+def test_labels_in_the_common_vocabulary_have_a_row_a_signal(tiny_corpus: Path) -> None:
+    corpus = Corpus(tiny_corpus)
+    rows = list(csv.DictReader(vocabulary_table(corpus).splitlines()))
+    assert len(rows) == 2 * len(corpus)
+    assert [row["signal_id"] for row in rows[:3]] == ["0_x", "0_y", "1_x"]
+    assert [float(row["speed_rpm"]) for row in rows[1::2]] == corpus.labels["speed_rpm"].tolist()
+    assert {row["fault_type"] for row in rows} == {
+        {"none": "normal"}.get(place, place) for place in corpus.labels["location"]
+    }
+
+
+def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path) -> None:
+    written = write_report(measured)
+    assert Path(written.folder) == measured / "report"
+    text = (measured / "report" / CARD).read_text()
+    kinds = ("| healthy | none | 1 |", "| unknown | outer | 1 |")
+    for told in ("recordings of real machines", "CC BY 4.0", "A. Nybody, 2020", 'files = "*.mat"', *kinds):
+        assert told in text
+    document = json.loads((measured / "report" / METADATA).read_text())
+    assert (document["license"], document["citeAs"]) == ("CC BY 4.0", "A. Nybody, 2020")
+    rows = list(csv.DictReader((measured / "report" / VOCABULARY).read_text().splitlines()))
+    assert [row["signal_id"] for row in rows] == ["bad b_y", "good a_y"]
+    assert [row["fault_type"] for row in rows] == ["outer", "normal"]
+    assert [row["fault_origin"] for row in rows] == ["unknown", "none"]
+    assert "speed_rpm" not in rows[0]
+
+
+def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured: Path, tmp_path: Path) -> None:
+    write_report(measured, tmp_path / "card")
+    write_report(measured, tmp_path / "card")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "letter.txt").write_text("keep")
+    with pytest.raises(BadInput, match="this folder holds other things than a report"):
+        write_report(measured, tmp_path / "other")
+    assert [path.name for path in (tmp_path / "other").iterdir()] == ["letter.txt"]
+
+
+def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_corpus(
+    measured: Path, tmp_path: Path
+) -> None:
+    told = tmp_path / "facts.json"
+    arguments = ["report", str(measured), "--out", str(tmp_path / "card"), "--json", str(told)]
+    assert CliRunner().invoke(app, arguments).exit_code == 0
+    assert json.loads(told.read_text())["facts"]["info"]["records"] == 2
+    done = CliRunner().invoke(app, ["report", str(tmp_path), "--out", str(tmp_path / "none")])
+    assert done.exit_code == 2
+    assert "no manifest.json" in done.stderr
+    assert not (tmp_path / "none").exists()

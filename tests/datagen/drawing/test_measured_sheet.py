@@ -1,0 +1,78 @@
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from datagen.drawing.measured_portrait import MeasuredPortrait
+from datagen.drawing.measured_sheet import draw_measured_sheet, heading, measured_sheet_png, summary
+from datagen.drawing.style import house_style, plt
+
+RATE = 8000.0
+LABELS: dict[str, Any] = {
+    "record": 4, "recording": "105 DE", "condition": "line", "location": "outer", "rig": "mill", "bearing": "6205",
+    "speed_rpm": 1500.0, "speed_basis": "nominal", "load_n": math.nan, "extent_mm": 0.5, "bpfo": 3.6, "bpfi": 5.4,
+    "bsf": 2.4, "ftf": 0.4, "envelope_band": (2000.0, 3000.0),
+}  # fmt: skip
+UNKNOWN: dict[str, Any] = {
+    "speed_rpm": math.nan, "location": "unknown", "condition": "unknown", "envelope_band": (math.nan, math.nan),
+    "extent_mm": math.nan,
+}  # fmt: skip
+
+
+def portrait(axes: tuple[str, ...] = ("y",), **changes: Any) -> MeasuredPortrait:
+    """A second of bursts at 90 Hz on a carrier of 2500 Hz; the largest begins at 0.7 s."""
+    time = np.arange(8000) / RATE
+    since = time % (1.0 / 90.0)
+    strength = 1.0 + 2.0 * ((time >= 0.7) & (time < 0.7 + 1.0 / 90.0))
+    signal = strength * np.exp(-800.0 * since) * np.sin(2.0 * np.pi * 2500.0 * since)
+    return MeasuredPortrait("mine", LABELS | changes, RATE, axes, np.stack([signal] * len(axes), axis=1))
+
+
+def test_frequencies_follow_from_orders_and_speed_and_are_left_out_where_unknown() -> None:
+    assert portrait().frequencies == pytest.approx(
+        {"BPFO": 90.0, "BPFI": 135.0, "BSF": 60.0, "FTF": 10.0, "shaft": 25.0}
+    )
+    assert portrait(bpfo=math.nan, ftf=math.nan).frequencies.keys() == {"BPFI", "BSF", "shaft"}
+    assert portrait(**UNKNOWN).frequencies == {}
+
+
+def test_the_lines_shown_are_those_of_the_stated_place_or_of_both_races() -> None:
+    assert portrait().expected_lines == ("BPFO",)
+    assert portrait(location="ball").expected_lines == ("BSF",)
+    assert portrait(location="none").expected_lines == ("BPFO", "BPFI")
+    assert portrait(bpfo=math.nan).expected_lines == ()
+
+
+def test_the_close_up_is_three_revolutions_about_the_largest_amplitude() -> None:
+    start, stop = portrait().window
+    assert stop - start == pytest.approx(3.0 / 25.0)
+    assert start < 0.7 < stop
+    assert portrait(speed_rpm=20.0).window == pytest.approx((0.0, 1.0))
+
+
+def test_every_panel_is_drawn_whatever_is_unknown() -> None:
+    for drawn in (portrait(), portrait(("x",), **UNKNOWN), portrait(("x", "y"), bpfo=math.nan, location="inner")):
+        assert measured_sheet_png(drawn).startswith(b"\x89PNG")
+    with house_style():
+        figure = draw_measured_sheet(portrait())
+        titles = [axes.get_title(loc="left") for axes in figure.axes]
+        marks = {line.get_label(): line for line in figure.axes[4].lines}
+        places = marks["BPFO 90 Hz"].get_xdata()
+        plt.close(figure)
+    assert titles[0].startswith("Acceleration, y axis")
+    assert titles[4] == "Squared envelope spectrum"
+    # One line of the spectrum is 1 Hz wide.
+    assert np.asarray(places) == pytest.approx(90.0 * np.arange(1, 7), abs=1.0)
+
+
+def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
+    assert heading(portrait()) == "mine, record 4: 105 DE, line defect on the outer race"
+    assert heading(portrait(**UNKNOWN)) == "mine, record 4: 105 DE, state unknown"
+    told = summary(portrait())
+    assert "1500 rpm (nominal)" in told
+    assert "load unknown" in told
+    assert "0.5 mm" in told
+    assert "speed unknown" in summary(portrait(**UNKNOWN))

@@ -1,0 +1,167 @@
+"""Answers to the three questions, on a part of their grids; the whole grids are slow."""
+
+import math
+
+import numpy as np
+import pytest
+
+from datagen.drawing.style import house_style, plt
+from datagen.paper import question1_extended_profiles, question2_unequal_balls, question3_slip
+from datagen.paper.profile_search import Outcome, Profile, outcome, rough_profiles
+from datagen.paper.question1_extended_profiles import answer, chosen_title
+from datagen.paper.question2_unequal_balls import machine_state, measure, unequal
+from datagen.paper.question3_slip import FADED, faded, lines_at, predicted_drop
+from datagen.paper.question3_slip import measure as measure_slip
+from datagen.paper.scenes import RATE, reference_extended_spall, smooth_extended_spall
+
+SIXTH = 5
+
+
+@pytest.fixture(scope="module")
+def chosen():
+    """The profile that the figures use, found in the grid by its name."""
+    return next(one for one in rough_profiles((2.0,), (8.0,), (4.0,)) if one.title == chosen_title())
+
+
+def few(profile, draws):
+    return Profile(profile.family, profile.title, profile.draws[:draws])
+
+
+def test_long_waves_lift_the_lines_and_the_sixth_above_the_line_spalls(chosen):
+    found = outcome(few(chosen, 4))
+    assert found.mean > 0.0
+    assert found.keeps_envelope
+    assert np.mean(found.strongest == SIXTH + 1) >= 0.75
+
+
+def test_a_smooth_extended_spall_does_not():
+    found = outcome(Profile("smooth", "", (smooth_extended_spall(4e-6, math.radians(1.0)),)))
+    assert found.mean < -3.0
+    assert found.sixth < 0.0
+    assert found.envelope_ratio[0] > 1000.0  # the claim on G1 over G2
+
+
+def test_waves_down_to_the_contact_s_width_take_the_envelope_with_them():
+    rough = next(rough_profiles((0.4,), (8.0,), (4.0,)))
+    found = outcome(few(rough, 2))
+    assert found.mean > 0.0
+    assert not found.keeps_envelope
+
+
+def test_the_verdict_wants_eight_records_of_ten():
+    profile = Profile("long", "waves", (reference_extended_spall(0),))
+    above = np.full((10, 13), 2.0)
+    assert Outcome(profile, above, np.full(10, 6), np.full(10, 3.0)).lifts
+    above[:3, SIXTH] = -1.0
+    weak = Outcome(profile, above, np.full(10, 6), np.append(np.full(9, 3.0), 0.9))
+    assert not weak.lifts
+    assert not weak.keeps_envelope
+    assert answer([weak]).startswith("None does")
+
+
+def test_sidebands_grow_in_proportion_to_the_deviation_of_the_balls():
+    found = measure("line", (0.2, 1.0), draws=2).sixth()
+    # 14 dB for five times the deviation; below lies the leakage of the window, above the bending of the springs.
+    assert found[1] - found[0] == pytest.approx(14.0, abs=1.0)
+    assert np.all(found[1] < -15.0)
+
+
+def test_equal_balls_have_no_sidebands_and_slip_alone_fills_their_place():
+    found = measure("extended", (0.0,), draws=1)
+    assert found.sixth()[0, 0] < -60.0
+    assert found.sixth(slipping=True)[0, 0] > -30.0
+
+
+def test_drawn_balls_have_the_stated_deviation_and_the_nominal_mean():
+    drawn = np.array(unequal(0.5, 3).ball_deviation)
+    assert drawn.shape == (2, 12)
+    assert np.std(drawn) == pytest.approx(0.5e-6)
+    assert np.mean(drawn) == pytest.approx(0.0, abs=1e-18)
+    assert machine_state("line", 0.0, 3, slip=False).imperfections.ball_deviation == ()
+
+
+def test_slip_takes_lines_down_as_a_wandering_phase_does():
+    slips, seeds = (0.0, 0.01), 6
+    drop = measure_slip("gearbox", slips, seeds).drop(0.01)
+    predicted = predicted_drop("gearbox", 0.01)
+    # Six seeds scatter by 2 dB once a line is a sum over many correlation times.
+    assert np.sqrt(np.mean((drop - predicted) ** 2)) < 2.0
+    assert drop[0] > -1.0 > FADED > drop[-1] - 5.0
+
+
+def test_the_predicted_drop_is_none_without_slip_and_falls_with_order_and_slip():
+    assert predicted_drop("fan", 0.0) == pytest.approx(0.0, abs=1e-9)
+    some, more = predicted_drop("fan", 0.005), predicted_drop("fan", 0.01)
+    assert np.all(np.diff(some) < 0.0)
+    assert np.all(more < some)
+
+
+def test_a_small_wander_costs_half_the_mean_square_of_its_phase():
+    """To first order the power lost is (k Nb)² times the variance of the angle about its weighted mean."""
+    tiny = predicted_drop("gearbox", 1e-5)
+    twice = predicted_drop("gearbox", 2e-5)
+    assert twice / tiny == pytest.approx(4.0, rel=1e-3)
+    assert tiny[9] / tiny[0] == pytest.approx(100.0, rel=1e-2)
+
+
+def test_a_line_on_its_frequency_has_its_amplitude():
+    time = np.arange(round(0.5 * RATE)) / RATE
+    signal = 1.0 + 0.3 * np.cos(2.0 * np.pi * 100.0 * time)
+    assert lines_at(signal, np.array([100.0, 140.0])) == pytest.approx([0.3, 0.0], abs=1e-6)
+
+
+def test_the_first_faded_harmonic_is_the_first_10_db_down():
+    assert faded(np.array([0.0, -9.9, -10.0, -30.0])) == 3
+    assert math.isnan(faded(np.array([0.0, -1.0])))
+
+
+def made_up_numbers():
+    """Numbers in the shapes that the three questions' figures draw, not simulated."""
+    generator = np.random.default_rng(0)
+    profiles = [*rough_profiles((1.0, 2.0), (4.0, 8.0), (4.0,)), Profile("reference", "reference profile G2r", ())]
+    outcomes = [
+        Outcome(one, generator.normal(2.0, 3.0, (10, 13)), np.full(10, 6), generator.uniform(0.5, 9.0, 10))
+        for one in profiles
+    ]
+    shape = (len(question2_unequal_balls.DEVIATIONS_UM), 5, 13)
+    sidebands = {
+        name: question2_unequal_balls.Sidebands(
+            generator.normal(-30.0, 9.0, shape), generator.normal(-14.0, 1.0, shape)
+        )
+        for name in ("line", "extended")
+    }
+    slip = [
+        question3_slip.Smearing(rig, {slip: np.exp(-slip * np.arange(20.0)) for slip in question3_slip.SLIPS})
+        for rig in question3_slip.RIGS
+    ]
+    return outcomes, sidebands, slip
+
+
+def test_the_figures_of_the_questions_have_their_panels():
+    outcomes, sidebands, slip = made_up_numbers()
+    with house_style():
+        figures = (
+            question1_extended_profiles.draw(outcomes),
+            question2_unequal_balls.draw(sidebands, sidebands),
+            question3_slip.draw(slip),
+        )
+    assert [len([a for a in one.axes if a.get_title(loc="left")]) for one in figures] == [5, 3, 4]
+    for one in figures:
+        plt.close(one)
+
+
+def test_the_tables_of_the_questions_have_a_row_for_every_case():
+    outcomes, sidebands, slip = made_up_numbers()
+    first = question1_extended_profiles.rows(outcomes)
+    assert len([row for row in first if row.quantity.startswith("harmonics 3 to 13 over the line spall's: ")]) == 5
+    second = question2_unequal_balls.rows(sidebands, sidebands)
+    assert len([row for row in second if row.where]) == 2 * len(question2_unequal_balls.DEVIATIONS_UM)
+    third = question3_slip.rows(slip)
+    assert len(third) == 2 * 3 * (len(question3_slip.TABLED) + 1)
+
+
+@pytest.mark.slow
+def test_the_chosen_profile_answers_yes_over_its_ten_draws(chosen):
+    found = outcome(chosen)
+    assert found.lifts
+    assert found.keeps_envelope

@@ -1,0 +1,227 @@
+"""Measurement chain and background in a recipe: what is read, and what is refused in one line."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat, wavfile
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.errors import BadInput
+from datagen.recipes.distributions import Fixed
+from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
+
+BASE = """name = "try"
+seed = 1
+[signal]
+rate_hz = 32768
+duration_s = 0.1
+[[part]]
+name = "a"
+records = 1
+machine.rig = "fan"
+"""
+MODES = "[[part.chain.modes]]\nfrequency_hz = 500\ndamping = 0.02"
+RECORDING = "[part.background.recording]\nfile = {file!r}\n"
+SAMPLES = 5000
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Recordings of every kind, good and bad."""
+    folder = tmp_path_factory.mktemp("recordings")
+    ramp = np.linspace(-0.5, 0.5, SAMPLES)
+    np.save(folder / "good.npy", ramp)
+    np.save(folder / "short.npy", ramp[:100])
+    np.save(folder / "nan.npy", np.append(ramp, np.nan))
+    np.save(folder / "huge.npy", np.append(ramp, 1e300))
+    np.save(folder / "wide.npy", np.tile(ramp[:, None], 3))
+    np.save(folder / "words.npy", np.array(["a", "b"]))
+    np.savez(folder / "uneven.npz", a=ramp, b=ramp[1:])
+    np.savez(folder / "two.npz", a=ramp, b=ramp, rate_hz=32768)
+    wavfile.write(folder / "good.wav", 32768, np.round(ramp * 2**15).astype(np.int16))
+    wavfile.write(folder / "other.wav", 44100, np.zeros(SAMPLES, np.int16))
+    lines = ["time,a", *(f"{k},{value!r}" for k, value in enumerate(ramp.tolist()))]
+    savemat(folder / "good.mat", {"DE_time": ramp[:, None], "RPM": 1797})
+    (folder / "good.csv").write_text("\n".join(lines))
+    (folder / "bad.csv").write_text("a,b\n1,2\n3,x\n")
+    (folder / "cut.npz").write_bytes((folder / "two.npz").read_bytes()[:500])
+    (folder / "x.abc").write_bytes(b"")
+    return folder
+
+
+def load(folder: Path, text: str) -> Recipe:
+    """The recipe whose only part has `text`, read from a file in `folder`."""
+    path = folder / "recipe.toml"
+    path.write_text(BASE + text, encoding="utf-8")
+    return load_recipe(path)
+
+
+BAD = [
+    (f"{MODES}\ncount = 51", "part[1].chain.modes[1].count = 51; allowed: a whole number from 0 to 50"),
+    (MODES.replace("500", "-5"), "part[1].chain.modes[1].frequency_hz = -5; allowed: a number above 0"),
+    (
+        MODES.replace("500", "{uniform = [900, 20000]}"),
+        "line 11: part[1].chain.modes[1].frequency_hz = 20000.0: the resonance must lie below half the sampling rate "
+        "of 32768 Hz; allowed: below 16384",
+    ),
+    (MODES.replace("0.02", "0.8"), "part[1].chain.modes[1].damping = 0.8; allowed: a number above 0 to 0.7"),
+    (f"{MODES}\ngain = -1", "part[1].chain.modes[1].gain = -1; allowed: a number from 0"),
+    (
+        "[part.chain]\nmounting_cutoff_hz = 16384",
+        "part[1].chain.mounting_cutoff_hz = 16384.0: the cutoff must lie below half the sampling rate of 32768 Hz",
+    ),
+    ("[part.chain]\nmounting_cutof_hz = 1", 'did you mean "mounting_cutoff_hz"?'),
+    ("[part.chain]\nrecorder_range_m_s2 = 0", "part[1].chain.recorder_range_m_s2 = 0; allowed: a number above 0"),
+    ("[part.background]\nwhite_rms_m_s2 = -0.1", "part[1].background.white_rms_m_s2 = -0.1; allowed: a number from 0"),
+    ("[part.background.pink]\nrms_m_s2 = -1", "part[1].background.pink.rms_m_s2 = -1; allowed: a number from 0"),
+    ("[part.background.pink]\nrms_m_s2 = 1\nlowest_hz = 17000", "the band of the noise must lie below half"),
+    (
+        "[part.background.shaft_harmonics]\namplitude_m_s2 = -1",
+        "part[1].background.shaft_harmonics.amplitude_m_s2 = -1; allowed: a number from 0",
+    ),
+    ("[part.background.shaft_harmonics]\namplitude_m_s2 = 1\norders = [3, 2]", "the first order comes first"),
+    ("[part.background.gear_mesh]\namplitude_m_s2 = 1", "part[1].background.gear_mesh.teeth: this setting is missing"),
+    (
+        "[part.background.gear_mesh]\namplitude_m_s2 = -1\nteeth = 32",
+        "gear_mesh.amplitude_m_s2 = -1; allowed: a number",
+    ),
+    (
+        "[part.background.mains_hum]\namplitude_m_s2 = {uniform = [-1, 1]}",
+        "mains_hum.amplitude_m_s2 = {uniform = [-1, 1]}; allowed: a number from 0",
+    ),
+    (
+        "[part.background.impulses]\nper_second = 5\namplitude_m_s2 = 1\nfrequency_hz = 20000",
+        "part[1].background.impulses.frequency_hz = 20000.0: the resonance must lie below half the sampling rate",
+    ),
+    (
+        "[part.background]\nsnr_band_hz = [1000, 20000]",
+        "part[1].background.snr_band_hz = [1000.0, 20000.0]: the band is not below half the sampling rate of 32768 Hz; "
+        "allowed: 0 <= low < high <= 16384",
+    ),
+    ("[part.background]\nsnr_band_hz = [2000, 1000]", "snr_band_hz = [2000, 1000]: the band is empty"),
+    ("[part.background]\nsnr_db = 3", "snr_db = 3: there is no layer to scale; allowed: a layer beside it"),
+    ("[part.background]\nwhite_rms_m_s2 = 1\nsnr_db = 3\nsnr_band_db = 4", "say the same thing twice"),
+]
+BAD_RECORDINGS = [
+    ("gone.npy", "rate_hz = 32768", "gone.npy: no such file"),
+    ("x.abc", "", "x.abc: the file's ending says no known format; allowed: mat, npz, npy, csv, wav, nc"),
+    ("bad.csv", 'rate_hz = 32768\nchannels = ["b"]', "bad.csv: it holds NaN at sample 1 (1 such of 2 samples)"),
+    ("cut.npz", "", "cut.npz: cannot be read as an .npz file"),
+    ("words.npy", "rate_hz = 32768", "words.npy: no table of numbers"),
+    ("nan.npy", "rate_hz = 32768", "nan.npy: it holds NaN at sample 5000 (1 such of 5001 samples); allowed: finite"),
+    ("huge.npy", "rate_hz = 32768", "huge.npy: it holds a number that is not finite at sample 5000"),
+    ("good.npy", "", "recording.rate_hz: good.npy does not state its sampling rate; allowed: a number of Hz"),
+    (
+        "good.npy",
+        "rate_hz = 48000",
+        "line 12: part[1].background.recording.rate_hz = 48000.0: good.npy is not sampled at the records' rate, and "
+        "recordings are not resampled; allowed: 32768 (signal.rate_hz)",
+    ),
+    ("good.npy", 'rate_hz = "x"', 'recording.rate_hz = "x"; allowed: a number'),
+    ("other.wav", "", "rate_hz = 44100.0: other.wav is not sampled at the records' rate"),
+    ("other.wav", "rate_hz = 32768", "rate_hz = 32768: other.wav says 44100 Hz; allowed: 44100"),
+    ("short.npy", "rate_hz = 32768", "short.npy is 0.00305176 s long, a record 0.1 s, and recordings are not repeated"),
+    ("wide.npy", "rate_hz = 32768", "recording.channels: wide.npy: it has 3 columns; allowed: one or two, as in"),
+    ("wide.npy", 'rate_hz = 32768\nchannels = ["data[:,3]"]', "wide.npy: data is an array of 5000x3 numbers"),
+    ("two.npz", "", "recording.channels: two.npz: it has 2 variables; allowed: one or two of ['a', 'b']"),
+    ("two.npz", 'channels = ["c"]', "two.npz: the file has no such variable"),
+    ("uneven.npz", 'channels = ["a", "b"]\nrate_hz = 32768', "uneven.npz: the two channels are not equally long"),
+    ("two.npz", 'channels = ["a", "b", "a"]', "two.npz: it has 3 columns; allowed: one or two"),
+    ("good.csv", 'rate_hz = 32768\ncsv.delimiter = ",,"', 'recording.csv.delimiter = ",,"; allowed: at most 1'),
+    ("good.npy", "rate_hz = 32768\ngain_m_s2 = -1", "recording.gain_m_s2 = -1; allowed: a number from 0"),
+    ("good.npy", f'rate_hz = 32768\nsha256 = "{"0" * 64}"', "good.npy is another file: its SHA-256 is"),
+]
+
+
+@pytest.mark.parametrize(("text", "told"), BAD)
+def test_an_impossible_chain_or_background_is_refused_in_one_line(text: str, told: str, tmp_path: Path) -> None:
+    with pytest.raises(BadInput) as caught:
+        load(tmp_path, text)
+    assert told in str(caught.value)
+    assert str(tmp_path / "recipe.toml") in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("file", "more", "told"), BAD_RECORDINGS)
+def test_a_recording_that_does_not_fit_is_refused_in_one_line(file: str, more: str, told: str, folder: Path) -> None:
+    with pytest.raises(BadInput) as caught:
+        load(folder, RECORDING.format(file=file) + more)
+    assert told in str(caught.value)
+    assert "part[1].background.recording" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("text", [MODES.replace("500", "16384"), RECORDING.format(file="nan.npy") + "rate_hz = 32768"])
+def test_the_command_ends_with_2_and_writes_nothing(text: str, folder: Path, tmp_path: Path) -> None:
+    with pytest.raises(BadInput):
+        load(folder, text)
+    out = tmp_path / "corpus"
+    done = CliRunner().invoke(app, ["generate", str(folder / "recipe.toml"), "--out", str(out)])
+    assert done.exit_code == 2
+    assert not out.exists()
+    assert len(done.stderr.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("file", "more"),
+    [
+        ("good.npy", "rate_hz = 32768"),
+        ("good.wav", ""),
+        ("good.csv", 'rate_hz = 32768\nchannels = ["a"]'),
+        ("two.npz", 'channels = ["b"]'),
+        ("wide.npy", 'rate_hz = 32768\nchannels = ["data[:,2]"]'),
+        ("good.mat", 'rate_hz = 32768\nchannels = ["*_time"]'),
+    ],
+)
+def test_every_kind_of_file_gives_the_same_recording(file: str, more: str, folder: Path) -> None:
+    recording = load(folder, RECORDING.format(file=file) + more).part[0].background.recording
+    assert (recording.rate_hz, recording.samples) == (32768.0, SAMPLES)
+    # float32, and steps of 2^-15 in the .wav
+    assert recording.load()[:, 0] == pytest.approx(np.linspace(-0.5, 0.5, SAMPLES), abs=2e-5)
+
+
+def test_a_recipe_kept_as_data_describes_its_recording_but_cannot_draw_without_it(folder: Path, tmp_path: Path) -> None:
+    recipe = load(folder, RECORDING.format(file="good.npy") + "rate_hz = 32768")
+    kept = recipe.model_dump(mode="json")
+    assert str(folder) not in str(kept)
+    elsewhere = parse_recipe(kept, tmp_path / "manifest.json")
+    assert elsewhere.hash == recipe.hash
+    assert (recipe.drawable, elsewhere.drawable) == (True, False)
+    with pytest.raises(BadInput, match=r"good\.npy: the recording \(SHA-256 [0-9a-f]{64}\) is not at hand"):
+        elsewhere.part[0].background.recording.load()
+
+
+def test_another_recording_is_another_recipe(folder: Path, tmp_path: Path) -> None:
+    text = RECORDING.format(file="good.npy") + "rate_hz = 32768"
+    first = load(folder, text)
+    shutil.copy(folder / "good.npy", tmp_path / "good.npy")
+    assert load(tmp_path, text).hash == first.hash
+    np.save(tmp_path / "good.npy", np.ones(SAMPLES))
+    assert load(tmp_path, text).hash != first.hash
+
+
+def test_a_part_without_a_table_of_its_own_takes_the_recipes(tmp_path: Path) -> None:
+    (tmp_path / "recipe.toml").write_text(
+        BASE.replace("[[part]]", "[chain]\nresonator_gain = 2\n[background]\nwhite_rms_m_s2 = 3\n[[part]]")
+        + 'chain = {resonator_gain = 4}\n[[part]]\nname = "b"\nrecords = 1\nmachine.rig = "fan"\n'
+    )
+    recipe = load_recipe(tmp_path / "recipe.toml")
+    assert [recipe.chain_of(part).resonator_gain for part in recipe.part] == [Fixed(4.0), Fixed(2.0)]
+    assert [recipe.background_of(part).white_rms_m_s2 for part in recipe.part] == [Fixed(3.0), Fixed(3.0)]
+
+
+def test_the_example_on_the_datasets_page_is_a_recipe(folder: Path) -> None:
+    page = (Path(__file__).parents[3] / "datasets" / "README.md").read_text(encoding="utf-8")
+    example = page.split("### Chain and background")[1].split("```toml")[1].split("```")[0]
+    shutil.copy(folder / "good.wav", folder / "healthy.wav")
+    text = BASE.replace("[[part]]", example.replace("20000]", "15000]") + "[[part]]")  # the page is for 65 536 Hz
+    (folder / "recipe.toml").write_text(text)
+    recipe = load_recipe(folder / "recipe.toml")
+    assert recipe.background.recording is not None
+    assert recipe.background.recording.samples == SAMPLES
+    assert recipe.background.snr_band_hz == (1000.0, 5000.0)

@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from datagen.errors import BadInput
+from datagen.recordings.label_table import SETTINGS
+from datagen.recordings.settings import RecordingSettings, merged
+from datagen.recordings.spec import load_spec, parse_spec
+
+PAGE = (Path(__file__).parents[3] / "docs" / "recordings.md").read_text(encoding="utf-8")
+
+
+def test_the_example_of_the_page_is_a_spec() -> None:
+    text = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[0]
+    spec = parse_spec(tomllib.loads(text), Path("page"), text)
+    assert [recording.name for recording in spec.recording] == ["weekly", "acceptance"]
+
+
+def test_the_page_names_every_setting_of_a_recording() -> None:
+    for name in RecordingSettings.model_fields:
+        assert f"`{name}`" in PAGE, name
+
+
+def test_the_header_of_the_pages_table_is_one_of_settings() -> None:
+    header = re.findall(r"^```csv\n(.*?)\n", PAGE, re.MULTILINE)[0].split(",")
+    assert set(header) <= {"file", *SETTINGS}
+
+
+def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_joined() -> None:
+    lower = {"speed_rpm": 5.0, "unit": "g", "y": "a", "notes": {"a": 1, "b": 1}}
+    assert merged(lower, {"speed_hz": 2.0, "notes": {"b": 2}}) == {
+        "speed_hz": 2.0, "unit": "g", "y": "a", "notes": {"a": 1, "b": 2},
+    }  # fmt: skip
+    assert "y" not in merged(lower, {"channel": ()})
+    assert merged(lower, {"channel_name": "DE"})["y"] == "a"
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("name = 'a'\n", "recording: this setting is missing"),
+        ("name = 'a'\nrecording = []\n", "line 2: recording = []; allowed: at least 1"),
+        ("name = 'a'\n[[recording]]\nname = 'x'\n", "recording[1].files: no files are named"),
+        ("name = 'a'\n[[recording]]\nname='x'\nfiles='a'\n[[recording]]\nname='x'\nfiles='b'\n", 'are called "x"'),
+        ("name = 'a'\nlicense = 'x'\n[[recording]]\nname = 'x'\nfiles = 'a'\n", 'unknown key; did you mean "licence"?'),
+        ("name = a\n", "not valid TOML"),
+    ],
+)
+def test_a_spec_that_says_too_little_or_too_much_is_refused(text: str, told: str, tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(text)
+    with pytest.raises(BadInput) as problem:
+        load_spec(tmp_path / "s.toml")
+    assert told in str(problem.value)
+    assert str(problem.value).startswith(str(tmp_path / "s.toml"))

@@ -1,0 +1,71 @@
+"""The calibration fitted anew to a small corpus: it must come out whole, however little such a fit knows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from datagen.recipes.recipe import parse_recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
+from datagen.sizing.fit import main
+from datagen.sizing.sized_records import sized_records
+from datagen.sizing.training_rows import trials
+from labels.spall_size.calibration import Calibration
+from labels.spall_size.estimator import SizeEstimator
+from labels.spall_size.size_estimate import SizeOutcome
+
+
+@pytest.fixture(scope="module")
+def small_ladder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Twenty-four records of as many bearings, all for training, a quarter of them healthy."""
+    folder = tmp_path_factory.mktemp("ladder") / "corpus"
+    defect = {
+        "condition": {"choice": ["healthy", "line"], "weights": [1, 3]},
+        "profile": "ball_path",
+        "extent_spacing": {"uniform": [0.1, 0.4]},
+        "depth_um": 100,
+    }
+    part = {"name": "p", "records": 24, "machine": {"rig": "gearbox"}, "operation": {"speed_rpm": 1500}}
+    recipe = parse_recipe(
+        {
+            "name": "small",
+            "seed": 6,
+            "signal": {"rate_hz": 65536, "duration_s": 0.3},
+            "store": {"clean": True},
+            "split": {"train": 1.0, "validation": 0.0, "test": 0.0},
+            "part": [part | {"defect": defect}],
+        },
+        Path("recipe.toml"),
+    )
+    assert generate(recipe, folder, engine=Engine(workers=1)).complete
+    return folder
+
+
+@pytest.mark.slow
+def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
+    made = trials(small_ladder, ("train",))
+    assert len(made) == 3 * 24  # clean, as stored and with another noise
+    with_events = [trial for trial in made if np.isfinite(trial.lag)]
+    assert len(with_events) > 24
+    for trial in with_events:
+        best = trial.quality.argmax()
+        if trial.quality[best] > 0.9:  # by its definition within 1.3 % of the lag, or half a sample
+            assert trial.evidence.pairs.lag[best] == pytest.approx(trial.lag, rel=0.013, abs=1.2)
+
+
+@pytest.mark.slow
+def test_a_fit_to_few_records_gives_a_calibration_that_estimates(small_ladder: Path, tmp_path: Path) -> None:
+    main(str(small_ladder), str(tmp_path / "calibration.npz"), workers=1)
+    with np.load(tmp_path / "calibration.npz") as file:
+        learned = Calibration.from_arrays({name: file[name] for name in file.files})
+    estimator = SizeEstimator(learned)
+    told = [
+        estimator.estimate(one.acceleration, one.rate, one.situation)
+        for one in sized_records(small_ladder, load_known=True)
+    ]
+    assert len(told) == 24
+    assert {one.outcome for one in told} <= {SizeOutcome.ESTIMATED, SizeOutcome.NO_EVENT_PAIR}
+    assert all(one.extent_interval[0] < one.extent < one.extent_interval[1] for one in told if one.found)

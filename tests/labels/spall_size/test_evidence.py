@@ -1,0 +1,94 @@
+"""The signal processing on pulse trains of known lag through a known resonator."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from labels.spall_size.alignment import aligned
+from labels.spall_size.candidates import candidate_places
+from labels.spall_size.evidence import gather_evidence
+from labels.spall_size.mean_pass import mean_pass
+from labels.spall_size.pair_features import NAMES
+from labels.spall_size.pass_track import track_passes
+from labels.spall_size.prewhitening import prewhitened
+
+RATE = 65536.0
+PERIOD = 0.011
+LAG = 60.0 / RATE
+
+
+def offset_from(found, true):
+    """Distance (s) of each found time from the nearest true one."""
+    return found - true[np.abs(true[None, :] - found[:, None]).argmin(axis=1)]
+
+
+def test_prewhitening_takes_the_ringing_away_and_leaves_the_pulses():
+    pulses = np.zeros(20000)
+    places = np.arange(500, 19500, 900)
+    pulses[places] = np.resize([1.0, -1.0], places.size)  # so that the mean, which is taken off, is nothing
+    signal = lfilter([1.0], [1.0, -1.6, 0.95], pulses)
+    # The resonator is a predictor of two terms, so all that is left of the ringing is rounding.
+    residual = np.abs(prewhitened(signal + 1e-9 * np.random.default_rng(0).standard_normal(20000)))
+    quiet = np.delete(residual, places)
+    assert residual[places].min() > 1e3 * np.percentile(quiet, 99.0)
+    assert residual[places].min() > 10.0 * quiet.max()  # what is left near a pulse, where weights are small
+
+
+@pytest.mark.parametrize("wrong", [0.97, 1.0, 1.03])
+def test_passes_of_a_slipping_cage_are_tracked_though_the_stated_period_is_wrong(pulse_train, wrong):
+    train = pulse_train(LAG, PERIOD)
+    track = track_passes(prewhitened(train.signal) ** 2, RATE, PERIOD * wrong)
+    assert track is not None
+    assert track.period == pytest.approx(np.diff(train.entry).mean(), rel=2e-3)  # 90 steps of 0.9 % scatter
+    away = offset_from(track.time, train.entry)
+    # All at one phase of the pass: a cell of the tracker is 0.4 % of a period.
+    assert np.percentile(np.abs(away - np.median(away)), 90) < 0.006 * PERIOD
+
+
+def test_too_short_a_record_has_no_track():
+    assert track_passes(np.ones(1000), RATE, PERIOD) is None
+
+
+def test_anchors_lie_on_one_event_to_a_fraction_of_a_sample(pulse_train):
+    train = pulse_train(LAG, PERIOD)
+    energy = prewhitened(train.signal) ** 2
+    found = aligned(energy, RATE, track_passes(energy, RATE, PERIOD))
+    away = offset_from(found.place / RATE, np.concatenate([train.entry, train.exit])) * RATE
+    # Pulses are placed to the nearest sample: ±0.5, quartiles ±0.25.
+    assert np.subtract(*np.percentile(away, [75, 25])) < 0.7
+
+
+@pytest.mark.parametrize("lag_samples", [12, 60, 300])
+@pytest.mark.parametrize("noise", [0.0, 0.1])
+def test_the_lag_of_two_pulses_is_among_the_candidates_without_bias(pulse_train, lag_samples, noise):
+    train = pulse_train(lag_samples / RATE, PERIOD, noise=noise)
+    found = gather_evidence(train.signal, RATE, {"outer": PERIOD * 1.01, "inner": PERIOD / 1.45})
+    assert found is not None
+    assert found.race == "outer"
+    # Half a sample of placing, averaged over 85 passes, leaves 0.05; peaks of the mean pass are read to about 0.2.
+    # The whole lag is in samples, so slip plays no part in these trains.
+    assert np.abs(found.pairs.lag - lag_samples).min() < 0.5
+
+
+def test_every_pair_has_every_feature_and_all_are_finite(pulse_train):
+    train = pulse_train(LAG, PERIOD, noise=0.3)
+    pairs = gather_evidence(train.signal, RATE, {"outer": PERIOD}).pairs
+    assert pairs.features.shape == (pairs.lag.size, len(NAMES))
+    assert np.isfinite(pairs.features).all()
+    assert np.all((pairs.lag > 0.0) & (pairs.lag < 0.97 * PERIOD * 1.02 * RATE))
+
+
+def test_the_mean_pass_repeats_after_one_period(pulse_train):
+    train = pulse_train(LAG, PERIOD, slip=0.0)
+    whitened = prewhitened(train.signal)
+    track = track_passes(whitened**2, RATE, PERIOD)
+    mean = mean_pass(whitened, aligned(whitened**2, RATE, track), track.period * RATE)
+    places = candidate_places(mean)
+    assert np.all(np.abs(places) <= 0.5 * mean.period)
+    period = round(mean.period)
+    middle = mean.energy.shape[1] // 2
+    here, later = (mean.energy[0, place - 3 : place + 4].max() for place in (middle, middle + period))
+    # Without slip the next pass comes one period later, rounded to a sample: a third of its sharp peak at least.
+    assert abs(math.log(later / here)) < math.log(3.0)

@@ -1,0 +1,28 @@
+import math
+
+import numpy as np
+import pytest
+
+from labels.spall_size.rules import EnvelopeLagRule, envelope_lag
+from labels.spall_size.situation import Situation
+
+RATE = 65536.0
+GEARBOX = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
+
+
+def test_the_envelope_lag_of_two_bursts_a_pass_is_their_distance(pulse_train):
+    train = pulse_train(150.0 / RATE, 0.011)
+    # A burst of a 6 kHz resonator lasts about 90 samples, its envelope's peak lies within a few of its start.
+    assert envelope_lag(train.signal, RATE, 0.45 * 0.011) * RATE == pytest.approx(150.0, abs=5.0)
+
+
+def test_a_constant_signal_has_no_envelope_lag():
+    assert math.isnan(envelope_lag(np.zeros(5000), RATE, 0.01))
+
+
+def test_the_half_size_rule_says_twice_the_arc_of_the_plain_one(pulse_train):
+    train = pulse_train(100.0 / RATE, GEARBOX.pass_periods()["outer"])
+    plain, half = (EnvelopeLagRule(share).estimate(train.signal, RATE, GEARBOX) for share in (1.0, 2.0))
+    assert half.extent == pytest.approx(2.0 * plain.extent, rel=1e-12)
+    # A ball covers one spacing of the outer race (30 degrees) in one pass period.
+    assert plain.extent == pytest.approx(math.radians(30.0) * plain.lag / plain.pass_period, rel=1e-12)

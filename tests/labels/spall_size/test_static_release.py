@@ -1,0 +1,63 @@
+"""Release arcs from load and geometry, against the closed forms and the worked example of the model."""
+
+import math
+
+import numpy as np
+import pytest
+
+from labels.spall_size.situation import Situation
+from labels.spall_size.static_release import (
+    USUAL_SHARE_OF_PEAK,
+    arc_of_lag,
+    arc_with_static_release,
+    release_arc,
+    static_compression,
+)
+from physics import catalog
+
+GEARBOX = catalog.rig("gearbox").bearing
+
+
+def test_the_compression_follows_from_stribecks_peak_load():
+    # 346 N over 24 balls: 63.0 N on the most loaded one [P14 Eq. 24], 5.3 µm with K = 5157 MN/m^1.5.
+    assert static_compression(GEARBOX, 346.0) / USUAL_SHARE_OF_PEAK == pytest.approx(5.3e-6, rel=0.005)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_ball_released_at_the_release_arc_has_dropped_by_its_compression(race):
+    arc, radius, ball = release_arc(GEARBOX, race, 346.0), GEARBOX.raceway_radius(race), GEARBOX.ball_radius
+    turn = -1.0 if race == "outer" else 1.0
+    lever = radius * math.sin(arc)
+    drop = ball - math.sqrt(ball**2 - lever**2) + turn * radius * (1.0 - math.cos(arc))
+    assert drop == pytest.approx(static_compression(GEARBOX, 346.0), rel=1e-6)
+
+
+def test_the_spall_of_the_models_example_shows_0_47_of_itself():
+    # 0.8 mm on the gearbox rig's outer race under 5.3 µm of compression: the time between the events is 0.47 of it.
+    extent = 0.8e-3 / GEARBOX.raceway_radius("outer")
+    full = release_arc(GEARBOX, "outer", 346.0 / USUAL_SHARE_OF_PEAK**1.5)
+    assert (extent - 2.0 * full) / extent == pytest.approx(0.47, abs=0.01)
+
+
+def test_arc_and_lag_are_those_of_a_ball_on_its_race():
+    speed = 2.0 * math.pi * 7.0
+    period = 2.0 * math.pi / (GEARBOX.bpfo * speed)
+    assert arc_of_lag(period, speed, "outer", GEARBOX) == pytest.approx(GEARBOX.spacing, rel=1e-12)
+    period = 2.0 * math.pi / (GEARBOX.bpfi * speed)
+    assert arc_of_lag(period, speed, "inner", GEARBOX) == pytest.approx(GEARBOX.spacing, rel=1e-12)
+
+
+def test_more_load_means_a_longer_spall_for_the_same_lag():
+    arcs = [arc_with_static_release(0.05, GEARBOX, "inner", load) for load in (50.0, 346.0, 1700.0)]
+    assert np.all(np.diff(arcs) > 0.0)
+    assert min(arcs) > 0.05
+
+
+def test_a_situation_gives_both_races_unless_the_race_is_known():
+    known = {"balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3, "shaft_speed": 44.0}
+    both = Situation(**known).pass_periods()
+    assert both["outer"] == pytest.approx(1.0 / 34.283, rel=2e-3)  # BPFO of the gearbox rig at 7 Hz (43.98 rad/s)
+    assert set(both) == {"outer", "inner"}
+    assert set(Situation(**known, race="inner").pass_periods()) == {"inner"}
+    assert not Situation(**known, load=300.0).load_known
+    assert Situation(**known, load=300.0, load_deflection=5e9).load_known

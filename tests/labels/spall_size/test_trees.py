@@ -1,0 +1,32 @@
+import numpy as np
+import pytest
+from sklearn.ensemble import HistGradientBoostingClassifier, HistGradientBoostingRegressor
+
+from datagen.sizing.fit import to_trees
+from labels.spall_size.trees import Trees
+
+
+def rows_and_aim():
+    rows = np.random.default_rng(1).standard_normal((400, 5)).astype(np.float32)
+    return rows, rows[:, 0] ** 2 + np.where(rows[:, 1] > 0.3, 1.0, -1.0)
+
+
+def test_plain_trees_say_what_the_library_says():
+    rows, aim = rows_and_aim()
+    model = HistGradientBoostingRegressor(max_iter=30, random_state=0).fit(rows, aim)
+    assert to_trees(model).predict(rows) == pytest.approx(model.predict(rows), abs=1e-5)  # leaves are stored as float32
+
+
+def test_trees_of_a_classifier_give_log_odds():
+    rows, aim = rows_and_aim()
+    model = HistGradientBoostingClassifier(max_iter=30, random_state=0).fit(rows, aim > 0.5)
+    assert to_trees(model).predict(rows) == pytest.approx(model.decision_function(rows), abs=1e-4)  # the same
+
+
+def test_trees_come_back_from_their_arrays():
+    rows, aim = rows_and_aim()
+    trees = to_trees(HistGradientBoostingRegressor(max_iter=3, random_state=0).fit(rows, aim))
+    again = Trees.from_arrays(trees.to_arrays("any"), "any")
+    assert np.array_equal(again.predict(rows), trees.predict(rows))
+    with pytest.raises(KeyError, match="other"):
+        Trees.from_arrays(trees.to_arrays("any"), "other")

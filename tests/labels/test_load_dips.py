@@ -1,0 +1,73 @@
+import math
+
+import numpy as np
+import pytest
+
+from labels.load_dips import load_dips
+from labels.truth import ball_passes
+from physics.passages import passages
+from physics.simulate import simulate
+from physics.spall import Spall
+
+DURATION = 0.3
+
+
+def shallow(depth):
+    """4° at the bottom of the outer race, row 1, raised-cosine tapers of half its length each."""
+    arc = math.radians(4.0)
+    return Spall("outer", 1, math.radians(270.0), arc, depth, arc / 2.0, arc / 2.0)
+
+
+def times_at(scene, arc):
+    """Times at which the balls cross `arc` (rad from the spall's centre)."""
+    return passages(scene, 0, arc, 0.0, DURATION).time
+
+
+def dips(scene):
+    half = scene.spalls[0].extent / 2.0
+    entry = passages(scene, 0, -half, 0.0, DURATION)
+    leave = times_at(scene, half)
+    leave = leave[leave > entry.time[0]]
+    count = min(entry.time.size, leave.size)
+    found = load_dips(scene, 1, entry.ball[:count], entry.time[:count], leave[:count])
+    return entry.time[:count], leave[:count], *found
+
+
+def test_load_halves_where_the_path_has_dropped_by_its_share_of_the_compression(make_scene):
+    # One ball of 12 in two rows gives way: with the shaft held by the others, F = K δ^1.5 halves at a drop of
+    # δ (1 − 2^(−2/3)) = 0.37 δ. The shaft sinks a little after it, so the true drop is somewhat larger.
+    scene = make_scene(shallow(4.5e-6), duration=DURATION)
+    entry, leave, fall, _ = dips(scene)
+    compression = (scene.rig.bearing.stribeck_peak_load(346.0) / scene.rig.bearing.load_deflection) ** (2.0 / 3.0)
+    drop = compression * (1.0 - 0.5 ** (2.0 / 3.0))
+    rigid = scene.spalls[0].extent / 2.0 * math.acos(1.0 - 2.0 * drop / 4.5e-6) / math.pi
+    reached = (fall - entry) / (leave - entry) * scene.spalls[0].extent
+    assert np.all(reached > rigid)
+    assert np.all(reached < 1.35 * rigid)  # the others take over at most a third of the sinking
+
+
+def test_a_symmetric_dip_falls_and_rises_symmetrically(make_scene):
+    scene = make_scene(shallow(4.5e-6), duration=DURATION)
+    entry, leave, fall, rise = dips(scene)
+    # The cage does not slip and the spall lies in the load's direction; what differs is only the cage's phase.
+    assert fall - entry == pytest.approx(leave - rise, rel=0.02)
+
+
+def test_a_dip_too_shallow_for_half_the_load_has_no_times(make_scene):
+    scene = make_scene(shallow(1.0e-6), duration=DURATION)
+    _, _, fall, rise = dips(scene)
+    assert np.isnan(fall).all()
+    assert np.isnan(rise).all()
+
+
+def test_the_pass_table_gives_them_only_where_contact_is_never_lost(make_scene):
+    kept, lost = make_scene(shallow(4.5e-6), duration=DURATION), make_scene(shallow(15e-6), duration=DURATION)
+    tables = [
+        ball_passes(scene, simulate(scene, 16384.0, estimate_error=False).changes, DURATION) for scene in (kept, lost)
+    ]
+    inside = [table.complete & table.loaded for table in tables]
+    assert np.isnan(tables[0].release_time[inside[0]]).all()
+    assert np.isfinite(tables[0].fall_time[inside[0]]).all()
+    assert (tables[0].rise_time > tables[0].fall_time)[inside[0]].all()
+    assert np.isfinite(tables[1].release_time[inside[1]]).all()
+    assert np.isnan(tables[1].fall_time).all()

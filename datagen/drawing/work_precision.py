@@ -14,7 +14,7 @@ from physics.integrators.general_purpose import BALL_BY_BALL
 WIDTH, HEIGHT, DPI = 9.2, 6.0, 110
 METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK)
 RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": PURPLE}
-WORST_SHOWN, BEST_SHOWN, EDGE_HEIGHT = 8.0, 1e-7, 4.0
+WORST_SHOWN, BEST_SHOWN, EDGE_HEIGHT = 8.0, 1e-7, 4.5
 
 
 def work_precision_png(chart: Chart) -> bytes:
@@ -79,9 +79,10 @@ def _draw(axes: plt.Axes, chart: Chart, name: str, methods: list[str]) -> None:
 def _mark_edge(axes: plt.Axes, chart: Chart, name: str, colour: str) -> None:
     """A bar at the top where the method would be at its longest stable step."""
     if name in chart.edges:
-        axes.plot([chart.edges[name]], [EDGE_HEIGHT], "|", color=colour, markersize=16, markeredgewidth=2.2)
+        height = EDGE_HEIGHT / 2.2 ** list(chart.edges).index(name)
+        axes.plot([chart.edges[name]], [height], "|", color=colour, markersize=16, markeredgewidth=2.2)
         axes.annotate(
-            f"{name}: unstable beyond", (chart.edges[name], EDGE_HEIGHT), fontsize=6.5, color=colour,
+            f"{name}: unstable beyond", (chart.edges[name], height), fontsize=6.5, color=colour,
             xytext=(-5, 0), textcoords="offset points", va="center", ha="right",
         )  # fmt: skip
 

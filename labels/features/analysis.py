@@ -9,7 +9,7 @@ import numpy as np
 
 from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
-from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_shaft
+from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_mains, without_shaft
 from labels.features.kinematics import Kinematics
 from labels.features.speed import Speed, refine_speed, vibration_lines
 
@@ -70,8 +70,9 @@ class Analysis:
 
     @cached_property
     def envelope_lines(self) -> Lines:
-        """Lines of the envelope spectra, without those of the shaft."""
-        excess = without_shaft(self.envelopes.excess, self.envelopes.step, self.speed.shaft_hz)
+        """Lines of the envelope spectra, without those of the shaft and of the mains."""
+        excess = without_mains(self.envelopes.excess, self.envelopes.step)
+        excess = without_shaft(excess, self.envelopes.step, self.speed.shaft_hz)
         return lines_in(excess, self.envelopes.step)
 
     @cached_property

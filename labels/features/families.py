@@ -17,6 +17,9 @@ HARMONICS = 4
 WIDTHS = (0.0, 0.02, 0.06)
 """Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so."""
 HANN_BINS = 1.5
+MAINS = (50.0, 60.0)
+MAINS_SPREAD = 0.001
+COARSEST_STEP = 1.3
 SHAFT_MARGIN = 0.025
 """Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family."""
 
@@ -57,6 +60,22 @@ def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
     # In a record of few turns the margin would cover a large part of the axis; then it counts nothing out.
     if margin > 0.12 * shaft_hz:
         return excess
+    return np.where(near, 1.0, excess)
+
+
+def without_mains(excess: Array, step: float) -> Array:
+    """The spectra (B, F) with components near multiples of 50 and 60 Hz set to the floor, 1.
+
+    Motors and their supplies modulate at twice the mains frequency, often near a ball-pass frequency. In a record too
+    short to tell mains from anything else nothing is left out.
+    """
+    frequency = np.arange(excess.shape[-1]) * step
+    if step > COARSEST_STEP:
+        return excess
+    near = np.zeros(frequency.size, dtype=bool)
+    for mains in MAINS:
+        multiple = mains * np.maximum(np.round(frequency / mains), 1.0)
+        near |= np.abs(frequency - multiple) <= 1.01 * step + MAINS_SPREAD * frequency
     return np.where(near, 1.0, excess)
 
 

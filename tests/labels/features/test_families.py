@@ -7,7 +7,7 @@ import pytest
 
 from labels.features.conditioning import condition
 from labels.features.envelopes import band_edges, envelope_spectra
-from labels.features.families import evidence, find_family, lines_in, without_shaft
+from labels.features.families import evidence, find_family, lines_in, without_mains, without_shaft
 
 
 def test_evidence_is_the_log_likelihood_ratio_of_exponential_components():
@@ -71,3 +71,11 @@ def test_bands_are_a_tree_and_never_narrower_than_asked():
     assert len(band_edges(8000.0, 500.0)) == 15
     assert len(band_edges(8000.0, 1500.0)) == 7
     assert band_edges(1000.0, 5000.0).tolist() == [[0.0, 1.0]]
+
+
+def test_lines_of_the_mains_do_not_count_but_those_beside_them_do():
+    excess = np.ones((1, 4000))
+    excess[0, 2400] = excess[0, 2500] = 500.0  # 120 and 125 Hz
+    kept = without_mains(excess, 0.05)
+    assert (kept[0, 2400], kept[0, 2500]) == (1.0, 500.0)
+    assert without_mains(excess, 2.5).max() == 500.0

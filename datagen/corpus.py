@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import Manifest, read_manifest
+from datagen.corpora.shard import ONE_AT_A_TIME
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:
@@ -53,11 +54,12 @@ class _OpenShards:
         if self.owner != os.getpid():
             self._start()
         if shard not in self.files:
-            file = netCDF4.Dataset(self.folder / shard)
-            file.set_auto_mask(False)
-            self.files[shard] = file
-            if len(self.files) > OPEN_FILES:
-                self.files.popitem(last=False)[1].close()
+            with ONE_AT_A_TIME:
+                file = netCDF4.Dataset(self.folder / shard)
+                file.set_auto_mask(False)
+                self.files[shard] = file
+                if len(self.files) > OPEN_FILES:
+                    self.files.popitem(last=False)[1].close()
         self.files.move_to_end(shard)
         return self.files[shard]
 
@@ -70,8 +72,9 @@ class _OpenShards:
 
 
 def _close_all(files: OrderedDict[str, netCDF4.Dataset], owner: int) -> None:
-    while files and os.getpid() == owner:
-        files.popitem()[1].close()
+    with ONE_AT_A_TIME:
+        while files and os.getpid() == owner:
+            files.popitem()[1].close()
 
 
 class Corpus:

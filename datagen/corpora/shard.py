@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     import xarray
 
 READ_BLOCK = 1 << 20
-ONE_AT_A_TIME = threading.Lock()  # the netCDF library crashes when two threads write
+# The netCDF library crashes when two threads use it. Closing may happen inside writing, when memory is collected.
+ONE_AT_A_TIME = threading.RLock()
 
 
 @dataclass(frozen=True)

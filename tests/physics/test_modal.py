@@ -1,0 +1,247 @@
+"""The modal method: its linear part against matrix exponentials, its choice of steps against fine fixed ones."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from physics.imperfections import Imperfections, Waviness
+from physics.integrators.modal.flow import (
+    DISPLACEMENT,
+    OUTPUT,
+    amplitudes,
+    linear_flow,
+    physical_state,
+    reading,
+    ringing,
+)
+from physics.integrators.modal.judgement import set_foretelling
+from physics.integrators.modal.rk4 import turn
+from physics.integrators.modal.weights import (
+    FIRST,
+    INSIDE_KICKS,
+    INSIDE_ROWS,
+    INSIDE_TURN,
+    LAST,
+    MIDDLE,
+    WEIGHT_ROWS,
+    WHOLE,
+    set_inside,
+    set_step,
+)
+from physics.motion import motion_model
+from physics.outcome import SimulationFailed
+from physics.simulate import simulate
+
+RATE = 65536.0
+STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)
+# Places of (xi, vi, xo, vo, xr, vr) of one axis in the state (12,).
+PLACES = (0, 6, 2, 8, 4, 10)
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def matrix(rig, axis):
+    """(6, 6) of one axis, written down from the equations of motion with a spring and a damper for the balls."""
+    k, c = STIFFNESS[axis], DAMPING[axis]
+    ko, co = (rig.support_stiffness_x, rig.support_damping_x) if axis == 0 else (
+        rig.support_stiffness_y, rig.support_damping_y
+    )  # fmt: skip
+    stiff = np.array([[k, -k, 0], [-k, k + ko + rig.resonator_stiffness, -rig.resonator_stiffness],
+                      [0, -rig.resonator_stiffness, rig.resonator_stiffness]])  # fmt: skip
+    damp = np.array([[c, -c, 0], [-c, c + co + rig.resonator_damping, -rig.resonator_damping],
+                     [0, -rig.resonator_damping, rig.resonator_damping]])  # fmt: skip
+    mass = np.array([rig.inner_mass, rig.outer_mass, rig.resonator_mass])[:, None]
+    full = np.zeros((6, 6))
+    full[0::2, 1::2] = np.eye(3)
+    full[1::2, 0::2], full[1::2, 1::2] = -stiff / mass, -damp / mass
+    return full
+
+
+@pytest.fixture
+def quiet_flow(fan, build_scene):
+    """Modes of the fan rig without a load, so that the state is that of the modes alone."""
+    motion = motion_model(build_scene(fan, operation={"load": 0.0}))
+    return linear_flow(motion, STIFFNESS, DAMPING)
+
+
+def some_state():
+    generator = np.random.default_rng(5)
+    return np.concatenate([1e-6 * generator.standard_normal(6), 1e-2 * generator.standard_normal(6)])
+
+
+def overdamped(rig):
+    return dataclasses.replace(
+        rig, resonator_damping=3.0 * 2.0 * math.sqrt(rig.resonator_mass * rig.resonator_stiffness)
+    )
+
+
+@pytest.mark.parametrize("change", [lambda rig: rig, overdamped])
+def test_amplitudes_give_back_the_state(fan, build_scene, change):
+    scene = build_scene(change(fan), operation={"unbalance_force": 20.0, "load_fluctuation": 0.3})
+    flow, state = linear_flow(motion_model(scene), STIFFNESS, DAMPING), some_state()
+    found = np.empty(12)
+    physical_state(flow, 0.0, amplitudes(flow, state), found)
+    assert found == pytest.approx(state, rel=1e-9, abs=1e-14)  # condition of the modes' basis times round-off
+
+
+@pytest.mark.parametrize("step", [1e-7, 1.0 / RATE, 8.0 / RATE])
+def test_the_free_turn_is_the_matrix_exponential(fan, quiet_flow, step):
+    weights, phi = np.empty((WEIGHT_ROWS, 2, 3)), np.empty((2, 4, 2, 2, 3))
+    set_step(quiet_flow.rows, weights, step, phi)
+    start, end, state, found = amplitudes(quiet_flow, some_state()), np.empty((2, 2, 3)), some_state(), np.empty(12)
+    turn(weights, WHOLE, start, end)
+    physical_state(quiet_flow, 0.0, end, found)
+    for axis in range(2):
+        here = [place + axis for place in PLACES]
+        assert found[here] == pytest.approx(expm(step * matrix(fan, axis)) @ state[here], rel=1e-8, abs=1e-12)
+
+
+@pytest.mark.parametrize("step", [1e-7, 1.0 / RATE, 8.0 / RATE])
+def test_a_constant_force_does_what_the_matrix_exponential_says(fan, quiet_flow, step):
+    weights, phi = np.empty((WEIGHT_ROWS, 2, 3)), np.empty((2, 4, 2, 2, 3))
+    set_step(quiet_flow.rows, weights, step, phi)
+    found = np.empty(12)
+    physical_state(quiet_flow, 0.0, weights[FIRST : FIRST + 2] + 2 * weights[MIDDLE : MIDDLE + 2]
+                   + weights[LAST : LAST + 2], found)  # fmt: skip
+    for axis in range(2):
+        forced = np.zeros((7, 7))
+        forced[:6, :6] = matrix(fan, axis)
+        forced[[1, 3], 6] = -1.0 / fan.inner_mass, 1.0 / fan.outer_mass
+        expected = expm(step * forced)[:6, 6]
+        scale = np.abs(expected).max()
+        assert found[[place + axis for place in PLACES]] == pytest.approx(expected, rel=1e-8, abs=1e-11 * scale)
+
+
+def test_a_sample_inside_a_stride_is_the_end_of_a_shorter_step(quiet_flow):
+    phi, inside = np.empty((2, 4, 2, 2, 3)), np.empty((7, INSIDE_ROWS, 2, 3))
+    set_inside(quiet_flow.rows, inside, 8.0 / RATE, phi[0])
+    weights = np.empty((WEIGHT_ROWS, 2, 3))
+    for k in range(1, 8):
+        set_step(quiet_flow.rows, weights, k / RATE, phi)
+        assert inside[k - 1, INSIDE_TURN : INSIDE_TURN + 2] == pytest.approx(weights[WHOLE : WHOLE + 2], abs=1e-13)
+        kicks = inside[k - 1, INSIDE_KICKS:].reshape(3, 2, 2, 3).sum(axis=0)
+        constant = weights[FIRST : FIRST + 2] + 2 * weights[MIDDLE : MIDDLE + 2] + weights[LAST : LAST + 2]
+        assert kicks == pytest.approx(constant, abs=1e-12 * np.abs(constant).max())
+
+
+def test_the_ringing_of_a_push_is_the_energy_of_its_response(fan, quiet_flow):
+    time = np.arange(0.0, 0.5, 1e-6)
+    energy = []
+    for axis in range(2):
+        values, vectors = np.linalg.eig(matrix(fan, axis))
+        start = np.linalg.solve(vectors, np.array([0, -1.0 / fan.inner_mass, 0, 1.0 / fan.outer_mass, 0, 0]))
+        read = np.array([0, 0, fan.resonator_stiffness, fan.resonator_damping, -fan.resonator_stiffness,
+                         -fan.resonator_damping]) / fan.resonator_mass  # fmt: skip
+        response = sum((read @ vectors[:, k] * start[k] * np.exp(values[k] * time)).real for k in range(6))
+        energy.append(np.sum(response**2) * 1e-6)
+    assert ringing(quiet_flow) == pytest.approx(max(energy), rel=1e-3)  # Riemann sum of 100 samples a period
+
+
+@pytest.mark.parametrize("ratio", [0.25, 1.0, 2.0, 3.7])
+def test_a_cubic_force_is_foretold_exactly(ratio):
+    told = np.empty(5)
+    set_foretelling(ratio, told)
+    force = np.polynomial.Polynomial([0.3, -1.2, 2.0, 0.7])
+    known = force(np.array([-ratio, -0.5 * ratio, 0.0, 1.0]))
+    assert told[:4] @ known == pytest.approx(force(0.5), rel=1e-12)
+
+
+def test_the_error_of_a_quartic_force_is_that_of_simpsons_rule():
+    told = np.empty(5)
+    set_foretelling(1.0, told)
+    force = np.polynomial.Polynomial([0.0, 0.0, 0.0, 0.0, 1.0])
+    deviation = abs(told[:4] @ force(np.array([-1.0, -0.5, 0.0, 1.0])) - force(0.5))
+    simpson = (force(0.0) + 4.0 * force(0.5) + force(1.0)) / 6.0 - 1.0 / 5.0
+    assert deviation * told[4] == pytest.approx(simpson, rel=1e-12)
+
+
+def test_readings_are_what_the_state_gives(fan, quiet_flow):
+    state = some_state()
+    modal = amplitudes(quiet_flow, state)
+    assert reading(quiet_flow.rows, DISPLACEMENT, modal, 1) == pytest.approx(state[1] - state[3], rel=1e-9)
+    spring = fan.resonator_stiffness * (state[3] - state[5]) + fan.resonator_damping * (state[9] - state[11])
+    assert reading(quiet_flow.rows, OUTPUT, modal, 1) == pytest.approx(spring / fan.resonator_mass, rel=1e-9)
+
+
+SCENES = ("G1", "G1p", "G2r", "F0", "F1", "F1s", "F2", "F2r")
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("accuracy", [1e-4, 2e-3])
+def test_the_accuracy_asked_for_is_kept_and_the_error_known(name, accuracy, reference_scene, reference_trace):
+    fine = reference_trace(name, 0.1, 16).acceleration
+    trace = simulate(reference_scene(name, 0.1), RATE, accuracy=accuracy)
+    error = rms(trace.acceleration - fine) / rms(fine)
+    assert error < accuracy
+    assert trace.error_estimate < accuracy
+    assert error < 4.0 * trace.error_estimate  # pushes are counted as if they were noise
+
+
+def variants(reference_scene):
+    scene = reference_scene("F1", 0.08)
+    bearing = scene.rig.bearing
+    roller = dataclasses.replace(bearing, exponent=10.0 / 9.0, load_deflection=bearing.load_deflection * 4e-3)
+    waves = (Waviness("outer", 11, 2e-7, 0.3), Waviness("inner", 5, 3e-7, 1.0))
+    uneven = tuple(tuple(1e-7 * math.sin(3 * ball + row) for ball in range(bearing.balls)) for row in range(2))
+    return {
+        "without tension": dataclasses.replace(scene, contact_law="no_tension"),
+        "rollers": dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=roller)),
+        "two cages": dataclasses.replace(scene, second_cage=scene.cage),
+        "turning loads": dataclasses.replace(
+            scene, operation=dataclasses.replace(scene.operation, unbalance_force=30.0, load_fluctuation=0.2)
+        ),
+        "waves and unequal balls": dataclasses.replace(scene, imperfections=Imperfections(waves, uneven)),
+        "an overdamped resonator": dataclasses.replace(scene, rig=overdamped(scene.rig)),
+    }
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["without tension", "rollers", "two cages", "turning loads", "waves and unequal balls", "an overdamped resonator"],
+)
+def test_the_accuracy_is_kept_on_scenes_of_every_kind(name, reference_scene):
+    scene = variants(reference_scene)[name]
+    fine = simulate(scene, RATE, substeps=16, estimate_error=False).acceleration
+    trace = simulate(scene, RATE)
+    assert rms(trace.acceleration - fine) < 1e-3 * rms(fine)
+
+
+def test_what_else_is_kept_moves_no_bit_and_agrees_with_fixed_steps(reference_scene):
+    scene = dataclasses.replace(reference_scene("F1", 0.05))
+    alone = simulate(scene, RATE)
+    trace = simulate(scene, RATE, keep_state=True, keep_force=True, keep_outer=True)
+    fine = simulate(scene, RATE, substeps=8, keep_state=True, keep_force=True, keep_outer=True, estimate_error=False)
+    assert np.array_equal(alone.acceleration, trace.acceleration)
+    assert alone.contact_force is None
+    for name in ("state", "contact_force", "outer_displacement", "outer_velocity", "outer_acceleration"):
+        here, there = getattr(trace, name), getattr(fine, name)
+        assert rms(here - there) < 1e-3 * rms(there), name  # the accuracy asked for, of the resonator's acceleration
+
+
+def test_more_accuracy_takes_shorter_steps(reference_scene):
+    steps = [simulate(reference_scene("G1", 0.1), RATE, accuracy=a).step * RATE for a in (1e-5, 1e-4, 1e-3, 1e-2)]
+    assert all(np.diff(steps) > 0.0)
+    assert steps[0] > 1.0 / 16.0
+
+
+def test_an_error_that_is_always_allowed_spares_steps(reference_scene):
+    scene = reference_scene("G1", 0.1)
+    strict, lax = simulate(scene, RATE, accuracy=1e-5), simulate(scene, RATE, accuracy=1e-5, least_error=0.01)
+    assert lax.step > 2.0 * strict.step
+    assert rms(lax.acceleration - strict.acceleration) < 0.01
+
+
+@pytest.mark.parametrize("accuracy", [0.0, 1e-7, 0.2, math.nan])
+def test_an_accuracy_out_of_range_is_refused_with_the_range(accuracy, reference_scene):
+    with pytest.raises(SimulationFailed, match=r"accuracy = .*from 1e-06 to 0\.1"):
+        simulate(reference_scene("G0", 0.01), RATE, accuracy=accuracy)
+
+
+def test_the_modal_method_takes_no_fixed_steps(reference_scene):
+    with pytest.raises(SimulationFailed, match="chooses its own steps"):
+        simulate(reference_scene("G0", 0.01), RATE, method="modal_rk4", substeps=2)

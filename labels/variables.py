@@ -230,7 +230,7 @@ PASSES: tuple[Variable, ...] = (
         "complete",
         "True if entry, exit and, where they exist, release and regain lie inside the record.",
     ),
-    Variable(
+    _simulated(
         "fall_time",
         ("ball_pass",),
         "float64",
@@ -239,7 +239,7 @@ PASSES: tuple[Variable, ...] = (
         "First fall of the ball's quasi-static load through half of what it would be without spalls.",
         missing="contact is lost, the pass is cut by an end of the record, or the load stays above half",
     ),
-    Variable(
+    _simulated(
         "rise_time",
         ("ball_pass",),
         "float64",

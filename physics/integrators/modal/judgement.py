@@ -77,7 +77,7 @@ def meet_change(
     clock[GRADED] = max(graded_length(law, speed, clock[TOLERANCE]), unit / UNITS)
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
     if marks[ON_GRID] == 1 and jump < clock[TOLERANCE] and clock[GRADED] > unit:
-        left = unit * int(left / unit + 0.5)
+        left = unit * max(1, int(left / unit + 0.5))
         clock[BUDGET] += jump * jump
     marks[BALL], clock[LEFT] = ball, left
     if not losing:

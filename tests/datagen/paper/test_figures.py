@@ -119,7 +119,18 @@ def test_entry_over_exit_is_the_ratio_of_two_bursts():
     signal = sum(size * np.exp(-(((time - at) / 3e-4) ** 2)) * np.cos(6e4 * (time - at)) for at, size in bursts)
     nothing, ball = np.full(2, np.nan), np.ones(2, np.int16)
     table = PassTable(
-        ball, ball, ball, entry, entry, entry + 0.01, entry + 0.002, nothing, np.ones(2, bool), np.ones(2, bool)
+        ball,
+        ball,
+        ball,
+        entry,
+        entry,
+        entry + 0.01,
+        entry + 0.002,
+        nothing,
+        np.ones(2, bool),
+        np.ones(2, bool),
+        nothing,
+        nothing,
     )
     found = Recording(signal, table, np.arange(2))
     assert found.entry_over_exit((8500.0, 11300.0)) == pytest.approx(2.0, rel=0.02)  # a sample off the crest

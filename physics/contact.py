@@ -6,7 +6,7 @@ and in a fixed order, so they use vector instructions and give the same bits on 
 spall need the depth of their path.
 
 Kernels take few arrays: each array handed to a compiled function costs reference counting, which would cost more than
-the mechanics. What belongs to one ball is therefore one column of `balls` (G, 10, M), G cages of M balls each, padded
+the mechanics. What belongs to one ball is therefore one column of `balls` (G, 11, M), G cages of M balls each, padded
 to whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
 know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
 """
@@ -27,9 +27,10 @@ Index = NDArray[np.int64]
 
 # Second index of `balls`: cosine and sine of its angle in the cage; clearance minus diameter deviation (m);
 # gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or
-# not the ball touches (N); the force of the contact set (N); the rate of compression (m/s).
-COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING = range(10)
-BALL_ROWS = 10
+# not the ball touches (N); the force of the contact set (N); the rate of compression (m/s);
+# its angle in the cage (rad).
+COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING, PLACE = range(11)
+BALL_ROWS = 11
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
 FRAME_COLUMNS = 3
@@ -70,7 +71,7 @@ class Track(NamedTuple):
 class ContactModel(NamedTuple):
     """Everything the kernels need of a scene's contacts.
 
-    `balls` (G, 10, M) and `frames` (G, 3) as above; `row`, `ball` (G · M,) from 0, −1 for padding.
+    `balls` (G, 11, M) and `frames` (G, 3) as above; `row`, `ball` (G · M,) from 0, −1 for padding.
     """
 
     balls: Array
@@ -144,8 +145,7 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
 @njit_lean
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
     for j in range(balls.shape[2]):
-        place = angle + math.atan2(balls[cage, SINE, j], balls[cage, COSINE, j])
-        floor, fall = waviness_at(track, place, speed, time)
+        floor, fall = waviness_at(track, angle + balls[cage, PLACE, j], speed, time)
         balls[cage, FLOOR, j] += floor
         balls[cage, FALL, j] += fall
 
@@ -154,18 +154,18 @@ def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: fl
 def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[float, float]:
     """Depth (m) of both races' waves under a ball at the angle `place`, and its rate (m/s)."""
     cells = track.waviness.shape[1]
-    width = 2.0 * math.pi / cells
+    density = cells / (2.0 * math.pi)
     floor, fall = 0.0, 0.0
     for race in range(2):
         race_speed = track.shaft_speed * race
-        position = (place - race_speed * time) / width
+        position = (place - race_speed * time) * density
         whole = math.floor(position)
         x = position - whole
         cell = int(whole) % cells
         c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
         c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
         floor += ((c3 * x + c2) * x + c1) * x + c0
-        fall += ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width * (speed - race_speed)
+        fall += ((3.0 * c3 * x + 2.0 * c2) * x + c1) * density * (speed - race_speed)
     return floor, fall
 
 
@@ -182,8 +182,7 @@ def compression_of(
     s = s0 * balls[cage, COSINE, place] + c0 * balls[cage, SINE, place]
     floor, fall = balls[cage, GAP, place], 0.0
     if track.waviness.shape[1] > 0:
-        at = angle + math.atan2(balls[cage, SINE, place], balls[cage, COSINE, place])
-        depth, rate = waviness_at(track, at, speed, time)
+        depth, rate = waviness_at(track, angle + balls[cage, PLACE, place], speed, time)
         floor += depth
         fall += rate
     for spall in range(track.spalls.shape[0]):

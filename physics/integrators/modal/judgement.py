@@ -33,6 +33,8 @@ SIMPSON_ERROR = 1.0 / 2880.0
 START_ERROR = 0.0024
 # Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
 UNIT_ERROR = 0.29
+# A contact change may be wrong by this share of the tolerance, and counts, with the steps next to it, as this many.
+CHANGE_SHARE, CHANGE_FACTOR = 0.3, 3.0
 # A step is taken back if its error exceeds the tolerance this many times, and the next is doubled if it stays below
 # this share of it: the error grows by the fifth power of the length.
 REJECTED, DOUBLED = 4.0, 1.0 / 32.0
@@ -74,11 +76,12 @@ def meet_change(
     """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression."""
     clock, marks = memory.clock, memory.marks
     unit = grid.interval / UNITS
-    clock[GRADED] = max(graded_length(law, speed, clock[TOLERANCE]), unit / UNITS)
+    allowed = CHANGE_SHARE * clock[TOLERANCE]
+    clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
+    clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
-    if marks[ON_GRID] == 1 and jump < clock[TOLERANCE] and clock[GRADED] > unit:
+    if marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
         left = unit * max(1, int(left / unit + 0.5))
-        clock[BUDGET] += jump * jump
     marks[BALL], clock[LEFT] = ball, left
     if not losing:
         clock[PACE] = min(clock[PACE], clock[GRADED])

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
+from physics._jit import njit_lean
 from physics.contact import COMPRESSION, COSINE, FLOOR, FORCE, FRAME_COSINE, FRAME_SINE, SINE, Law
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ class Hold(NamedTuple):
     xy: float
 
 
-@njit
+@njit_lean
 def direction(balls: Array, frames: Array, cage: int, place: int) -> tuple[float, float]:
     """Cosine and sine of the angle φ of a ball."""
     cosine, sine = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE]
@@ -53,7 +53,7 @@ def direction(balls: Array, frames: Array, cage: int, place: int) -> tuple[float
     )
 
 
-@njit
+@njit_lean
 def elastic(balls: Array, frames: Array, law: Law, dx: float, dy: float) -> Hold:
     """What the contacts hold without damping at the displacement (dx, dy), m.
 
@@ -62,26 +62,37 @@ def elastic(balls: Array, frames: Array, law: Law, dx: float, dy: float) -> Hold
     energy, force_x, force_y, pressed, xx, yy, xy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     n = law.exponent
     for cage in range(balls.shape[0]):
+        cosine, sine = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE]
+        p, q = dx * cosine + dy * sine, dy * cosine - dx * sine
         for j in range(balls.shape[2]):
-            c, s = direction(balls, frames, cage, j)
-            compression = dx * c + dy * s - balls[cage, FLOOR, j]
-            balls[cage, COMPRESSION, j] = compression
+            balls[cage, COMPRESSION, j] = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
             balls[cage, FORCE, j] = 0.0
+        # Sums in the frame of the cage, turned back afterwards.
+        along, across, both_along, both_across, mixed = 0.0, 0.0, 0.0, 0.0, 0.0
+        for j in range(balls.shape[2]):
+            compression = balls[cage, COMPRESSION, j]
             if compression > 0.0:
+                c, s = balls[cage, COSINE, j], balls[cage, SINE, j]
                 secant = law.stiffness * (math.sqrt(compression) if n == 1.5 else compression ** (n - 1.0))
                 force = secant * compression
                 balls[cage, FORCE, j] = force
                 energy += force * compression / (n + 1.0)
-                force_x += force * c
-                force_y += force * s
+                along += force * c
+                across += force * s
                 pressed += force
-                xx += n * secant * c * c
-                yy += n * secant * s * s
-                xy += n * secant * c * s
+                both_along += n * secant * c * c
+                both_across += n * secant * s * s
+                mixed += n * secant * c * s
+        force_x += along * cosine - across * sine
+        force_y += along * sine + across * cosine
+        twice = 2.0 * mixed * cosine * sine
+        xx += both_along * cosine * cosine - twice + both_across * sine * sine
+        yy += both_along * sine * sine + twice + both_across * cosine * cosine
+        xy += (both_along - both_across) * cosine * sine + mixed * (cosine * cosine - sine * sine)
     return Hold(energy, force_x, force_y, pressed, xx, yy, xy)
 
 
-@njit
+@njit_lean
 def solve_at(
     balls: Array, frames: Array, law: Law, load_x: float, load_y: float, dx: float, dy: float
 ) -> tuple[float, float, Hold, int]:
@@ -110,19 +121,19 @@ def solve_at(
     return dx, dy, hold, status
 
 
-@njit
+@njit_lean
 def _ends(hold: Hold, law: Law, load: float, gx: float, gy: float, share: float) -> bool:
     """Whether the unbalanced force (gx, gy) is a small `share` of the load, or there is no load and no ball pressed."""
     # Under preload the balls press each other harder than the load, and rounding grows with that.
     return _is_free(hold, law, load) or math.hypot(gx, gy) <= share * (load + 1e-3 * hold.pressed)
 
 
-@njit
+@njit_lean
 def _is_free(hold: Hold, law: Law, load: float) -> bool:
     return load == 0.0 and hold.pressed <= law.stiffness * NEGLIGIBLE_COMPRESSION**law.exponent
 
 
-@njit
+@njit_lean
 def _status(hold: Hold, law: Law, load: float, gx: float, gy: float) -> int:
     if not _ends(hold, law, load, gx, gy, ACCEPTABLE):
         return NO_EQUILIBRIUM
@@ -131,7 +142,7 @@ def _status(hold: Hold, law: Law, load: float, gx: float, gy: float) -> int:
     return NOT_UNIQUE if _singular(hold) else LOADED
 
 
-@njit
+@njit_lean
 def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_room: float) -> tuple[float, float]:
     """Step (m, m) against the unbalanced force; softened where the stiffness is singular, and never very long."""
     force = max(load, hold.pressed)
@@ -144,7 +155,7 @@ def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_
     return share * x, share * y
 
 
-@njit
+@njit_lean
 def _descend(
     balls: Array,
     frames: Array,
@@ -173,6 +184,6 @@ def _descend(
     return x, y, hold
 
 
-@njit
+@njit_lean
 def _singular(hold: Hold) -> bool:
     return hold.xx * hold.yy - hold.xy * hold.xy <= SINGULAR * (hold.xx + hold.yy) ** 2

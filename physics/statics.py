@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
+from physics._jit import njit_lean
 from physics.assembly import assemble
 from physics.contact import COMPRESSION, FORCE, Law, Track, of_ball, set_time
 from physics.outcome import StaticOutcome
-from physics.rest import LOADED, NO_EQUILIBRIUM, NOT_LOADED, NOT_UNIQUE, direction, solve_at
+from physics.rest import LOADED, NO_EQUILIBRIUM, NOT_LOADED, NOT_UNIQUE, direction, elastic, solve_at
 from physics.scene import Scene
 
 Array = NDArray[np.float64]
@@ -23,6 +23,11 @@ OUTCOMES = {
     NOT_LOADED: StaticOutcome.NOT_LOADED,
     NO_EQUILIBRIUM: StaticOutcome.NO_EQUILIBRIUM,
 }
+
+# A shaft that moved by less than this share of its displacement is expected to move on as far.
+NEARBY = 0.05
+# An unbalanced force below this share of the load leaves the stiffness as it is.
+CLOSE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -51,8 +56,11 @@ def equilibrium(scene: Scene, time: Array) -> Equilibrium:
     model = assemble(scene)
     time = np.ascontiguousarray(time, dtype=np.float64)
     loads = load_vector(scene, time)
-    displacement, force, stiffness, damping, status = _solve_all(
-        model.balls, model.frames, model.law, model.track, time, loads
+    displacement, stiffness, damping = np.zeros((time.size, 2)), np.zeros((time.size, 3)), np.zeros((time.size, 3))
+    force = np.zeros((time.size, model.ball.size))
+    status = np.zeros(time.size, dtype=np.int64)
+    _solve_all(
+        model.balls, model.frames, model.law, model.track, time, loads, displacement, stiffness, damping, force, status
     )
     bearing = scene.rig.bearing
     real = model.ball >= 0
@@ -71,14 +79,67 @@ def load_vector(scene: Scene, time: Array) -> Array:
     return unbalance
 
 
-@njit
+def quasi_static_stiffness(scene: Scene, time: Array) -> Array:
+    """The `stiffness` (T, 3) of `equilibrium` alone, to 1e-5 of kyy at worst, for many instants in a row."""
+    model = assemble(scene)
+    time = np.ascontiguousarray(time, dtype=np.float64)
+    stiffness, place = np.zeros((time.size, 3)), np.zeros((time.size, 2))
+    _follow(model.balls, model.frames, model.law, model.track, time, load_vector(scene, time), place, stiffness)
+    return stiffness
+
+
+@njit_lean
+def _follow(
+    balls: Array, frames: Array, law: Law, track: Track, time: Array, loads: Array, place: Array, stiffness: Array
+) -> None:
+    """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m.
+
+    Where the shaft is nearly where it was expected, Newton's step from there is its place, and the stiffness is as good
+    as that of the place itself: one sum over the balls instead of several.
+    """
+    for k in range(time.size):
+        set_time(balls, frames, track, time[k])
+        dx, dy = _expected(place, k)
+        hold = elastic(balls, frames, law, dx, dy)
+        gx, gy = loads[k, 0] - hold.force_x, loads[k, 1] - hold.force_y
+        determinant = hold.xx * hold.yy - hold.xy * hold.xy
+        near = math.hypot(gx, gy) <= CLOSE * math.hypot(loads[k, 0], loads[k, 1])
+        if near and determinant > CLOSE * (hold.xx + hold.yy) ** 2:
+            place[k, 0] = dx + (hold.yy * gx - hold.xy * gy) / determinant
+            place[k, 1] = dy + (hold.xx * gy - hold.xy * gx) / determinant
+        else:
+            place[k, 0], place[k, 1], hold, _ = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
+        stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
+
+
+@njit_lean
+def _expected(place: Array, k: int) -> tuple[float, float]:
+    """Where the shaft will be at instant `k`, going on as at the last three instants, unless it moved far."""
+    if k == 0:
+        return 0.0, 0.0
+    x, y = place[k - 1, 0], place[k - 1, 1]
+    if k > 1 and math.hypot(x - place[k - 2, 0], y - place[k - 2, 1]) < NEARBY * math.hypot(x, y):
+        if k == 2:
+            return 2.0 * x - place[0, 0], 2.0 * y - place[0, 1]
+        return 3.0 * (x - place[k - 2, 0]) + place[k - 3, 0], 3.0 * (y - place[k - 2, 1]) + place[k - 3, 1]
+    return x, y
+
+
+@njit_lean
 def _solve_all(
-    balls: Array, frames: Array, law: Law, track: Track, time: Array, loads: Array
-) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:
-    displacement = np.zeros((time.size, 2))
-    force = np.zeros((time.size, balls.shape[0] * balls.shape[2]))
-    stiffness, damping = np.zeros((time.size, 3)), np.zeros((time.size, 3))
-    status = np.zeros(time.size, dtype=np.int64)
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    time: Array,
+    loads: Array,
+    displacement: Array,
+    stiffness: Array,
+    damping: Array,
+    force: Array,
+    status: NDArray[np.int64],
+) -> None:
+    """Fill the arrays of an Equilibrium; `force` (T, M)."""
     dx, dy = 0.0, 0.0
     for k in range(time.size):
         set_time(balls, frames, track, time[k])
@@ -88,10 +149,9 @@ def _solve_all(
         damping[k, 0], damping[k, 1], damping[k, 2] = _film_damping(balls, frames, law)
         for ball in range(force.shape[1]):
             force[k, ball] = of_ball(balls, FORCE, ball)
-    return displacement, force, stiffness, damping, status
 
 
-@njit
+@njit_lean
 def _film_damping(balls: Array, frames: Array, law: Law) -> tuple[float, float, float]:
     """Damping xx, yy, xy (N s/m) of the balls that `elastic` found pressed [P14 Eq. 27]."""
     xx, yy, xy = 0.0, 0.0, 0.0

@@ -10,7 +10,7 @@ from physics.assembly import assemble
 from physics.contact import Law, Track, set_time
 from physics.rest import elastic
 from physics.scene import Scene
-from physics.statics import equilibrium
+from physics.statics import quasi_static_stiffness
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ def stiffness_trace(scene: Scene, time: Array) -> Array:
 
     Zero where no ball is loaded.
     """
-    return equilibrium(scene, time).stiffness
+    return quasi_static_stiffness(scene, time)
 
 
 def stiffness_at(scene: Scene, time: Array, displacement: Array) -> Array:

@@ -1,0 +1,186 @@
+"""Does the program keep the accuracy asked for by itself, and what does that cost beside the best choice in hindsight?
+
+python tests/benchmarks/own_choice.py [--scenes 300] [--seed 777001] writes docs/own_choice.json. Scenes are drawn from
+the whole corpus recipe under a seed that nothing was tuned with. Each is simulated as a user would, at an accuracy of
+1e-3, and held against an independent method, fixed steps of the exponential Runge-Kutta method with every change
+located, 32 a sample and, where that is not enough to judge by, 128. The rivals in hindsight are the settings of
+`spallgen chart`, the cheapest of which that kept the accuracy counts, without any pilot.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.charts.contestants import ACCURACIES, SUBSTEPS
+from datagen.recipes.recipe import load_recipe
+from datagen.scenarios.sampling import draw_scenario
+from physics.outcome import SimulationFailed
+from physics.scene import Scene
+from physics.simulate import simulate, warm_up
+
+ROOT = Path(__file__).resolve().parents[2]
+ACCURACY = 1e-3
+DURATION = 0.1
+JUDGING_SUBSTEPS = (32, 128)
+# A judge that two step sizes of its own method tell apart by less than this share of the accuracy is good enough.
+CERTAIN = 0.2
+THIRD_OCTAVES = 2.0 ** (np.arange(-12, 13) / 3.0) * 1000.0
+CHEAP_METHODS = ("exponential_rk4", "exponential_adams4", "runge_kutta4", "dormand_prince")
+Array = NDArray[np.float64]
+
+
+def rms(values: Array) -> float:
+    """Root mean square over all entries."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def timed(run: Callable[[], Array]) -> tuple[float, Array]:
+    """Processor time (s), the better of two, and the result."""
+    seconds = []
+    for _ in range(2):
+        begin = time.process_time()
+        result = run()
+        seconds.append(time.process_time() - begin)
+    return min(seconds), result
+
+
+def shortened(scene: Scene) -> Scene:
+    """Its first tenth of a second."""
+    cages = [cage and replace(cage, duration=min(cage.duration, DURATION)) for cage in (scene.cage, scene.second_cage)]
+    return replace(scene, cage=cages[0], second_cage=cages[1])
+
+
+def judge(scene: Scene, rate: float) -> tuple[Array, float]:
+    """Acceleration (T, 2) by fixed steps, and how far (relative RMS) two step sizes are apart."""
+    coarse, fine = (
+        simulate(scene, rate, substeps=count, estimate_error=False).acceleration
+        for count in (JUDGING_SUBSTEPS[0] // 2, JUDGING_SUBSTEPS[0])
+    )
+    last = fine
+    apart = rms(coarse - fine) / rms(fine)
+    if apart > CERTAIN * ACCURACY:
+        last = simulate(scene, rate, substeps=JUDGING_SUBSTEPS[1], estimate_error=False).acceleration
+        apart = rms(fine - last) / rms(last)
+    return last, apart
+
+
+def rivals(scene: Scene, rate: float, exact: Array) -> dict[str, float]:
+    """Processor time (s) of every setting of the chart that keeps the accuracy."""
+    settings: dict[str, dict[str, object]] = {f"modal_rk4 {a:g}": {"accuracy": a} for a in ACCURACIES}
+    for method in CHEAP_METHODS:
+        for count in SUBSTEPS[method]:
+            settings[f"{method} {count}"] = {"method": method, "substeps": count, "estimate_error": False}
+    kept = {}
+    for name, setting in settings.items():
+        try:
+            seconds, found = timed(lambda setting=setting: simulate(scene, rate, **setting).acceleration)
+        except SimulationFailed:
+            continue
+        if rms(found - exact) <= ACCURACY * rms(exact):
+            kept[name] = seconds
+    return kept
+
+
+def spectral_difference(one: Array, other: Array, rate: float) -> float:
+    """Median over third octaves of the difference (dB) of two signals' power, both axes together."""
+    frequency = np.fft.rfftfreq(one.shape[0], 1.0 / rate)
+    powers = [np.sum(np.abs(np.fft.rfft(signal, axis=0)) ** 2, axis=1) for signal in (one, other)]
+    band = np.digitize(frequency, THIRD_OCTAVES)
+    sums = np.array([np.bincount(band, power, THIRD_OCTAVES.size + 1)[1:-1] for power in powers])
+    used = sums.min(axis=0) > 0.0
+    return float(np.median(np.abs(10.0 * np.log10(sums[0, used] / sums[1, used]))))
+
+
+def measure(scene: Scene, rate: float, hindsight: bool) -> dict[str, object]:
+    """One scene's row."""
+    trace = simulate(scene, rate, accuracy=ACCURACY)
+    seconds, _ = timed(lambda: simulate(scene, rate, accuracy=ACCURACY).acceleration)
+    exact, apart = judge(scene, rate)
+    row: dict[str, object] = {
+        "seconds": seconds,
+        "error": rms(trace.acceleration - exact) / rms(exact),
+        "estimate": trace.error_estimate,
+        "sensitivity": trace.sensitivity,
+        "chaotic": trace.chaotic,
+        "judge_apart": apart,
+        "changes": int(trace.changes.time.size),
+        "spectra_apart_db": spectral_difference(trace.acceleration, exact, rate),
+    }
+    kept = rivals(scene, rate, exact) if hindsight and not trace.chaotic else {}
+    if kept:
+        best = min(kept, key=lambda name: kept[name])
+        row |= {"best": best, "best_seconds": kept[best]}
+    return row
+
+
+def summary(rows: dict[str, dict[str, object]]) -> dict[str, object]:
+    """Shares and ratios over all scenes; scenes that no two step sizes of the judge agree on are counted apart."""
+    chaotic = [row for row in rows.values() if row["chaotic"]]
+    tame = [row for row in rows.values() if not row["chaotic"]]
+    judged = [row for row in tame if row["judge_apart"] <= CERTAIN * ACCURACY]
+    rivalled = [row for row in judged if "best" in row]
+    return {
+        "scenes": len(rows),
+        "chaotic": len(chaotic),
+        "chaotic_spectra_apart_db": float(np.median([row["spectra_apart_db"] for row in chaotic])) if chaotic else None,
+        "not_judged": len(tame) - len(judged),
+        "judged": len(judged),
+        "kept_the_accuracy": sum(row["error"] <= ACCURACY for row in judged),
+        "share_kept": float(np.mean([row["error"] <= ACCURACY for row in judged])),
+        "worst_error": max(row["error"] for row in judged),
+        "error_over_estimate": [
+            float(q) for q in np.quantile([row["error"] / row["estimate"] for row in judged], (0.05, 0.5, 0.95))
+        ],
+        "cost_over_hindsight": sum(row["seconds"] for row in rivalled) / sum(row["best_seconds"] for row in rivalled)
+        if rivalled
+        else None,
+        "in_hindsight": {
+            name: sum(row["best"] == name for row in rivalled) for name in sorted({row["best"] for row in rivalled})
+        },
+    }
+
+
+def main() -> None:
+    """Measure every scene and write the result after each, so that a run that is cut short is not lost."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scenes", type=int, default=300)
+    parser.add_argument("--seed", type=int, default=777001)
+    parser.add_argument("--hindsight", type=int, default=1, help="rival settings on every n-th scene; 0: none")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs" / "own_choice.json")
+    options = parser.parse_args()
+    warm_up()
+    recipe = load_recipe(ROOT / "datasets" / "corpus").model_copy(update={"seed": options.seed})
+    stride = recipe.count // options.scenes
+    rows: dict[str, dict[str, object]] = {}
+    for place in range(options.scenes):
+        record = place * stride
+        scenario = draw_scenario(recipe, record)
+        hindsight = options.hindsight > 0 and place % options.hindsight == 0
+        rows[str(record)] = measure(shortened(scenario.scene), scenario.rate, hindsight)
+        report = {
+            "recipe": "corpus",
+            "seed": options.seed,
+            "accuracy": ACCURACY,
+            "seconds_a_scene": DURATION,
+            "machine": f"{platform.machine()}, {platform.system()}",
+            "versions": {name: version(name) for name in ("numpy", "scipy", "numba")},
+            "summary": summary(rows) if place >= 9 else {},
+            "rows": rows,
+        }
+        options.out.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+        print(record, json.dumps(rows[str(record)]), flush=True)
+    print(json.dumps(report["summary"], indent=1))
+
+
+if __name__ == "__main__":
+    main()

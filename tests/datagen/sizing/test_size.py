@@ -173,9 +173,9 @@ def test_between_two_and_five_samples_nothing_is_scored() -> None:
 
 def test_events_are_release_and_regain_or_else_fall_and_rise() -> None:
     gone = math.nan
-    release, regain = np.array([1.0, gone, gone, 4.0]), np.array([1.5, gone, gone, gone])
-    fall, rise = np.array([gone, 2.0, gone, gone]), np.array([gone, 2.3, gone, gone])
-    truth = event_truth(release, regain, fall, rise)
+    release, regain = np.array([1.0, gone, gone, 4.0, 5.0]), np.array([1.5, gone, gone, gone, 9.0])
+    fall, rise = np.array([gone, 2.0, gone, gone, gone]), np.array([gone, 2.3, gone, gone, gone])
+    truth = event_truth(release, regain, fall, rise, np.array([1.6, 2.6, 3.6, 4.6, 5.6]))  # the last comes too late
     assert truth.first.tolist() == [1.0, 2.0]
     assert truth.kept.tolist() == [False, True]
     assert truth.lag == pytest.approx(0.4)  # the median of 0.5 and 0.3
@@ -186,7 +186,7 @@ def test_the_calibration_comes_back_from_its_arrays() -> None:
     again = Calibration.from_arrays(learned.to_arrays())
     rows = np.zeros((1, int(learned.pair_score.feature.max()) + 1))
     assert again.pair_score.predict(rows) == learned.pair_score.predict(rows)
-    assert again.least_with_load == learned.least_with_load
+    assert again.with_load.least == learned.with_load.least
 
 
 def test_noise_alone_is_told_no_size() -> None:

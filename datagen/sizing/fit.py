@@ -1,7 +1,8 @@
 """The calibration fitted to trials of simulated machines: run as `python -m datagen.sizing.fit CORPUS... FILE.npz`.
 
 Every later stage learns from what the earlier ones say of virtual bearings that they were not fitted to, and so do the
-reach of the intervals and the least trust, which are set on the records with the noise of the corpus.
+reach of the intervals and the least trust. Both are set on records with the noise of their corpus, the reach on the
+first corpus alone, for whose mixture of spalls the intervals are to hold.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ GUESSES = {"max_iter": 200, "learning_rate": 0.05, "max_leaf_nodes": 12, "min_sa
 TRUST = {"max_iter": 150, "learning_rate": 0.05, "max_leaf_nodes": 8, "min_samples_leaf": 25, "max_bins": 63}
 
 
-def fit_calibration(made: list[Trial]) -> Calibration:
-    """The calibration of the training trials `made`."""
+def fit_calibration(made: list[Trial], typical: NDArray[np.bool_]) -> Calibration:
+    """The calibration of the training trials `made` (N,); intervals hold for those that are `typical` (N,)."""
     from sklearn.ensemble import HistGradientBoostingRegressor
 
     groups = np.array([trial.bearing_id for trial in made])
@@ -46,8 +47,8 @@ def fit_calibration(made: list[Trial]) -> Calibration:
     fit_pairs(model, made)
     return Calibration(
         pair_score=to_trees(model),
-        blind=_judgement(made, scores, groups, load_known=False),
-        with_load=_judgement(made, scores, groups, load_known=True),
+        blind=_judgement(made, typical, scores, groups, load_known=False),
+        with_load=_judgement(made, typical, scores, groups, load_known=True),
     )
 
 
@@ -72,18 +73,20 @@ def _scores_out_of_fold(model: Any, made: list[Trial], groups: NDArray[np.str_])
     return [scores[k] for k in range(len(made))]
 
 
-def _judgement(made: list[Trial], scores: list[Array], groups: NDArray[np.str_], *, load_known: bool) -> Judgement:
+def _judgement(
+    made: list[Trial], typical: NDArray[np.bool_], scores: list[Array], groups: NDArray[np.str_], *, load_known: bool
+) -> Judgement:
     rank, measured = ranked(made, scores, groups, load_known=load_known)
     rows = np.array([one.row for one in measured])
     stored = np.array([trial.stored for trial in made])
     lag_error = np.log(np.array([trial.lag for trial in made]) / np.array([one.lag for one in measured]))
     arc = np.array([trial.arc for trial in made])
     arc_error = np.log(np.where(arc > 0.0, arc, np.nan) / np.array([one.lag_arc for one in measured]))
-    lag, told = _guess(rows, lag_error, groups, stored)
+    lag, told = _guess(rows, lag_error, groups, typical & stored)
     right = np.where(np.isfinite(lag_error), np.abs(lag_error - told) < RIGHT_WITHIN, False)
     true_lag = np.array([trial.true_lag for trial in made])
     trust, least = _trust(rows, right, true_lag, groups, stored)
-    return Judgement(rank, lag, _guess(rows, arc_error, groups, stored)[0], trust, least)
+    return Judgement(rank, lag, _guess(rows, arc_error, groups, typical & stored)[0], trust, least)
 
 
 def ranked(
@@ -108,7 +111,7 @@ def _leading(trial: Trial, score: Array, load_known: bool) -> LeadingPairs:
     return leading_pairs(trial.evidence, score, situation if load_known else replace(situation, load=None))
 
 
-def _guess(rows: Array, error: Array, groups: NDArray[np.str_], stored: NDArray[np.bool_]) -> tuple[Guess, Array]:
+def _guess(rows: Array, error: Array, groups: NDArray[np.str_], typical: NDArray[np.bool_]) -> tuple[Guess, Array]:
     """The guess of `error` (N,) from `rows` (N, F), and what it says (N,) of bearings it was not fitted to."""
     from sklearn.ensemble import HistGradientBoostingRegressor
 
@@ -120,7 +123,7 @@ def _guess(rows: Array, error: Array, groups: NDArray[np.str_], stored: NDArray[
     told = _out_of_fold(centre, rows, aim, known, groups, weight)
     missed = np.abs(aim - told)
     width = np.maximum(_out_of_fold(spread, rows, missed, known, groups), 0.0) + SMALLEST_SPREAD
-    reach = float(np.quantile((missed / width)[known & stored], COVERAGE))
+    reach = float(np.quantile((missed / width)[known & typical], COVERAGE))
     fitted = centre.fit(rows[known], aim[known], weight[known]), spread.fit(rows[known], missed[known])
     return Guess(to_trees(fitted[0]), to_trees(fitted[1]), reach), told
 
@@ -181,9 +184,11 @@ def to_trees(model: Any) -> Trees:
 
 def main(corpora: list[str], file: str, workers: int = 2) -> None:
     """Fit to the training and validation splits of all `corpora` and write `file`."""
-    made = [trial for corpus in corpora for trial in trials(Path(corpus), ("train", "validation"), workers)]
+    by_corpus = [trials(Path(corpus), ("train", "validation"), workers) for corpus in corpora]
+    made = [trial for own in by_corpus for trial in own]
+    typical = np.arange(len(made)) < len(by_corpus[0])
     print(f"{len(made)} trials of {len({(trial.bearing_id, trial.record) for trial in made})} records")
-    calibration = fit_calibration(made)
+    calibration = fit_calibration(made, typical)
     np.savez_compressed(file, **calibration.to_arrays())  # type: ignore[arg-type]
     print(f"{file}: {Path(file).stat().st_size} bytes; least trust {calibration.blind.least:.2f}, with load "
           f"{calibration.with_load.least:.2f}")  # fmt: skip

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from labels.spall_size.size_estimate import SizeEstimate
 
-# Errors of two records of one machine hardly go together (correlation 0.04 over 725 pairs of the size training), because
+# Errors of two records of one machine hardly go together (correlation 0.04 over 725 pairs of the size training):
 # each spall has edges of its own. A larger share, or a longer reach, made sizes worse.
 SHARE = 0.05
 FURTHEST = 0.05

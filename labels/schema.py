@@ -196,7 +196,11 @@ LABELS: tuple[Label, ...] = (
         "RMS error of the stored stiffness, read by linear interpolation, over the mean of kyy.",
         "it was not measured",
     ),
-    _text("validity", "scene", "Why the model is outside its range, sentences joined by '; '; empty inside it."),
+    _text(
+        "validity",
+        "scene",
+        "Why to read it with care, sentences joined by '; ': where it leaves the model's range, or that it is chaotic.",
+    ),
 )
 
 LABEL: dict[str, Label] = {label.name: label for label in LABELS}

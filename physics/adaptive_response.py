@@ -2,7 +2,8 @@
 
 The method measures every step by the momentum it may be wrong by. What such a push leaves in the resonator's
 acceleration follows from the modes alone, so the accuracy asked for, the size of the signal seen so far and a usual
-number of pushes a second give the tolerance; and the sum of the errors made gives the estimate of the whole.
+number of pushes a second give the tolerance; and the sum of the errors made gives the estimate of the whole, times what
+a pilot shows that this scene makes of them: contact changes can multiply an error.
 """
 
 from __future__ import annotations
@@ -15,9 +16,11 @@ from numpy.typing import NDArray
 
 from physics.assembly import assemble
 from physics.contact import ContactModel
+from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import LOG_FULL, NOT_FINITE, STEPS, Grid, Output, Stops
 from physics.integrators.methods import MODAL
-from physics.integrators.modal.flow import LinearFlow, amplitudes, linear_flow, ringing
+from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, ringing
+from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE
 from physics.integrators.modal.memory import Stride, memory_for
 from physics.integrators.modal.rk4 import march_modal_rk4
 from physics.kinks import known_kinks
@@ -26,23 +29,28 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.response import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output, trace_of
 from physics.scene import Scene
 from physics.statics import equilibrium
-from physics.trace import Trace
+from physics.trace import CHAOTIC, Trace
 
 Array = NDArray[np.float64]
 
 LONGEST_LEVEL = 3
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
-# Errors are this many times what the pushes alone add up to: 2 to 8 times on the reference scenes, at worst 20 times on
-# scenes of the wide corpus that are not chaotic.
-ERROR_FACTOR = 8.0
-# Of the accuracy asked for, what the tolerance aims at.
-AIM = 0.0625
-SEED_SAMPLES = 2048
+# Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
+# them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
+ERROR_FACTOR, SENSITIVE = 6.0, 2.5
+# Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
+AIM, MARGIN = 0.09, 0.75
+PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
 GUESSED_SHARE, SMALLEST_SHARE = 1e-2, 1e-8
-MOST_ATTEMPTS = 4
+# No tolerance is below this share of what the load does in a sample: forces are not known better.
+ROUND_OFF = 1e-13
+# The tolerance of the first pilot over that of the second; weights of the guessed size of the signal, in samples.
+COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
+# No further attempt is made after one that has left more than this share of the error.
+MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
 MEAN_STIFFNESS_TIMES = 64
 SMALLEST_STIFFNESS = 1e3
 
@@ -56,30 +64,54 @@ class Kept:
     outer: bool = False
 
 
+@dataclass(frozen=True)
+class _Case:
+    """What every march of a scene has in common; `push` turns an error of the response into one of a single step."""
+
+    scene: Scene
+    flow: LinearFlow
+    contact: ContactModel
+    stops: Stops
+    start: Array
+    rate: float
+
+    @property
+    def push(self) -> float:
+        """Momentum (N s) a step may be wrong by for an error of 1 m/s² (RMS), at the usual number of pushes."""
+        return 1.0 / math.sqrt(ringing(self.flow) * USUAL_PUSHES * self.rate)
+
+    def pushed(self, output: Output, samples: int) -> float:
+        """What the errors of a march's steps add up to in the resonator's acceleration (m/s², RMS of both axes)."""
+        return math.sqrt(0.5 * ringing(self.flow) * float(output.budget[0]) * self.rate / samples)
+
+
 def respond_accurately(
     scene: Scene, start: Array, rate: float, samples: int, accuracy: float, least: float, kept: Kept
 ) -> Trace:
     """Trace of `scene` at k / rate from the state `start` (12,), to the relative RMS `accuracy` with its estimate.
 
-    `least` (m/s², RMS) is an error that is always allowed. Raises SimulationFailed if the response stops being finite
-    or contact changes more often than can be logged.
+    `least` (m/s², RMS) is an error that is always allowed. Two short pilots say how large the signal is and how much
+    this scene makes of the errors of its steps. Raises SimulationFailed if the response stops being finite or contact
+    changes more often than can be logged.
     """
-    motion = motion_model(scene)
-    flow, contact = mean_flow(scene, motion), assemble(scene)
-    stops = known_kinks(scene, contact)
-    push = 1.0 / math.sqrt(ringing(flow) * USUAL_PUSHES * rate)
-    seen = _seed(scene, start, flow, contact, stops, rate, samples, push)
-    aim = AIM
+    motion, contact = motion_model(scene), assemble(scene)
+    case = _Case(scene, mean_flow(scene, motion), contact, known_kinks(scene, contact), start, rate)
+    seen, sensitivity = _pilots(case, samples, accuracy)
+    tame = 1.0 if sensitivity > CHAOTIC else max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
+    aim, error = AIM / tame, math.inf
     for _ in range(MOST_ATTEMPTS):
-        grid = _grid(scene, rate, samples, aim * accuracy * push, aim * least * push, seen)
-        trace, output = _run(scene, flow, contact, stops, start, grid, kept)
+        spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame * aim)) ** 2
+        grid = _grid(case, samples, aim * accuracy, aim * least, seen, UNCERTAIN, spending)
+        trace, output = _run(case, grid, kept)
         size = rms(trace.acceleration)
-        pushed = ERROR_FACTOR * math.sqrt(0.5 * ringing(flow) * output.budget[0] / (samples / rate))
-        if pushed <= max(accuracy * size, least):
+        before, error = error, ERROR_FACTOR * tame * case.pushed(output, samples)
+        if error <= max(accuracy * size, least) or error > WORTHWHILE * before:
             break
-        aim *= min(0.5, 0.7 * max(accuracy * size, least) / pushed)
+        aim *= min(0.5, 0.7 * max(accuracy * size, least) / error)
         seen = size**2
-    return replace(trace, error_estimate=pushed / size if size > 0.0 else 0.0)
+    # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
+    relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
+    return replace(trace, error_estimate=relative, sensitivity=sensitivity)
 
 
 def mean_flow(scene: Scene, motion: MotionModel) -> LinearFlow:
@@ -95,68 +127,63 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def _grid(
-    scene: Scene, rate: float, samples: int, share: float, least: float, seen: float, weight: float = 512.0
-) -> Stride:
-    floor = share * SMALLEST_SHARE * abs(scene.operation.load) / scene.rig.outer_mass
+def _grid(case: _Case, samples: int, share: float, least: float, seen: float, weight: float, spending: float) -> Stride:
+    load = abs(case.scene.operation.load)
+    floor = share * SMALLEST_SHARE * load / case.scene.rig.outer_mass
     return Stride(
         samples=samples,
-        interval=1.0 / rate,
+        interval=1.0 / case.rate,
         levels=LONGEST_LEVEL,
-        share=share * math.sqrt(0.5),
-        least=max(least, floor),
+        share=share * case.push * math.sqrt(0.5),
+        least=max(case.push * max(least, floor), ROUND_OFF * load / case.rate),
         seen=2.0 * seen,
         seen_samples=weight,
+        spending=spending,
     )
 
 
-def _seed(
-    scene: Scene,
-    start: Array,
-    flow: LinearFlow,
-    contact: ContactModel,
-    stops: Stops,
-    rate: float,
-    samples: int,
-    push: float,
-) -> float:
-    """Mean square (m²/s⁴) of the first samples' acceleration, from a run that is accurate enough for that."""
-    size = GUESSED_SHARE * max(abs(scene.operation.load), 1e-3) / scene.rig.outer_mass
+def _pilots(case: _Case, samples: int, accuracy: float) -> tuple[float, float]:
+    """Mean square (m²/s⁴) of the first samples' acceleration, and how many times as far apart two marches of them are
+    as the errors of the coarser one's steps add up to."""
+    length = min(samples, PILOT_SAMPLES)
+    size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
     for _ in range(SEED_ATTEMPTS):
-        grid = _grid(scene, rate, min(samples, SEED_SAMPLES), 1e-3 * push, 0.0, size**2, 1e9)
-        trace, _ = _run(scene, flow, contact, stops, start, grid, Kept())
-        found = rms(trace.acceleration[trace.time.size // 2 :])
+        coarse, output = _run(case, _grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN), Kept())
+        found = rms(coarse.acceleration[length // 2 :])
         if found > 0.1 * size:
-            return found**2
+            size = found
+            break
         size = max(found, 1e-3 * size)
-    return size**2
+    fine, _ = _run(case, _grid(case, length, AIM * min(accuracy, COARSE), 0.0, size**2, CERTAIN, 1.0), Kept())
+    pushed = case.pushed(output, length)
+    apart = rms(coarse.acceleration - fine.acceleration)
+    return size**2, apart / pushed if pushed > 0.0 else 1.0
 
 
-def _run(
-    scene: Scene,
-    flow: LinearFlow,
-    contact: ContactModel,
-    stops: Stops,
-    start: Array,
-    grid: Stride,
-    kept: Kept,
-) -> tuple[Trace, Output]:
-    capacity, status = FIRST_CHANGE_LOG, LOG_FULL
+def _run(case: _Case, grid: Stride, kept: Kept) -> tuple[Trace, Output]:
+    capacity, status, contact = FIRST_CHANGE_LOG, LOG_FULL, case.contact
     while status == LOG_FULL:
         if capacity > LARGEST_CHANGE_LOG:
             raise SimulationFailed(
-                Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
+                Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {case.scene.duration:g} s"
             )
         output = empty_output(contact, grid.samples, capacity, kept.state, kept.force, kept.outer)
-        memory = memory_for(flow, amplitudes(flow, start), grid, contact.balls.shape[0], contact.balls.shape[2])
+        start = amplitudes_of(case.flow, case.start)
+        memory = memory_for(case.flow, start, grid, contact.balls.shape[0], contact.balls.shape[2])
         status = march_modal_rk4(
-            contact.balls, contact.frames, contact.law, contact.track, flow, grid, stops, memory, output
+            contact.balls, contact.frames, contact.law, contact.track, case.flow, grid, case.stops, memory, output
         )
         capacity *= 8
+    if status == OUT_OF_STEPS:
+        raise SimulationFailed(
+            Outcome.TOO_MANY_STEPS,
+            f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or least_error "
+            "takes fewer",
+        )
     if status == NOT_FINITE:
         raise SimulationFailed(
             Outcome.NOT_FINITE, f"the response stopped being finite with steps down to {grid.interval / 16:.3g} s"
         )
-    trace = trace_of(scene, contact, Grid(grid.samples, 1, grid.interval), output, MODAL)
+    trace = trace_of(case.scene, contact, Grid(grid.samples, 1, grid.interval), output, MODAL)
     steps = max(1, int(output.tally[STEPS]))
     return replace(trace, step=(grid.samples - 1) * grid.interval / steps), output

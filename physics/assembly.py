@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from physics.contact import (
     ANGLE,
     BALL_ROWS,
     CAGE,
+    CELL,
     COSINE,
     FIRST_BALL,
     FIRST_BREAK,
@@ -21,8 +23,10 @@ from physics.contact import (
     GAP,
     PIECES,
     PLACE,
+    RELIEF,
     SIGN,
     SINE,
+    SPALL_COLUMNS,
     SPEED,
     ContactModel,
     Law,
@@ -37,6 +41,7 @@ Array = NDArray[np.float64]
 LANES = 4
 PADDING_GAP = 1.0
 WAVINESS_CELLS_PER_WAVE = 64
+TABLES_KEPT = 8
 
 
 def assemble(scene: Scene) -> ContactModel:
@@ -70,7 +75,7 @@ def assemble(scene: Scene) -> ContactModel:
 
 
 def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
-    table = np.zeros((len(paths), 9))
+    table = np.zeros((len(paths), SPALL_COLUMNS))
     piece = first_break = cubic = 0
     for index, (spall, path) in enumerate(zip(scene.spalls, paths, strict=True)):
         row = spall.row - 1
@@ -81,6 +86,7 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         table[index, SPEED] = race_speed(scene, spall.race)
         table[index, FIRST_PIECE], table[index, PIECES] = piece, path.cells.size
         table[index, FIRST_BREAK], table[index, FIRST_CUBIC] = first_break, cubic
+        table[index, CELL], table[index, RELIEF:] = path.finest_cell, path.relief
         piece += path.cells.size
         first_break += path.breaks.size
         cubic += path.cubics.shape[0]
@@ -129,7 +135,9 @@ def _cage_arrays(cages: list[CagePath]) -> tuple[Array, Array]:
     return quartics, clock
 
 
+@lru_cache(maxsize=TABLES_KEPT)
 def _waviness_cubics(waves: tuple[Waviness, ...]) -> Array:
+    """Cubics (2, N, 4) of the waves; the same waves give the same array, which is for reading only."""
     if not waves:
         return np.zeros((2, 0, 4))
     count = WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves))
@@ -138,6 +146,8 @@ def _waviness_cubics(waves: tuple[Waviness, ...]) -> Array:
     cubics = np.zeros((2, count, 4))
     for wave in waves:
         value = wave.amplitude * np.cos(wave.order * nodes + wave.phase)
-        rate = -wave.amplitude * wave.order * np.sin(wave.order * nodes + wave.phase) * width
+        # Slopes of the periodic cubic spline through the wave, which has no jump in curvature: its own by a factor.
+        turn = wave.order * width
+        rate = -wave.amplitude * np.sin(wave.order * nodes + wave.phase) * 3.0 * math.sin(turn) / (2.0 + math.cos(turn))
         cubics[0 if wave.race == "outer" else 1] += hermite_cubics(value, rate)
     return cubics

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.profile import path_at
+from physics.profile import RELIEF_LEVELS, path_at
+from physics.turning import cosine_sine
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -35,8 +36,12 @@ BALL_ROWS = 11
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
 FRAME_COLUMNS = 3
 # Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
-# zero cage angle and time (rad), speed of its race (rad/s), first piece, number of pieces, first break, first cubic.
-FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, FIRST_PIECE, PIECES, FIRST_BREAK, FIRST_CUBIC = range(9)
+# zero cage angle and time (rad), speed of its race (rad/s), first piece, number of pieces, first break, first cubic;
+# width of its finest cell (rad), and how far the path strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
+FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, FIRST_PIECE, PIECES, FIRST_BREAK, FIRST_CUBIC, CELL, RELIEF = range(11)
+SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
+
+TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
 
 
 class Law(NamedTuple):
@@ -52,8 +57,8 @@ class Track(NamedTuple):
     """What the balls run on, as a function of time.
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
-    Spalls (D, 9) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness` (2, N, 4):
-    cubics of the outer and inner race over N equal arcs of the circle, N = 0 for smooth races.
+    Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness`
+    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N = 0 for smooth races.
     """
 
     cage: Array
@@ -111,8 +116,7 @@ def move_to(balls: Array, frames: Array, track: Track, time: float) -> None:
             balls[cage, FLOOR, j] = balls[cage, GAP, j]
             balls[cage, FALL, j] = 0.0
         angle, speed = cage_at(track, cage, time)
-        frames[cage, FRAME_COSINE] = math.cos(angle)
-        frames[cage, FRAME_SINE] = math.sin(angle)
+        frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE] = cosine_sine(angle)
         frames[cage, FRAME_SPEED] = speed
         if track.waviness.shape[1] > 0:
             _add_waviness(balls, track, cage, angle, speed, time)
@@ -144,29 +148,34 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
 
 @njit_lean
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
-    for j in range(balls.shape[2]):
-        floor, fall = waviness_at(track, angle + balls[cage, PLACE, j], speed, time)
-        balls[cage, FLOOR, j] += floor
-        balls[cage, FALL, j] += fall
+    for race in range(2):
+        race_speed = track.shaft_speed * race
+        ahead, pace = angle - race_speed * time, speed - race_speed
+        for j in range(balls.shape[2]):
+            depth, slope = _wave_at(track, race, ahead + balls[cage, PLACE, j])
+            balls[cage, FLOOR, j] += depth
+            balls[cage, FALL, j] += slope * pace
 
 
 @njit_inline
 def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[float, float]:
     """Depth (m) of both races' waves under a ball at the angle `place`, and its rate (m/s)."""
+    outer, outer_slope = _wave_at(track, 0, place)
+    inner, inner_slope = _wave_at(track, 1, place - track.shaft_speed * time)
+    return outer + inner, outer_slope * speed + inner_slope * (speed - track.shaft_speed)
+
+
+@njit_inline
+def _wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
+    """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
     cells = track.waviness.shape[1]
-    density = cells / (2.0 * math.pi)
-    floor, fall = 0.0, 0.0
-    for race in range(2):
-        race_speed = track.shaft_speed * race
-        position = (place - race_speed * time) * density
-        whole = math.floor(position)
-        x = position - whole
-        cell = int(whole) % cells
-        c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
-        c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
-        floor += ((c3 * x + c2) * x + c1) * x + c0
-        fall += ((3.0 * c3 * x + 2.0 * c2) * x + c1) * density * (speed - race_speed)
-    return floor, fall
+    turns = angle * TURNS_PER_RADIAN
+    position = (turns - math.floor(turns)) * cells
+    cell = min(int(position), cells - 1)
+    x = position - cell
+    c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
+    c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
+    return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * (cells * TURNS_PER_RADIAN)
 
 
 @njit_lean
@@ -177,7 +186,7 @@ def compression_of(
     size = balls.shape[2]
     cage, place = ball // size, ball % size
     angle, speed = cage_at(track, cage, time)
-    c0, s0 = math.cos(angle), math.sin(angle)
+    c0, s0 = cosine_sine(angle)
     c = c0 * balls[cage, COSINE, place] - s0 * balls[cage, SINE, place]
     s = s0 * balls[cage, COSINE, place] + c0 * balls[cage, SINE, place]
     floor, fall = balls[cage, GAP, place], 0.0
@@ -276,10 +285,10 @@ def of_ball(balls: Array, row: int, ball: int) -> float:
     return balls[ball // size, row, ball % size]
 
 
-@njit_lean
-def touches(balls: Array, law: Law, ball: int) -> bool:
-    """Whether the contact law says that `ball` is in contact, from what `press` left in `balls`."""
-    return of_ball(balls, COMPRESSION, ball) > 0.0 and (not law.no_tension or of_ball(balls, LAW, ball) > 0.0)
+@njit_inline
+def touches(balls: Array, law: Law, cage: int, place: int) -> bool:
+    """Whether the contact law says that a ball is in contact, from what `press` left in `balls`."""
+    return balls[cage, COMPRESSION, place] > 0.0 and (not law.no_tension or balls[cage, LAW, place] > 0.0)
 
 
 @njit_lean
@@ -336,6 +345,6 @@ def count_dips(balls: Array, noted: Array, step: float) -> int:
 @njit_lean
 def reset_contact(balls: Array, law: Law) -> None:
     """Make the contact set what the compressions left by `press` say."""
-    size = balls.shape[2]
-    for ball in range(balls.shape[0] * size):
-        balls[ball // size, ACTIVE, ball % size] = 1.0 if touches(balls, law, ball) else 0.0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            balls[cage, ACTIVE, j] = 1.0 if touches(balls, law, cage, j) else 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -28,6 +28,7 @@ ROLLED_STEP = 2e-6
 TOUCHING_SHARE = 0.02
 # A record asks for the path of each of its spalls about eight times.
 PATHS_KEPT = 64
+RELIEF_LEVELS = 8
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,8 @@ class DepthPath:
 
     Between neighbouring `breaks` (P + 1,) the path is smooth: `cells` (P,) equal cells, each a cubic in the position
     within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
+
+    `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … finest cells; zero for smooth surfaces.
     """
 
     breaks: Array
@@ -44,6 +47,12 @@ class DepthPath:
     deepest: float
     largest_depth: float
     bridged: bool
+    relief: Array
+
+    @property
+    def finest_cell(self) -> float:
+        """Width of the narrowest cell, rad."""
+        return float(np.min(np.diff(self.breaks) / self.cells))
 
     @property
     def kinks(self) -> Array:
@@ -183,7 +192,7 @@ def _tukey_path(spall: Spall) -> DepthPath:
     def slope(arc: Array) -> Array:
         return spall.depth * _window_slope(spall, arc) + (0.0 if rough is None else rough(arc, 1))
 
-    return _hermite_pieces(np.array(edges), cells, depth, slope, bridged=False)
+    return _hermite_pieces(np.array(edges), cells, depth, slope, bridged=False, rough=rough is not None)
 
 
 def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
@@ -207,7 +216,7 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
         hanging = half - np.abs(arc) < reach * (1.0 + 1e-12)
         return np.where(hanging, -np.sign(arc) * drop_slope(nearer_edge(arc)), 0.0)
 
-    return _hermite_pieces(edges, cells, depth, slope, bridged=bridged)
+    return _hermite_pieces(edges, cells, depth, slope, bridged=bridged, rough=False)
 
 
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
@@ -223,6 +232,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         lambda arc: np.interp(arc, arcs, drop),
         slopes,
         bridged=not _reaches_floor(spall, arcs, surface(arcs) - drop),
+        rough=bool(spall.roughness_values) or spall.profile == "table",
     )
 
 
@@ -272,7 +282,9 @@ def _distinct(edges: list[float]) -> list[float]:
     return [*kept, edges[-1]]
 
 
-def _hermite_pieces(edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool) -> DepthPath:
+def _hermite_pieces(
+    edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool, rough: bool
+) -> DepthPath:
     """Cubic Hermite cells with the curve's values and one-sided slopes at the nodes."""
     cubics = []
     nodes_depth, nodes_arc = [], []
@@ -288,11 +300,31 @@ def _hermite_pieces(edges: Array, cells: list[int], depth: Curve, slope: Curve, 
     values, arcs = np.concatenate(nodes_depth), np.concatenate(nodes_arc)
     largest = float(values.max())
     floor = arcs[values >= largest - 1e-9 * max(largest, 1e-12)]
-    return DepthPath(
+    path = DepthPath(
         breaks=np.asarray(edges, dtype=np.float64),
         cells=np.array(cells, dtype=np.int64),
         cubics=np.ascontiguousarray(np.concatenate(cubics)),
         deepest=float(0.5 * (floor[0] + floor[-1])),
         largest_depth=largest,
         bridged=bridged,
+        relief=np.zeros(RELIEF_LEVELS),
     )
+    return replace(path, relief=_relief(path)) if rough else path
+
+
+def _relief(path: DepthPath) -> Array:
+    """How far (m) the path strays from its chord over 1, 2, 4 … finest cells at most; the last one over any length.
+
+    Over twice as many cells it is what it is over half of them, and what the middle strays.
+    """
+    half_cells = 2 * math.ceil((path.breaks[-1] - path.breaks[0]) / path.finest_cell)
+    depth = path.depth(np.linspace(path.breaks[0], path.breaks[-1], half_cells + 1))
+    strayed = np.zeros(RELIEF_LEVELS)
+    for level in range(RELIEF_LEVELS - 1):
+        reach = 1 << level
+        if depth.size > 2 * reach:
+            middle = depth[reach:-reach] - 0.5 * (depth[: -2 * reach] + depth[2 * reach :])
+            strayed[level] = np.max(np.abs(middle))
+    relief = np.cumsum(strayed)
+    relief[-1] = np.ptp(depth)
+    return relief

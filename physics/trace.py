@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+# A response that makes more of the errors of its steps than this is chaotic: no trajectory converges.
+CHAOTIC = 50.0
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,7 @@ class Trace:
     `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring
     along x and y, or None if not asked for.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
+    `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
     `unlocated_changes` counts changes of contact that were taken at a step's end because one step held too many.
     """
@@ -54,3 +59,9 @@ class Trace:
     outer_displacement: Array | None = None
     outer_velocity: Array | None = None
     outer_acceleration: Array | None = None
+    sensitivity: float = math.nan
+
+    @property
+    def chaotic(self) -> bool:
+        """Whether bouncing balls make more of any error than shorter steps can mend: judge spectra, not points."""
+        return self.sensitivity > CHAOTIC

@@ -32,6 +32,9 @@ SUBSTEPS: Mapping[str, tuple[int, ...]] = {
     "exponential_rk4": (1, 2, 4, 8),
     "runge_kutta4": (1, 2, 4, 8, 16),
     "generalised_alpha": (2, 4, 8, 16, 32),
+    "exponential_adams2": (2, 4, 8, 16, 32),
+    "exponential_adams3": (1, 2, 4, 8, 16),
+    "exponential_adams4": (1, 2, 4, 8, 16),
     "dormand_prince": (1, 2, 3, 4, 6),
 }
 USUAL_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8)

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from datagen.errors import BadInput
+from datagen.recipes.accuracy_settings import AccuracySettings
 from datagen.recipes.background_settings import BackgroundSettings
 from datagen.recipes.chain_settings import ChainSettings
 from datagen.recipes.defect_settings import DefectSettings
@@ -166,6 +167,8 @@ class Recipe(Table):
     """Measurement chain of every part that says nothing of its own."""
     background: BackgroundSettings = BackgroundSettings()
     """Background of every part that says nothing of its own."""
+    accuracy: AccuracySettings = AccuracySettings()
+    """How exactly records are simulated."""
     store: Store = Store()
     """What is written."""
     split: Split = Split()

@@ -30,6 +30,11 @@ class Background:
     impulses: Impulses | None = None
     recording_gain: float = 0.0
 
+    @property
+    def noisy(self) -> bool:
+        """Whether it has broadband noise, and not tones alone."""
+        return self.white_rms > 0.0 or self.pink is not None
+
 
 @dataclass(frozen=True)
 class Stretch:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from datagen.corpora.format import profile_grid
 from datagen.records.layers import Layers, background_layers
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis
+from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.scenario import Scenario
 from labels.description import label_values
 from labels.envelope import band_envelope
@@ -67,7 +68,15 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     """The record of `scenario` with the optional signals named in `stored`; raises SimulationFailed."""
     scene, rate = scenario.scene, scenario.rate
     chain = scenario.chain
-    trace = simulate(scene, rate, keep_force="contact_force" in stored, keep_outer=chain.needs_outer_ring)
+    accuracy, least_error = allowed_error(scenario)
+    trace = simulate(
+        scene,
+        rate,
+        accuracy=accuracy,
+        least_error=least_error,
+        keep_force="contact_force" in stored,
+        keep_outer=chain.needs_outer_ring,
+    )
     signal = sensed(chain, trace)
     layers = background_layers(scenario, signal)
     acceleration, clipped = _recorded(chain, sum(layers.values(), signal))
@@ -117,7 +126,9 @@ def _profile_depth(scene: Scene) -> Rounded:
 
 def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:
     """Labels of scene, run and place in the corpus."""
-    return label_values(scenario.scene) | {
+    values = label_values(scenario.scene)
+    return values | {
+        "validity": "; ".join(filter(None, [str(values["validity"]), _chaos(trace)])),
         "record": scenario.record,
         "part": scenario.part,
         **dict.fromkeys(RECORDING_LABELS, ""),
@@ -134,6 +145,16 @@ def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[st
         "tension_share": trace.tension_share,
         "stiffness_error": stiffness_error,
     }
+
+
+def _chaos(trace: Trace) -> str:
+    """What a chaotic response means for its reader; empty if it is not."""
+    if not trace.chaotic:
+        return ""
+    return (
+        f"bouncing balls multiply errors {trace.sensitivity:.0f} times: the response is chaotic, and its spectra hold "
+        "but not its single points"
+    )
 
 
 def sensor_labels(scenario: Scenario, signal: NDArray[np.float64], layers: Layers, clipped: float) -> dict[str, Any]:

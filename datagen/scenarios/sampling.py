@@ -10,6 +10,7 @@ from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.record_order import Place
+from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.backgrounds import draw_noise_target, draw_stretch
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw
@@ -79,6 +80,7 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
         noise_target=draw_noise_target(background, draw.picker("noise_target")),
         snr_band=background.snr_band_hz or machine.envelope_band,
         redraws=redraws,
+        accuracy=Accuracy(recipe.accuracy.relative, recipe.accuracy.below_noise_db),
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from datagen.records.background import Background, NoiseTarget, Stretch
+from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.streams import stream
 from labels.description import condition
@@ -15,6 +16,7 @@ from physics.sensor.chain import SensorChain
 
 NO_BACKGROUND = Background()
 PLAIN_CHAIN = SensorChain()
+USUAL_ACCURACY = Accuracy()
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class Scenario:
     `rate` Hz; `envelope_band` Hz, lower and upper edge; `slip_deviation` and `slip_correlation_time` (s) are the
     statistics that the slip was drawn from; `stretch` what it takes of a recording, `noise_target` what its background
     is scaled to, `snr_band` Hz the band of its second signal-to-noise ratio (None: the envelope's); `redraws` the
-    impossible draws before it.
+    impossible draws before it; `accuracy` the error that its simulation may have.
     """
 
     scene: Scene
@@ -53,6 +55,7 @@ class Scenario:
     noise_target: NoiseTarget | None = None
     snr_band: tuple[float, float] | None = None
     redraws: tuple[Redraw, ...] = ()
+    accuracy: Accuracy = USUAL_ACCURACY
 
     @property
     def record(self) -> int:

@@ -7,6 +7,7 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.scenario import Scenario, Seeds
 from datagen.scenarios.sensor_text import background_data, background_of, chain_data, chain_of
@@ -139,6 +140,7 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
             "samples": scenario.samples,
             "envelope_band_hz": list(scenario.envelope_band),
         },
+        "accuracy": asdict(scenario.accuracy),
         "slip": _slip(scene.cage, scenario),
         "second_cage": scene.second_cage
         and {"start_angle": scene.second_cage.start_angle} | _slip(scene.second_cage, scenario),
@@ -208,6 +210,8 @@ def _from_data(data: dict[str, Any]) -> Scenario:
         slip_correlation_time=slip["correlation_time_s"],
         chain=chain_of(data["chain"]),
         redraws=tuple(Redraw(**redraw) for redraw in data["redraws"]),
+        # Texts from before accuracy was a setting mean the usual one.
+        accuracy=Accuracy(**data.get("accuracy", {})),
         **background_of(data["background"]),
     )
 

@@ -2,7 +2,8 @@
 
 Within a step the contact set is frozen, so the trial solution is smooth; between its ends the relative displacement is
 the quintic through displacement, velocity and acceleration at both, and cage angle and depth are known exactly. The
-earliest zero of the contact condition is bracketed and found by the Illinois variant of false position.
+earliest zero of the contact condition is bracketed and found by Newton's method or, where the condition has no slope to
+go by, by the Illinois variant of false position.
 """
 
 from __future__ import annotations
@@ -49,16 +50,17 @@ def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float
 @njit_lean
 def contact_condition(
     balls: Array, law: Law, track: Track, ball: int, time: float, step: float, share: float, begin: Array, end: Array
-) -> tuple[float, float]:
-    """A number above zero while `ball` touches, at the `share` of the step, and its rate of compression, m/s."""
+) -> tuple[float, float, float]:
+    """A number above zero while `ball` touches, its slope over the share of the step or 0 if it is not known, and the
+    rate of compression, m/s, at the `share` of the step."""
     x, u = quintic(begin, end, 0, share)
     y, v = quintic(begin, end, 1, share)
     compression, rate = compression_of(balls, track, ball, time + share * step, x, y, u / step, v / step)
     if law.no_tension:
         # Compression (m) is brought to the scale of a force so that one number carries both conditions.
         force = law.stiffness * max(compression, 0.0) ** law.exponent + law.damping * rate
-        return min(law.stiffness * 1e-3 * compression, force), rate
-    return compression, rate
+        return min(law.stiffness * 1e-3 * compression, force), 0.0, rate
+    return compression, rate * step, rate
 
 
 @njit_lean
@@ -67,16 +69,17 @@ def earliest_change(
 ) -> tuple[float, int, float]:
     """Share of the step, number and rate of compression (m/s) of the ball that first contradicts the contact set.
 
-    `suspects` (M,) holds, per ball, the share of the step at which it was seen to contradict the set, or 0.
+    `suspects` (G, M) holds, per ball, the share of the step at which it was seen to contradict the set, or 0.
     Returns (2.0, −1, 0.0) if no suspect is confirmed.
     """
     first_share, first_ball, first_rate = 2.0, -1, 0.0
-    for ball in range(suspects.size):
-        if suspects[ball] > 0.0:
-            upper = min(suspects[ball], first_share)
-            share, rate = _root(balls, law, track, ball, time, step, begin, end, upper)
-            if share < first_share:
-                first_share, first_ball, first_rate = share, ball, rate
+    for cage in range(suspects.shape[0]):
+        for j in range(suspects.shape[1]):
+            if suspects[cage, j] > 0.0:
+                ball, upper = cage * suspects.shape[1] + j, min(suspects[cage, j], first_share)
+                share, rate = _root(balls, law, track, ball, time, step, begin, end, upper)
+                if share < first_share:
+                    first_share, first_ball, first_rate = share, ball, rate
     return first_share, first_ball, first_rate
 
 
@@ -87,46 +90,48 @@ def _root(
     """Earliest share at which `ball` leaves the contact set's state, and the rate there; 2.0 if not by `upper`."""
     sign = 1.0 if of_ball(balls, ACTIVE, ball) > 0.5 else -1.0
     high, low = upper, 0.0
-    value, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)
+    value, slope, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)
     at_high = sign * value
     if at_high > 0.0:
         return 2.0, 0.0
-    value, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+    value, slope, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
     at_low = sign * value
     if at_low <= 0.0:
         # A ball toggled at the start of the step sits at zero to round-off: look just behind it.
         low = 1e-4 * upper
-        value, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+        value, slope, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
         at_low = sign * value
         if at_low <= 0.0:
             return 0.0, rate_low
-    side = 0
+    guess, side = (at_low * high - at_high * low) / (at_low - at_high), 0
     for _ in range(MOST_ITERATIONS):
-        if high - low <= SMALLEST_SHARE:
-            break
-        middle = (at_low * high - at_high * low) / (at_low - at_high)
-        if not low < middle < high:
-            middle = 0.5 * (low + high)
-        value, rate = contact_condition(balls, law, track, ball, time, step, middle, begin, end)
-        value *= sign
+        if not low < guess < high:
+            guess = 0.5 * (low + high)
+        value, slope, rate = contact_condition(balls, law, track, ball, time, step, guess, begin, end)
+        value, slope = sign * value, sign * slope
         if value > 0.0:
-            low, at_low = middle, value
-            if side == 1:
-                at_high *= 0.5
+            low, at_low = guess, value
+            if value <= -SMALLEST_SHARE * slope:
+                high = min(high, guess + SMALLEST_SHARE)
+            at_high *= 0.5 if side == 1 else 1.0
             side = 1
         else:
-            high, at_high = middle, value
-            if side == -1:
-                at_low *= 0.5
-            side = -1
-            if value > -1e-18:
+            high, at_high = guess, value
+            if value >= SMALLEST_SHARE * slope:
                 break
+            at_low *= 0.5 if side == -1 else 1.0
+            side = -1
+        if high - low <= SMALLEST_SHARE:
+            break
+        guess = guess - value / slope if slope < 0.0 else (at_low * high - at_high * low) / (at_low - at_high)
     return high, rate
 
 
 @njit_lean
 def mark_suspects(balls: Array, law: Law, share: float, suspects: Array) -> None:
-    """Note `share` for every ball that contradicts the contact set now and was not noted before."""
-    for ball in range(suspects.size):
-        if suspects[ball] == 0.0 and touches(balls, law, ball) != (of_ball(balls, ACTIVE, ball) > 0.5):
-            suspects[ball] = share
+    """Note `share` for every ball that contradicts the contact set now and was not noted for an earlier one."""
+    for cage in range(suspects.shape[0]):
+        for j in range(suspects.shape[1]):
+            contradicts = touches(balls, law, cage, j) != (balls[cage, ACTIVE, j] > 0.5)
+            if contradicts and (suspects[cage, j] == 0.0 or share < suspects[cage, j]):
+                suspects[cage, j] = share

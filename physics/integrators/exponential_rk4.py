@@ -50,16 +50,16 @@ def step_exponential_rk4(
     g1 = ((load[0] - force[0]) / motion.inner_mass, (load[1] - force[1]) / motion.inner_mass)
     for axis in range(2):
         x, v, r, u = start[2 + axis], start[8 + axis], start[4 + axis], start[10 + axis]
-        outer = _flow(weights, axis, HALF, x, v, r, u)
-        outer_rate = _flow(weights, axis, HALF + 1, x, v, r, u)
+        outer = flow_component(weights, axis, HALF, x, v, r, u)
+        outer_rate = flow_component(weights, axis, HALF + 1, x, v, r, u)
         stage[axis, 0] = start[axis] + 0.5 * step * start[6 + axis] - outer
         stage[axis, 1] = start[6 + axis] - outer_rate
         stage[axis, 2] = stage[axis, 0] + 0.125 * square * g1[axis] - weights[axis, TO_2_3, 0] * force[axis]
         stage[axis, 3] = stage[axis, 1] + 0.5 * step * g1[axis] - weights[axis, TO_2_3, 1] * force[axis]
-        end[2 + axis] = _flow(weights, axis, WHOLE, x, v, r, u)
-        end[8 + axis] = _flow(weights, axis, WHOLE + 1, x, v, r, u)
-        end[4 + axis] = _flow(weights, axis, WHOLE + 2, x, v, r, u)
-        end[10 + axis] = _flow(weights, axis, WHOLE + 3, x, v, r, u)
+        end[2 + axis] = flow_component(weights, axis, WHOLE, x, v, r, u)
+        end[8 + axis] = flow_component(weights, axis, WHOLE + 1, x, v, r, u)
+        end[4 + axis] = flow_component(weights, axis, WHOLE + 2, x, v, r, u)
+        end[10 + axis] = flow_component(weights, axis, WHOLE + 3, x, v, r, u)
 
     move_to(balls, frames, track, time + 0.5 * step)
     load = outer_load(motion, time + 0.5 * step)
@@ -98,7 +98,7 @@ def step_exponential_rk4(
 
 
 @njit
-def _flow(weights: Array, axis: int, row: int, x: float, v: float, r: float, u: float) -> float:
+def flow_component(weights: Array, axis: int, row: int, x: float, v: float, r: float, u: float) -> float:
     """One component of outer ring or resonator after the linear flow alone, from (xo, vo, xr, vr) along one axis."""
     w = weights
     return w[axis, row, 0] * x + w[axis, row, 1] * v + w[axis, row, 2] * r + w[axis, row, 3] * u

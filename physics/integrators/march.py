@@ -85,20 +85,21 @@ def locate(
     after: tuple[float, float],
     halfway: bool,
 ) -> tuple[float, int]:
-    """Share of the step and ball of the first contact change in the trial step `now` to `then`; ball −1 if none."""
+    """Share of the step and ball of the first contact change in the trial step `now` to `then`; ball −1 if none.
+
+    `balls` is as `press` left it at the end of the step; leaves it somewhere inside.
+    """
     begin, end = np.empty((3, 2)), np.empty((3, 2))
-    suspects = np.zeros(balls.shape[0] * balls.shape[2])
+    suspects = np.zeros((balls.shape[0], balls.shape[2]))
     relative_motion(motion, time, step, now, force, begin)
     relative_motion(motion, time + step, step, then, after, end)
+    mark_suspects(balls, law, 1.0, suspects)
     if halfway:
         set_time(balls, frames, track, time + 0.5 * step)
         x, u = quintic(begin, end, 0, 0.5)
         y, v = quintic(begin, end, 1, 0.5)
         press(balls, frames, law, x, y, u / step, v / step)
         mark_suspects(balls, law, 0.5, suspects)
-        set_time(balls, frames, track, time + step)
-        press_state(balls, frames, law, then)
-    mark_suspects(balls, law, 1.0, suspects)
     share, ball, _ = earliest_change(balls, law, track, time, step, begin, end, suspects)
     return share, ball
 
@@ -150,7 +151,7 @@ def record(
     return size < LARGEST_ACCELERATION
 
 
-@njit
+@njit_lean
 def passed_kinks(stops: Stops, place: int, time: float) -> int:
     """Index of the first kink after `time`, counting on from `place`."""
     while place < stops.time.size and stops.time[place] <= time:
@@ -158,7 +159,7 @@ def passed_kinks(stops: Stops, place: int, time: float) -> int:
     return place
 
 
-@njit
+@njit_lean
 def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
     """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`.
 

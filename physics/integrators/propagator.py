@@ -32,11 +32,11 @@ class PowerSeries(NamedTuple):
     reach: float
 
 
-# Rows of the weights of one step, (2, 12, 4), first index the axis: exp(hL) in the order (xo, vo, xr, vr); the rows
+# Rows of the weights of one step, (2, 13, 4), first index the axis: exp(hL) in the order (xo, vo, xr, vr); the rows
 # (xo, vo) of exp(hL/2); the weights of the stages' forces in the new state; and, in pairs for (xo, vo), the weights of
-# the forces in later stages, for the exponential Runge-Kutta method of Krogstad.
-WHOLE, HALF, FIRST, MIDDLE, LAST, TO_2_3, TO_3_4, TO_4 = 0, 4, 6, 7, 8, 9, 10, 11
-WEIGHT_ROWS = 12
+# the forces in later stages, for the exponential Runge-Kutta method of Krogstad; last φ4, for a force with a cube.
+WHOLE, HALF, FIRST, MIDDLE, LAST, TO_2_3, TO_3_4, TO_4, CUBE = 0, 4, 6, 7, 8, 9, 10, 11, 12
+WEIGHT_ROWS = 13
 
 
 def linear_matrix(motion: MotionModel, axis: int) -> Array:
@@ -79,8 +79,8 @@ def power_series(motion: MotionModel, step: float) -> PowerSeries:
 
 @njit
 def set_step(series: PowerSeries, weights: Array, share: float) -> None:
-    """Fill `weights` (2, 12, 4) for a step of `share` (0 to 1) times the step of the series."""
-    phi = np.zeros((4, 4))
+    """Fill `weights` (2, 13, 4) for a step of `share` (0 to 1) times the step of the series."""
+    phi = np.zeros((5, 4))
     for axis in range(2):
         _sum_matrix(series.power[axis], share, series.reach, weights[axis, WHOLE : WHOLE + 4])
         _sum_matrix(series.power[axis, :, :2], 0.5 * share, series.reach, weights[axis, HALF : HALF + 2])
@@ -95,6 +95,7 @@ def set_step(series: PowerSeries, weights: Array, share: float) -> None:
             weights[axis, FIRST, row] = phi[1, row] - 3.0 * phi[2, row] + 4.0 * phi[3, row]
             weights[axis, MIDDLE, row] = 2.0 * phi[2, row] - 4.0 * phi[3, row]
             weights[axis, LAST, row] = 4.0 * phi[3, row] - phi[2, row]
+            weights[axis, CUBE, row] = phi[4, row]
         for row in range(2):
             weights[axis, TO_3_4, 2 + row] = phi[1, row] - 2.0 * phi[2, row]
             weights[axis, TO_4, row] = 2.0 * phi[2, row]
@@ -116,7 +117,7 @@ def _sum_matrix(power: Array, share: float, reach: float, total: Array) -> None:
 
 @njit
 def _sum_phi(kick: Array, share: float, reach: float, phi: Array) -> None:
-    """Rows m = 1, 2, 3 of `phi`: φm(share h0 L) b share h0 = Σ_j share^(j + 1) (h0 L)^j b h0 / (j + m)!"""
+    """Rows m = 1 to 4 of `phi`: φm(share h0 L) b share h0 = Σ_j share^(j + 1) (h0 L)^j b h0 / (j + m)!"""
     phi[:] = 0.0
     weight, size = share, 1.0
     for j in range(kick.shape[0]):
@@ -127,6 +128,7 @@ def _sum_phi(kick: Array, share: float, reach: float, phi: Array) -> None:
             phi[1, row] += one * kick[j, row]
             phi[2, row] += two * kick[j, row]
             phi[3, row] += three * kick[j, row]
+            phi[4, row] += three / (j + 4.0) * kick[j, row]
         weight *= share / (j + 1.0)
         size *= share * reach / (j + 1.0)
         if size < SERIES_TOLERANCE:

@@ -246,7 +246,7 @@ def test_a_ball_touches_where_it_is_compressed_and_without_tension_only_where_it
             pressed_in = of_ball(model.balls, COMPRESSION, ball) > 0
             pushes = of_ball(model.balls, LAW, ball) > 0
             expected = pressed_in and (law == "paper" or pushes)
-            assert touches(model.balls, model.law, ball) == expected
+            assert touches(model.balls, model.law, 0, ball) == expected
 
 
 @given(start=st.floats(0, 6.28), x=st.floats(-2e-5, 2e-5), y=st.floats(-2e-5, 2e-5), turn=st.floats(-3, 3))

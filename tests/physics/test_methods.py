@@ -17,12 +17,18 @@ SMOOTH = {
     "runge_kutta4": (3, 4, 6, 8, 12),
     "dormand_prince": (8, 10, 12, 16),
     "generalised_alpha": (16, 24, 32, 48),
+    "exponential_adams2": (8, 12, 16, 24),
+    "exponential_adams3": (6, 8, 12, 16),
+    "exponential_adams4": (4, 6, 8, 12),
 }
 ON_LINE_SPALLS = {
     "exponential_rk4": (1, 2, 3, 4, 6, 8, 12),
     "runge_kutta4": (3, 4, 6, 8, 12),
     "dormand_prince": (3, 4, 6, 8),
     "generalised_alpha": (8, 12, 16, 24, 32),
+    "exponential_adams2": (4, 6, 8, 12, 16, 24),
+    "exponential_adams3": (6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 32),
+    "exponential_adams4": (3, 4, 6, 8, 12, 16, 24, 32),
 }
 
 
@@ -54,7 +60,7 @@ def test_every_march_and_the_reference_state_their_contract():
     for name, method in METHODS.items():
         assert method.name == name
         assert method.order >= 2.0
-        assert method.stability_limit > 1.0
+        assert method.stability_limit >= 0.5
         assert all((method.title, method.limits, method.dense_output, method.events, method.purpose, method.source))
 
 
@@ -74,7 +80,10 @@ def test_the_order_on_line_spalls_is_the_stated_one_or_n_plus_1(method, name, re
     assert order(scene, method, ON_LINE_SPALLS[method], finest=96) > least - 0.1
 
 
-@pytest.mark.parametrize("method", sorted(set(MARCHES) - {"generalised_alpha"}))
+OF_ORDER_2 = ("exponential_adams2", "generalised_alpha")
+
+
+@pytest.mark.parametrize("method", sorted(set(MARCHES) - set(OF_ORDER_2)))
 def test_every_method_finds_the_same_contact_changes(method, reference_scene):
     scene = reference_scene("F1", 0.06)
     expected = simulate(scene, RATE, method=REFERENCE).changes
@@ -84,10 +93,11 @@ def test_every_method_finds_the_same_contact_changes(method, reference_scene):
     assert np.abs(found.time - expected.time).max() < 2e-8  # s; the loosest pair has an error of 1e-5 of the RMS
 
 
-def test_the_implicit_method_finds_the_contact_changes_of_its_order(reference_scene):
+@pytest.mark.parametrize("method", OF_ORDER_2)
+def test_methods_of_order_2_find_the_contact_changes_of_their_order(method, reference_scene):
     scene = reference_scene("F1", 0.06)
     expected = simulate(scene, RATE, method=REFERENCE).changes
-    found = simulate(scene, RATE, method="generalised_alpha", substeps=16, estimate_error=False).changes
+    found = simulate(scene, RATE, method=method, substeps=16, estimate_error=False).changes
     assert np.array_equal(found.ball, expected.ball)
     assert np.abs(found.time - expected.time).max() < 2e-6  # s; its error of acceleration is 0.3 % at this step
 

@@ -17,8 +17,17 @@ from physics.statics import equilibrium
 
 RATE = 65536.0
 # Steps a sample at which each method is within its tolerance below on ordinary scenes.
-STEPS = {"exponential_rk4": 1, "runge_kutta4": 4, "dormand_prince": 4, "generalised_alpha": 24}
+STEPS = {
+    "exponential_rk4": 1,
+    "runge_kutta4": 4,
+    "dormand_prince": 4,
+    "generalised_alpha": 24,
+    "exponential_adams2": 32,
+    "exponential_adams3": 4,
+    "exponential_adams4": 2,
+}
 TOLERANCE = {"exponential_rk4": 3e-3, "runge_kutta4": 3e-3, "dormand_prince": 3e-3, "generalised_alpha": 3e-2}
+TOLERANCE |= dict.fromkeys(("exponential_adams2", "exponential_adams3", "exponential_adams4"), 3e-3)
 
 
 def rms(values):

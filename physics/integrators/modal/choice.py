@@ -6,14 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.contact import ACTIVE, count_ahead, of_ball
-from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE, Stops
+from physics.contact import count_ahead
+from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE, Stops, next_kink
 from physics.integrators.modal.memory import (
     BALL,
     CAREFUL,
     CELL,
     GRADED,
     LEFT,
+    NEARLY,
     NO_BALL,
     ON_GRID,
     PACE,
@@ -28,17 +29,8 @@ Array = NDArray[np.float64]
 
 # A stride is taken only if no ball would change sides within this many times its length.
 LOOK_AHEAD = 1.0
-NEARLY = 1e-6
-
-
-@njit_inline
-def active_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
-    """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`."""
-    while place < stops.time.size and stops.time[place] < finish:
-        if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
-            return stops.time[place]
-        place += 1
-    return finish
+# A pace below this share of a unit leaves the grid; a rest of a unit below this share of a step joins it.
+SHORT = 0.7
 
 
 @njit_inline
@@ -54,12 +46,28 @@ def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> in
         if (
             clock[PACE] >= length
             and marks[CELL] + UNITS * (1 << level) <= (grid.samples - 1) * UNITS
-            and active_kink(balls, stops, marks[STOP], finish) >= finish
+            and next_kink(balls, stops, marks[STOP], finish) >= finish
             and count_ahead(balls, LOOK_AHEAD * length) == 0
         ):
             break
         level -= 1
     return level
+
+
+@njit_inline
+def short_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple[int, int, float, float]:
+    """What `next_step` returns for a pace below a unit: a step off the grid, or up to the next unit or kink."""
+    clock, marks = memory.clock, memory.marks
+    unit = grid.interval / UNITS
+    line = (marks[CELL] + 1) * unit
+    target = min(line, clock[TIME] + clock[PACE])
+    smallest, nudge = SMALLEST_STEP_SHARE * grid.interval, KINK_NUDGE_SHARE * grid.interval
+    if line - target < SHORT * clock[PACE]:
+        target = line
+    kink = next_kink(balls, stops, marks[STOP], target - smallest)
+    if kink < target - smallest:
+        return 0, 0, kink - nudge, kink + nudge
+    return 0, 1 if target == line else 0, target, target
 
 
 @njit_inline
@@ -79,21 +87,15 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple
     if level > 0:
         units = UNITS * (1 << level)
         return UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit
+    if clock[PACE] < SHORT * unit:
+        return short_step(balls, grid, stops, memory)
     sample_end = (marks[CELL] // UNITS + 1) * UNITS
     reach = int((time + clock[PACE]) / unit + NEARLY)
     units = min(sample_end, max(marks[CELL] + 1, reach)) - marks[CELL]
     target = (marks[CELL] + units) * unit
     smallest = SMALLEST_STEP_SHARE * grid.interval
-    kink = active_kink(balls, stops, marks[STOP], target - smallest)
+    kink = next_kink(balls, stops, marks[STOP], target - smallest)
     if kink < target - smallest:
         nudge = KINK_NUDGE_SHARE * grid.interval
         return 0, 0, kink - nudge, kink + nudge
     return units if marks[ON_GRID] == 1 else 0, units, target, target
-
-
-@njit_inline
-def pass_stops(grid: Stride, stops: Stops, memory: Memory) -> None:
-    """Count on to the first kink that is still ahead."""
-    passed = memory.clock[TIME] + SMALLEST_STEP_SHARE * grid.interval
-    while memory.marks[STOP] < stops.time.size and stops.time[memory.marks[STOP]] <= passed:
-        memory.marks[STOP] += 1

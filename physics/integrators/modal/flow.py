@@ -20,36 +20,34 @@ from physics.motion import MotionModel
 
 Array = NDArray[np.float64]
 
-# Rows of `rows`, real and imaginary part each: eigenvalue (1/s), amplitude of the mode per unit of contact force, and
-# the modes' shares in what is read from them: displacement, velocity and acceleration of the inner relative to the
-# outer ring, acceleration of the resonator, from SHAPE on the six states of the direction (among them the outer ring's
-# displacement and velocity), and the outer ring's acceleration but for the force on it.
-RATE, KICK, DISPLACEMENT, VELOCITY, ACCELERATION, OUTPUT, SHAPE = 0, 2, 4, 6, 8, 10, 12
-OUTER, OUTER_SPEED, OUTER_ACCELERATION = SHAPE + 4, SHAPE + 6, 24
-FLOW_ROWS = 26
-# Columns of `rest`: displacement, velocity and acceleration of inner relative to outer ring, resonator acceleration,
-# from STATE on the six states (among them the outer ring's displacement and velocity), its acceleration.
-REST_RELATIVE, REST_OUTPUT, REST_STATE = 0, 3, 4
-REST_OUTER = REST_STATE + 2
-REST_OUTER_ACCELERATION = 10
-REST_COLUMNS = 11
-STATES = slice(REST_STATE, REST_OUTER_ACCELERATION)
-# Places of the first readings, in the order of the rows from DISPLACEMENT on.
-DISPLACEMENT_READING, VELOCITY_READING, ACCELERATION_READING, OUTPUT_READING = range(4)
+# A direction has three pairs of amplitudes: real and imaginary part of a swinging mode, or two modes that only decay.
+PAIRS, AXIS, AMPLITUDES = 3, 6, 12
+# What is read from the amplitudes, and what the loads alone add to it: displacement, velocity and acceleration of the
+# inner relative to the outer ring but for the contact force, acceleration of the resonator, the direction's six states
+# (among them the outer ring's displacement and velocity), the outer ring's acceleration but for the force on it.
+DISPLACEMENT, VELOCITY, ACCELERATION, OUTPUT, SHAPE = range(5)
+OUTER, OUTER_SPEED, OUTER_ACCELERATION = SHAPE + 2, SHAPE + 3, SHAPE + 6
+READINGS = 11
+STATES = slice(SHAPE, OUTER_ACCELERATION)
 # An eigenvector basis worse conditioned than this loses the digits that its modes stand for.
 WORST_CONDITION = 1e9
 DEFECT_SHIFT = 1e-6
 
 
 class LinearFlow(NamedTuple):
-    """Modes of both directions, as the kernels read them.
+    """Modes of both directions, as the kernels read them; amplitudes are numbered direction, pair, part.
 
-    `rows` (26, 2, M): rows, then x or y, then mode. `stiffness`, `damping`: the spring (N/m)
-    and damper (N s/m) along x and y that stand for the contacts. `jump` (1/kg): relative acceleration per unit of
-    contact force. `rest`, `cosine`, `sine` (2, 11): what the loads alone do, constant and turning at `shaft_speed`.
+    `rate` (12,) 1/s: real and imaginary part of a swinging pair's eigenvalue, or the eigenvalues of two decaying modes.
+    `twist` (6,): 1 for a swinging pair, 0 for a decaying one. `kick` (12,): amplitudes per unit of contact force.
+    `read` (11, 12): the amplitudes' shares in the readings. `stiffness`, `damping`: the spring (N/m) and damper (N s/m)
+    along x and y that stand for the contacts. `jump` (1/kg): relative acceleration per unit of contact force. `rest`,
+    `cosine`, `sine` (2, 11): what the loads alone do, constant and turning at `shaft_speed`.
     """
 
-    rows: Array
+    rate: Array
+    twist: Array
+    kick: Array
+    read: Array
     stiffness: tuple[float, float]
     damping: tuple[float, float]
     jump: float
@@ -63,21 +61,26 @@ class LinearFlow(NamedTuple):
 
 def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tuple[float, float]) -> LinearFlow:
     """The modes of `motion` with springs `stiffness` (N/m, above zero) and dampers (N s/m) in place of the contacts."""
-    bases = [_modes(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)]
-    rows = np.zeros((FLOW_ROWS, 2, max(basis[0].size for basis in bases)))
-    rest, cosine, sine = np.zeros((3, 2, REST_COLUMNS))
-    for axis, (rate, shape, kick) in enumerate(bases):
-        read = _readings(motion, axis, shape)
-        read[ACCELERATION_READING] = read[VELOCITY_READING] * rate
-        read[REST_OUTER_ACCELERATION] = shape[3] * rate
-        reads = zip(range(4, FLOW_ROWS, 2), read, strict=True)
-        for row, values in ((RATE, rate), (KICK, kick), *reads):
-            rows[row, axis, : rate.size], rows[row + 1, axis, : rate.size] = values.real, values.imag
-        matrix, push = _matrix(motion, axis, stiffness[axis], damping[axis]), _push(motion)
-        for target, response in zip((rest, cosine, sine), _loaded(motion, axis, matrix, push), strict=True):
-            target[axis] = response
+    rate, kick, twist = np.zeros(AMPLITUDES), np.zeros(AMPLITUDES), np.zeros(2 * PAIRS)
+    read = np.zeros((READINGS, AMPLITUDES))
+    rest, cosine, sine = np.zeros((3, 2, READINGS))
+    for axis in range(2):
+        matrix = _matrix(motion, axis, stiffness[axis], damping[axis])
+        values, shape, push = _modes(motion, matrix, stiffness[axis])
+        shares = _readings(motion, shape)
+        shares[ACCELERATION] = shares[VELOCITY] * values
+        shares[OUTER_ACCELERATION] = shape[3] * values
+        swinging, here = values.imag > 0.0, slice(axis * AXIS, (axis + 1) * AXIS)
+        rate[here], kick[here] = _parts(values, swinging), _parts(push, swinging)
+        read[:, here] = _parts(shares.conj(), swinging)
+        twist[axis * PAIRS : axis * PAIRS + swinging.sum()] = 1.0
+        loaded = _loaded(motion, axis, matrix, np.array([0.0, 1.0 / motion.inner_mass, 0.0, 0.0, 0.0, 0.0]))
+        rest[axis], cosine[axis], sine[axis] = loaded
     return LinearFlow(
-        rows=rows,
+        rate=rate,
+        twist=twist,
+        kick=kick,
+        read=read,
         stiffness=stiffness,
         damping=damping,
         jump=-(1.0 / motion.inner_mass + 1.0 / motion.outer_mass),
@@ -90,12 +93,18 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     )
 
 
-def _readings(motion: MotionModel, axis: int, states: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _parts(values: NDArray[np.complex128], swinging: NDArray[np.bool_]) -> Array:
+    """Values (..., M) of the modes as real numbers (..., 6): both parts of the swinging, then the decaying ones."""
+    both = np.stack([values[..., swinging].real, values[..., swinging].imag], axis=-1)
+    return np.concatenate([both.reshape(*values.shape[:-1], -1), values[..., ~swinging].real], axis=-1)
+
+
+def _readings(motion: MotionModel, states: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Readings (11, M) of states (6, M); the two that need a rate of change are left zero."""
-    read = np.zeros((REST_COLUMNS, states.shape[1]), dtype=np.complex128)
+    read = np.zeros((READINGS, states.shape[1]), dtype=np.complex128)
     xi, vi, xo, vo, xr, vr = states
-    read[DISPLACEMENT_READING], read[VELOCITY_READING] = xi - xo, vi - vo
-    read[OUTPUT_READING] = (
+    read[DISPLACEMENT], read[VELOCITY] = xi - xo, vi - vo
+    read[OUTPUT] = (
         motion.resonator_stiffness * (xo - xr) + motion.resonator_damping * (vo - vr)
     ) / motion.resonator_mass
     read[STATES] = states
@@ -119,20 +128,15 @@ def _matrix(motion: MotionModel, axis: int, k: float, c: float) -> Array:
     )
 
 
-def _push(motion: MotionModel) -> Array:
-    return np.array([0.0, 1.0 / motion.inner_mass, 0.0, 0.0, 0.0, 0.0])
-
-
 def _modes(
-    motion: MotionModel, axis: int, k: float, c: float
+    motion: MotionModel, matrix: Array, stiffness: float
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128]]:
-    """Eigenvalues (M,), right eigenvectors (6, M) and amplitudes per unit of contact force (M,).
+    """Eigenvalues (M,), right eigenvectors (6, M) and amplitudes per unit of contact force (M,), swinging modes first.
 
     Of a pair only the one with positive frequency is kept, its vectors doubled: readings are real parts.
     """
-    matrix = _matrix(motion, axis, k, c)
     # Velocities are scaled by a frequency so that displacements and velocities are of one size.
-    scale = np.array([1.0, math.sqrt(k / motion.inner_mass + 1.0)] * 3)
+    scale = np.array([1.0, math.sqrt(stiffness / motion.inner_mass + 1.0)] * 3)
     scaled = matrix / scale[:, None] * scale[None, :]
     values, vectors = np.linalg.eig(scaled)
     if np.linalg.cond(vectors) > WORST_CONDITION:
@@ -140,8 +144,9 @@ def _modes(
         scaled[1::2, 1::2] *= 1.0 + DEFECT_SHIFT
         values, vectors = np.linalg.eig(scaled)
     force = np.array([0.0, -1.0 / motion.inner_mass, 0.0, 1.0 / motion.outer_mass, 0.0, 0.0]) / scale
-    kick = np.linalg.solve(vectors, force)
-    kept = values.imag >= 0.0
+    kick = np.linalg.solve(vectors, force.astype(np.complex128))
+    values = values.astype(np.complex128)
+    kept = np.concatenate([np.flatnonzero(values.imag > 0.0), np.flatnonzero(values.imag == 0.0)])
     twice = np.where(values[kept].imag > 0.0, 2.0, 1.0)
     return values[kept], vectors[:, kept] * scale[:, None] * twice, kick[kept]
 
@@ -155,31 +160,36 @@ def _loaded(motion: MotionModel, axis: int, matrix: Array, push: Array) -> tuple
     speed = motion.shaft_speed
     still = np.linalg.solve(-matrix, push) * steady
     swing = np.linalg.solve(1j * speed * np.eye(6) - matrix, push) * turning
-    read = _readings(motion, axis, np.column_stack([still.astype(np.complex128), swing]))
-    read[ACCELERATION_READING, 1] = 1j * speed * read[VELOCITY_READING, 1]
-    read[REST_OUTER_ACCELERATION, 1] = 1j * speed * swing[3]
+    read = _readings(motion, np.column_stack([still.astype(np.complex128), swing]))
+    read[ACCELERATION, 1] = 1j * speed * read[VELOCITY, 1]
+    read[OUTER_ACCELERATION, 1] = 1j * speed * swing[3]
     return read[:, 0].real, read[:, 1].real, -read[:, 1].imag
 
 
 @njit_inline
-def reading(rows: Array, row: int, state: Array, axis: int) -> float:
-    """What the modes of one axis in `state` (2, 2, M) add up to in the reading that starts at `row`."""
+def seen(shares: Array, first: int, amplitudes: Array, axis: int) -> float:
+    """Sum of six `shares` from the place `first` on times the `amplitudes` (12,) of one direction."""
     total = 0.0
-    for mode in range(state.shape[2]):
-        total += rows[row, axis, mode] * state[0, axis, mode] - rows[row + 1, axis, mode] * state[1, axis, mode]
+    for k in range(AXIS):
+        total += shares[first + k] * amplitudes[axis * AXIS + k]
     return total
 
 
 @njit_inline
-def relative(rows: Array, state: Array, rest: Array) -> tuple[float, float, float, float]:
+def reading(flow: LinearFlow, row: int, amplitudes: Array, axis: int) -> float:
+    """What the amplitudes (12,) of one direction add to a reading."""
+    return seen(flow.read[row], axis * AXIS, amplitudes, axis)
+
+
+@njit_inline
+def relative(flow: LinearFlow, amplitudes: Array, rest: Array) -> tuple[float, float, float, float]:
     """Displacement x, y (m) and velocity x, y (m/s) of the inner relative to the outer ring."""
-    x, y, u, v = rest[0, 0], rest[1, 0], rest[0, 1], rest[1, 1]
-    for mode in range(state.shape[2]):
-        x += rows[DISPLACEMENT, 0, mode] * state[0, 0, mode] - rows[DISPLACEMENT + 1, 0, mode] * state[1, 0, mode]
-        y += rows[DISPLACEMENT, 1, mode] * state[0, 1, mode] - rows[DISPLACEMENT + 1, 1, mode] * state[1, 1, mode]
-        u += rows[VELOCITY, 0, mode] * state[0, 0, mode] - rows[VELOCITY + 1, 0, mode] * state[1, 0, mode]
-        v += rows[VELOCITY, 1, mode] * state[0, 1, mode] - rows[VELOCITY + 1, 1, mode] * state[1, 1, mode]
-    return x, y, u, v
+    return (
+        rest[0, DISPLACEMENT] + reading(flow, DISPLACEMENT, amplitudes, 0),
+        rest[1, DISPLACEMENT] + reading(flow, DISPLACEMENT, amplitudes, 1),
+        rest[0, VELOCITY] + reading(flow, VELOCITY, amplitudes, 0),
+        rest[1, VELOCITY] + reading(flow, VELOCITY, amplitudes, 1),
+    )
 
 
 @njit_inline
@@ -188,40 +198,32 @@ def set_rest(flow: LinearFlow, time: float, rest: Array) -> None:
     if flow.turning:
         cosine, sine = math.cos(flow.shaft_speed * time), math.sin(flow.shaft_speed * time)
         for axis in range(2):
-            for column in range(REST_COLUMNS):
+            for column in range(READINGS):
                 rest[axis, column] = (
                     flow.rest[axis, column] + cosine * flow.cosine[axis, column] + sine * flow.sine[axis, column]
                 )
 
 
-def amplitudes(flow: LinearFlow, state: Array) -> Array:
-    """Amplitudes (2, 2, M), real and imaginary first, of the physical state (12,) at t = 0."""
-    found = np.zeros((2, 2, flow.rows.shape[2]))
+def amplitudes_of(flow: LinearFlow, state: Array) -> Array:
+    """Amplitudes (12,) of the physical state (12,) at t = 0."""
+    found = np.zeros(AMPLITUDES)
     for axis in range(2):
+        here = slice(axis * AXIS, (axis + 1) * AXIS)
         away = state[[axis, 6 + axis, 2 + axis, 8 + axis, 4 + axis, 10 + axis]]
         away = away - flow.rest[axis, STATES] - flow.cosine[axis, STATES]
-        real, imaginary = (
-            flow.rows[SHAPE:OUTER_ACCELERATION:2, axis],
-            -flow.rows[SHAPE + 1 : OUTER_ACCELERATION : 2, axis],
-        )
-        used = np.any(real != 0.0, axis=0)
-        swinging = flow.rows[RATE + 1, axis] != 0.0
-        solved = np.linalg.solve(np.concatenate([real[:, used], imaginary[:, swinging]], axis=1), away)
-        found[0, axis, used] = solved[: used.sum()]
-        found[1, axis, swinging] = solved[used.sum() :]
+        found[here] = np.linalg.solve(flow.read[STATES, here], away)
     return found
 
 
 @njit_lean
-def physical_state(flow: LinearFlow, time: float, modal: Array, state: Array) -> None:
-    """Fill `state` (12,), displacements (m) then velocities (m/s), from the amplitudes `modal` (2, 2, M) at `time`."""
+def physical_state(flow: LinearFlow, time: float, amplitudes: Array, state: Array) -> None:
+    """Fill `state` (12,), displacements (m) then velocities (m/s), from the `amplitudes` (12,) at `time`."""
     cosine, sine = math.cos(flow.shaft_speed * time), math.sin(flow.shaft_speed * time)
     for axis in range(2):
         for part in range(6):
-            column = REST_STATE + part
-            value = flow.rest[axis, column] + cosine * flow.cosine[axis, column] + sine * flow.sine[axis, column]
-            value += reading(flow.rows, SHAPE + 2 * part, modal, axis)
-            state[part // 2 * 2 + part % 2 * 6 + axis] = value
+            row = SHAPE + part
+            value = flow.rest[axis, row] + cosine * flow.cosine[axis, row] + sine * flow.sine[axis, row]
+            state[part // 2 * 2 + part % 2 * 6 + axis] = value + reading(flow, row, amplitudes, axis)
 
 
 def ringing(flow: LinearFlow) -> float:
@@ -231,14 +233,18 @@ def ringing(flow: LinearFlow) -> float:
     """
     sums = []
     for axis in range(2):
-        rate = flow.rows[RATE, axis] + 1j * flow.rows[RATE + 1, axis]
-        share = (flow.rows[OUTPUT, axis] + 1j * flow.rows[OUTPUT + 1, axis]) * (
-            flow.rows[KICK, axis] + 1j * flow.rows[KICK + 1, axis]
-        )
+        rate, kick, read = (_complex_modes(flow, values, axis) for values in (flow.rate, flow.kick, flow.read[OUTPUT]))
         used = rate.real < 0.0
-        rate, share = rate[used], share[used]
+        rate, share = rate[used], (read.conj() * kick)[used]
         # Re(s e^λt) Re(s' e^λ't), integrated from 0 to ∞, for all pairs of modes.
         same = share[:, None] * share / (rate[:, None] + rate)
         mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())
         sums.append(-0.5 * float((same + mixed).sum().real))
     return max(sums)
+
+
+def _complex_modes(flow: LinearFlow, values: Array, axis: int) -> NDArray[np.complex128]:
+    """Of the real numbers `values` (12,) those of one direction as complex ones, one a mode."""
+    pairs = values[axis * AXIS : (axis + 1) * AXIS].reshape(PAIRS, 2)
+    swinging = flow.twist[axis * PAIRS : (axis + 1) * PAIRS] > 0.0
+    return np.concatenate([pairs[swinging] @ np.array([1.0, 1j]), pairs[~swinging].ravel()])

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.contact import Law, count_dips
+from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, count_dips
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
@@ -18,6 +18,7 @@ from physics.integrators.modal.memory import (
     ON_GRID,
     PACE,
     RATIO,
+    SHORTEST,
     SQUARES,
     TOLERANCE,
     UNITS,
@@ -31,6 +32,11 @@ Array = NDArray[np.float64]
 # fourth derivative over 2880; and, relative, for the force (t − t0)^1.5 with which contact starts and ends.
 SIMPSON_ERROR = 1.0 / 2880.0
 START_ERROR = 0.0024
+# And, over the step's length, in terms of how far the middle strays from the cubic of values and rates at both ends.
+HERMITE_ERROR = 2.0 / 15.0
+# The tolerance grows or shrinks by what the errors so far make of the budget, within these bounds, as if this many
+# samples had kept to it before the first.
+LEAST_SPENT, MOST_SPENT, BUDGET_SAMPLES = 0.25, 8.0, 512
 # Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
 UNIT_ERROR = 0.29
 # A contact change may be wrong by this share of the tolerance, and counts, with the steps next to it, as this many.
@@ -62,11 +68,15 @@ def set_foretelling(ratio: float, foretelling: Array) -> None:
     foretelling[4] = 96.0 * SIMPSON_ERROR / ((0.5 + a) * (0.5 + b))
 
 
-@njit_lean
+@njit_inline
 def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
-    """Let the tolerance follow the acceleration of `samples` samples."""
-    square = memory.clock[SQUARES] / (grid.seen_samples + samples)
-    memory.clock[TOLERANCE] = max(grid.least, grid.share * math.sqrt(square))
+    """Let the tolerance follow the acceleration of `samples` samples, and what their errors have left of the budget."""
+    clock = memory.clock
+    square = clock[SQUARES] / (grid.seen_samples + samples)
+    tolerance = max(grid.least, grid.share * math.sqrt(square))
+    allowed = grid.spending * tolerance * tolerance
+    spent = (clock[BUDGET] + allowed * BUDGET_SAMPLES) / (allowed * (samples + BUDGET_SAMPLES))
+    clock[TOLERANCE] = tolerance / min(max(spent, LEAST_SPENT), MOST_SPENT)
 
 
 @njit_lean
@@ -89,46 +99,97 @@ def meet_change(
 
 
 @njit_inline
-def dipped(balls: Array, memory: Memory, step: float, units: int) -> bool:
+def may_shrink(grid: Stride, step: float) -> bool:
+    """Whether `step` (s) is long enough to be taken back for a shorter one."""
+    return step > SHORTEST * grid.interval / UNITS
+
+
+@njit_inline
+def dipped(balls: Array, grid: Stride, memory: Memory, step: float) -> bool:
     """Whether some ball seems to change sides and back within the step, which is then to be halved."""
-    if units == 1 or count_dips(balls, memory.noted, step) == 0:
+    if not may_shrink(grid, step) or count_dips(balls, memory.noted, step) == 0:
         return False
     memory.clock[PACE] = 0.5 * step
     return True
 
 
+@njit_lean
+def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: float) -> float:
+    """Momentum (N s) by which the step is wrong, from the balls' motion at its beginning (`noted`), `midway` and end.
+
+    Of the film, Simpson's rule on the rates against the compressions themselves; of the elastic contact, how far the
+    force in the middle is from the cubic through force and rate of force at both ends. Knows nothing of earlier steps.
+    """
+    total = 0.0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            if balls[cage, ACTIVE, j] > 0.5:
+                start, rate = noted[cage, 0, j], noted[cage, 1, j]
+                middle, middle_rate = midway[cage, 0, j], midway[cage, 1, j]
+                end, end_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
+                film = end - start - step / 6.0 * (rate + 4.0 * middle_rate + end_rate)
+                root, end_root = compression_power(law, start), compression_power(law, end)
+                told = 0.5 * (max(start, 0.0) * root + max(end, 0.0) * end_root)
+                told += 0.125 * step * law.exponent * (root * rate - end_root * end_rate)
+                elastic = max(middle, 0.0) * compression_power(law, middle) - told
+                total += abs(law.damping * film) + HERMITE_ERROR * step * law.stiffness * abs(elastic)
+    return total
+
+
 @njit_inline
-def judge(
-    grid: Stride,
+def compression_power(law: Law, compression: float) -> float:
+    """Compression (m) to the power of the contact law's exponent less one; 0 out of contact."""
+    if compression <= 0.0:
+        return 0.0
+    return math.sqrt(compression) if law.exponent == 1.5 else compression ** (law.exponent - 1.0)
+
+
+@njit_inline
+def foretelling_error(
     memory: Memory,
     step: float,
-    units: int,
     force: tuple[float, float],
     middle: tuple[float, float],
     after: tuple[float, float],
-) -> bool:
-    """Set the pace by how well the past foretold the force in the middle of the step; False to take it back."""
-    clock, told, past = memory.clock, memory.foretelling, memory.past
-    tolerance = clock[TOLERANCE]
-    if clock[BEFORE] == 0.0:
-        clock[BUDGET] += tolerance * tolerance
-        clock[PACE] = min(max(2.0 * step, clock[PACE]), grid.interval)
-        return True
-    ratio = clock[BEFORE] / step
-    if ratio != clock[RATIO]:
-        clock[RATIO] = ratio
+) -> float:
+    """Momentum (N s) by which the step is wrong, from how well the past foretold the force in its middle."""
+    told, past = memory.foretelling, memory.past
+    ratio = memory.clock[BEFORE] / step
+    if ratio != memory.clock[RATIO]:
+        memory.clock[RATIO] = ratio
         set_foretelling(ratio, told)
     error = 0.0
     for axis in range(2):
         foretold = told[0] * past[0, axis] + told[1] * past[1, axis] + told[2] * force[axis] + told[3] * after[axis]
         error += abs(foretold - middle[axis])
-    error *= step * told[4]
-    if error > REJECTED * tolerance and units > 1:
+    return error * step * told[4]
+
+
+@njit_inline
+def judge(
+    balls: Array,
+    law: Law,
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    force: tuple[float, float],
+    middle: tuple[float, float],
+    after: tuple[float, float],
+) -> bool:
+    """Set the pace by the error of the step; False to take it back."""
+    clock, first, tolerance = memory.clock, memory.clock[BEFORE] == 0.0, memory.clock[TOLERANCE]
+    if first:
+        error = resolution_error(balls, law, memory.noted, memory.midway, step)
+    else:
+        error = foretelling_error(memory, step, force, middle, after)
+    if error > REJECTED * tolerance and may_shrink(grid, step):
         clock[PACE] = 0.5 * step
         return False
     clock[BUDGET] += error * error
     if error > tolerance:
-        clock[PACE] = max(0.5 * step, grid.interval / UNITS)
+        clock[PACE] = 0.5 * step
+    elif first:
+        clock[PACE] = min(max(2.0 * step, clock[PACE]), grid.interval)
     elif error < DOUBLED * tolerance:
         clock[PACE] = 2.0 * step
     elif error > 2.0 * DOUBLED * tolerance and step < clock[PACE]:

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import ACTIVE, Law, Track, of_ball, press, set_time, touches
+from physics.contact import Law, Track, press, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic
 from physics.integrators.modal.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
+from physics.integrators.modal.grazing import follow_grazing
 
 Array = NDArray[np.float64]
 
@@ -18,10 +19,10 @@ def relative_motion(
     flow: LinearFlow, step: float, state: Array, force_x: float, force_y: float, rest: Array, ends: Array
 ) -> None:
     """Fill `ends` (3, 2): displacement, step · velocity and step² · acceleration of inner relative to outer ring."""
-    ends[0, 0], ends[0, 1], u, v = relative(flow.rows, state, rest)
+    ends[0, 0], ends[0, 1], u, v = relative(flow, state, rest)
     ends[1, 0], ends[1, 1] = step * u, step * v
-    a = reading(flow.rows, ACCELERATION, state, 0) + rest[0, 2] + flow.jump * force_x
-    b = reading(flow.rows, ACCELERATION, state, 1) + rest[1, 2] + flow.jump * force_y
+    a = reading(flow, ACCELERATION, state, 0) + rest[0, ACCELERATION] + flow.jump * force_x
+    b = reading(flow, ACCELERATION, state, 1) + rest[1, ACCELERATION] + flow.jump * force_y
     ends[2, 0], ends[2, 1] = step * step * a, step * step * b
 
 
@@ -40,28 +41,30 @@ def locate(
     after: tuple[float, float],
     rest: Array,
     halfway: bool,
+    grazing: bool,
     ends: Array,
     suspects: Array,
 ) -> tuple[float, int, float]:
     """Share of the step, ball and its speed of compression (m/s) of the first contact change in the trial step `now` to
     `then`; ball −1 if none.
 
-    `rest` (2, 11) is of the end of the step; leaves `balls` somewhere inside it.
+    The change was seen at the end of the step, `halfway`, or may lie between: if `grazing`, `suspects` (G, M) says how
+    often to look. `rest` (2, 11) is of the end of the step, as is `balls`, which is left somewhere inside it.
     """
     begin, end = ends[0], ends[1]
-    for ball in range(suspects.size):
-        suspects[ball] = 0.0
     relative_motion(flow, step, then, after[0], after[1], rest, end)
     set_rest(flow, time, rest)
     relative_motion(flow, step, now, force[0], force[1], rest, begin)
     set_rest(flow, time + step, rest)
+    if grazing:
+        follow_grazing(balls, law, track, time, step, begin, end, suspects)
+    else:
+        suspects[:] = 0.0
     mark_suspects(balls, law, 1.0, suspects)
     if halfway:
         set_time(balls, frames, track, time + 0.5 * step)
         x, u = quintic(begin, end, 0, 0.5)
         y, v = quintic(begin, end, 1, 0.5)
         press(balls, frames, law, x, y, u / step, v / step)
-        for ball in range(suspects.size):
-            if touches(balls, law, ball) != (of_ball(balls, ACTIVE, ball) > 0.5):
-                suspects[ball] = 0.5
+        mark_suspects(balls, law, 0.5, suspects)
     return earliest_change(balls, law, track, time, step, begin, end, suspects)

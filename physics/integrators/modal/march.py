@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean, specialise
 from physics.contact import ACTIVE, Law, Track, count_changes, note_motion, of_ball, reset_contact, set_time
+from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import (
     DONE,
     LARGEST_ACCELERATION,
@@ -29,10 +30,12 @@ from physics.integrators.march import (
     UNLOCATED,
     Output,
     Stops,
+    passed_kinks,
     toggle,
 )
-from physics.integrators.modal.choice import next_step, pass_stops
-from physics.integrators.modal.flow import REST_OUTPUT, LinearFlow, set_rest
+from physics.integrators.modal.choice import next_step
+from physics.integrators.modal.flow import OUTPUT, LinearFlow, set_rest
+from physics.integrators.modal.grazing import is_rough, mark_grazing
 from physics.integrators.modal.judgement import dipped, judge, meet_change, remember, set_tolerance
 from physics.integrators.modal.location import locate
 from physics.integrators.modal.memory import (
@@ -46,6 +49,7 @@ from physics.integrators.modal.memory import (
     ON_GRID,
     PACE,
     SQUARES,
+    STOP,
     TIME,
     TRIED,
     UNITS,
@@ -59,6 +63,8 @@ Array = NDArray[np.float64]
 
 # What a look at a trial step says: take it, or go on from where it began.
 TAKE, AGAIN = range(2)
+# No scene takes this many steps on average: what does, asks for more accuracy than it has.
+MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000
 
 
 @njit_lean
@@ -68,11 +74,11 @@ def begin(
     """Fill the tables of weights, find the first contact set, write sample 0; the remaining contact force (N)."""
     clock, marks = memory.clock, memory.marks
     for k in range(1, UNITS + 1):
-        set_step(flow.rows, memory.weights[k], k * (grid.interval / UNITS), memory.phi)
+        set_step(flow, memory.weights[k], k * (grid.interval / UNITS), memory.phi)
     for level in range(1, grid.levels + 1):
         size = 1 << level
-        set_step(flow.rows, memory.weights[UNITS + level], size * grid.interval, memory.phi)
-        set_inside(flow.rows, memory.inside[size : 2 * size - 1], size * grid.interval, memory.phi[0])
+        set_step(flow, memory.weights[UNITS + level], size * grid.interval, memory.phi)
+        set_inside(flow, memory.inside[size : 2 * size - 1], size * grid.interval, memory.phi[0])
     state = memory.states[0]
     set_rest(flow, 0.0, memory.rest)
     set_time(balls, frames, track, 0.0)
@@ -112,29 +118,36 @@ def look(
     force: tuple[float, float],
     then: Array,
     after: tuple[float, float],
+    contradicted: bool,
     halfway: bool,
+    grazing: bool,
     output: Output,
 ) -> int:
-    """What to do about the trial step `now` to `then` that some ball contradicts: TAKE it or AGAIN.
+    """What to do about the trial step `now` to `then` in which balls may change sides: TAKE it or AGAIN.
 
-    AGAIN: shorter, or up to the change that was located, or from here with a ball that has just changed sides.
+    They do if `contradicted`, and may if `grazing`. AGAIN: shorter, or up to the change that was located, or from here
+    with a ball that has just changed sides.
     """
     clock, marks, rest = memory.clock, memory.marks, memory.rest
-    if units > UNITS:
+    if units > UNITS and contradicted:
         marks[CAREFUL] = marks[CELL] + units
         return AGAIN
     if marks[TRIED] >= MOST_CHANGES_PER_STEP:
-        output.tally[UNLOCATED] += count_changes(balls, law)
-        reset_contact(balls, law)
+        if contradicted:
+            output.tally[UNLOCATED] += count_changes(balls, law)
+            reset_contact(balls, law)
         return TAKE
-    marks[TRIED] += 1
     share, ball, speed = locate(
-        balls, frames, law, track, flow, clock[TIME], step, now, force, then, after, rest, halfway,
+        balls, frames, law, track, flow, clock[TIME], step, now, force, then, after, rest, halfway, grazing,
         memory.ends, memory.suspects,
     )  # fmt: skip
     if ball < 0:
         set_time(balls, frames, track, clock[TIME] + step)
         return TAKE
+    if units > UNITS:
+        marks[CAREFUL] = marks[CELL] + units
+        return AGAIN
+    marks[TRIED] += 1
     meet_change(law, grid, memory, share * step, ball, of_ball(balls, ACTIVE, ball) > 0.5, speed, step)
     if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
         return AGAIN
@@ -166,16 +179,21 @@ def write_sample(
     state: Array,
     force: tuple[float, float],
     units: int,
+    kept: bool,
     output: Output,
 ) -> bool:
-    """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite."""
+    """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite.
+
+    `kept`: more is wanted than the acceleration.
+    """
     clock, marks = memory.clock, memory.marks
     if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0:
         return True
     marks[TRIED] = 0
     sample, weight = marks[CELL] // UNITS, max(1, units // UNITS)
     square = record(balls, flow, state, memory.rest, sample, weight, output)
-    keep(balls, flow, state, memory.rest, force, clock[TIME], sample, output)
+    if kept:
+        keep(balls, flow, state, memory.rest, force, clock[TIME], sample, output)
     clock[SQUARES] += weight * square
     set_tolerance(grid, memory, sample + 1)
     return square < LARGEST_ACCELERATION**2
@@ -215,7 +233,7 @@ def _unbound(*_arguments: object) -> Any:
 
 
 # Bound by `bind_modal_method`: the step of the method, pasted into the march.
-step_pasted: Callable[..., tuple[int, float, float]] = _unbound
+step_pasted: Callable[..., tuple[int, float, float, float, float]] = _unbound
 
 
 def _march(
@@ -229,34 +247,42 @@ def _march(
     memory: Memory,
     output: Output,
 ) -> int:
-    """Fill `output` from the first state of `memory` at t = 0; returns DONE, NOT_FINITE or LOG_FULL."""
+    """Fill `output` from the first state of `memory` at t = 0; returns DONE, NOT_FINITE, LOG_FULL or OUT_OF_STEPS."""
     now, then, rest = memory.states[0], memory.states[1], memory.rest
     clock, marks = memory.clock, memory.marks
     force = begin(balls, frames, law, track, flow, grid, memory, output)
-    room = output.change_time.size
+    most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
+    room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
+    rough = is_rough(track)
+    kept = output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0
     while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
-        pass_stops(grid, stops, memory)
+        if output.tally[STEPS] > most:
+            return OUT_OF_STEPS
+        marks[STOP] = passed_kinks(stops, marks[STOP], clock[TIME] + smallest)
         row, units, target, beyond = next_step(balls, grid, stops, memory)
         start, step = clock[TIME], target - clock[TIME]
         if row == 0:
-            set_step(flow.rows, memory.weights[0], step, memory.phi)
-        before = rest[0, REST_OUTPUT], rest[1, REST_OUTPUT]
+            set_step(flow, memory.weights[0], step, memory.phi)
+        before = rest[0, OUTPUT], rest[1, OUTPUT]
         note_motion(balls, memory.noted)
-        halfway, mx, my = step_pasted(
-            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then, rest
-        )
-        after = remaining_force(balls, frames, law, flow, then, rest)
+        halfway, mx, my, after_x, after_y = step_pasted(
+            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then, rest,
+            memory.midway,
+        )  # fmt: skip
+        after = after_x, after_y
         if marks[BALL] == NO_BALL:
             action = TAKE
-            if halfway + count_changes(balls, law) > 0:
+            contradicted = halfway + count_changes(balls, law) > 0
+            grazing = rough and mark_grazing(balls, track, memory.noted, start, step, memory.suspects) > 0
+            if not contradicted and dipped(balls, grid, memory, step):
+                action = AGAIN
+            elif contradicted or grazing:
                 action = look(
-                    balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, halfway > 0,
-                    output,
+                    balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, contradicted,
+                    halfway > 0, grazing, output,
                 )  # fmt: skip
                 after = remaining_force(balls, frames, law, flow, then, rest)
-            elif dipped(balls, memory, step, units):
-                action = AGAIN
-            if action == TAKE and not judge(grid, memory, step, units, force, (mx, my), after):
+            if action == TAKE and not judge(balls, law, grid, memory, step, force, (mx, my), after):
                 action = AGAIN
             if action != TAKE:
                 set_time(balls, frames, track, start)
@@ -275,12 +301,12 @@ def _march(
         land(grid, memory, units, beyond)
         if arrive(balls, frames, track, grid, memory, step, beyond - target, output):
             force = remaining_force(balls, frames, law, flow, now, rest)
-        if not write_sample(balls, flow, grid, memory, now, force, units, output):
+        if not write_sample(balls, flow, grid, memory, now, force, units, kept, output):
             return NOT_FINITE
     output.budget[0] = clock[BUDGET]
     return DONE if output.tally[LOGGED] < room else LOG_FULL
 
 
-def bind_modal_method(name: str, step: Callable[..., tuple[int, float, float]]) -> Callable[..., int]:
+def bind_modal_method(name: str, step: Callable[..., tuple[int, float, float, float, float]]) -> Callable[..., int]:
     """The march with `step` built in, compiled and cached under the method's `name`."""
     return specialise(_march, f"march_{name}", lean=True, step_pasted=step)

@@ -7,13 +7,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.integrators.modal.flow import LinearFlow
-from physics.integrators.modal.weights import INSIDE_ROWS, WEIGHT_ROWS
+from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
+from physics.integrators.modal.weights import INSIDE_WEIGHTS, STEP_WEIGHTS
 
 Array = NDArray[np.float64]
 
 UNITS = 16
+# Shortest step that an error may ask for, as a share of a unit.
+SHORTEST = 1.0 / 64.0
 NO_BALL = -1
+# Lengths that differ by less than this share of a unit are one.
+NEARLY = 1e-6
 # Entries of `clock`: time (s), longest next step (s), length of the step before (s, 0 if its past is of no use), what
 # is left to the contact change ahead (s), longest step next to it (s), tolerance (N s), sum of the squares of the
 # acceleration (m²/s⁴), ratio of step lengths for which `foretelling` stands, sum of the squares of the errors (N² s²).
@@ -24,10 +28,10 @@ CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID = range(6)
 
 
 class Memory(NamedTuple):
-    """Memory of a march: two states (2, 2, 2, M) and one in between (2, 2, M), weights of every step length and of the
-    samples inside strides, φ-functions, what the loads alone do, scratch for locating changes, contact force at the
-    beginning and in the middle of the step before (2, 2), weights that foretell it (5,), motion of the balls at the
-    beginning of the step (G, 2, M), `clock` and `marks` as above.
+    """Memory of a march: amplitudes (2, 12) at both ends of a step and in between (12,), weights of every step length
+    and of the samples inside strides, φ-functions, what the loads alone do, scratch for locating changes, contact force
+    at the beginning and in the middle of the step before (2, 2), weights that foretell it (5,), motion of the balls at
+    the beginning of the step and midway (G, 2, M), `clock` and `marks` as above.
     """
 
     states: Array
@@ -41,6 +45,7 @@ class Memory(NamedTuple):
     past: Array
     foretelling: Array
     noted: Array
+    midway: Array
     clock: Array
     marks: NDArray[np.int64]
 
@@ -50,7 +55,8 @@ class Stride(NamedTuple):
 
     One step may be wrong by the momentum (N s) `share` times the root mean square of the resonator's acceleration
     (m/s²) seen so far, or by `least` if that is more. `seen` (m²/s⁴) is what to take for the mean square at the start,
-    with the weight of `seen_samples`.
+    with the weight of `seen_samples`. The squares of the momenta by which a sample may be wrong on average: `spending`
+    times the square of that tolerance.
     """
 
     samples: int
@@ -60,23 +66,24 @@ class Stride(NamedTuple):
     least: float
     seen: float
     seen_samples: float
+    spending: float
 
 
 def memory_for(flow: LinearFlow, start: Array, grid: Stride, cages: int, balls: int) -> Memory:
-    """Memory for a march on `grid` from the amplitudes `start` (2, 2, M), for `cages` of `balls` columns each."""
-    modes = start.shape[2]
+    """Memory for a march on `grid` from the amplitudes `start` (12,), for `cages` of `balls` columns each."""
     return Memory(
         states=np.stack([start, np.zeros_like(start)]),
         between=np.zeros_like(start),
-        weights=np.zeros((UNITS + grid.levels + 1, WEIGHT_ROWS, 2, modes)),
-        inside=np.zeros((2 << grid.levels, INSIDE_ROWS, 2, modes)),
-        phi=np.zeros((2, 4, 2, 2, modes)),
+        weights=np.zeros((UNITS + grid.levels + 1, STEP_WEIGHTS)),
+        inside=np.zeros((2 << grid.levels, INSIDE_WEIGHTS)),
+        phi=np.zeros((2, 4, AMPLITUDES)),
         rest=flow.rest.copy(),
         ends=np.zeros((2, 3, 2)),
-        suspects=np.zeros(cages * balls),
+        suspects=np.zeros((cages, balls)),
         past=np.zeros((2, 2)),
         foretelling=np.zeros(5),
         noted=np.zeros((cages, 2, balls)),
+        midway=np.zeros((cages, 2, balls)),
         clock=np.zeros(9),
         marks=np.zeros(6, dtype=np.int64),
     )

@@ -1,0 +1,20 @@
+"""What a recipe says of how exactly its records are simulated."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from datagen.recipes.settings import Table
+from physics.simulate import LARGEST_ACCURACY, SMALLEST_ACCURACY
+
+
+class AccuracySettings(Table):
+    """The error that records may have; the cheapest steps that keep it are taken."""
+
+    relative: Annotated[float, Field(ge=SMALLEST_ACCURACY, le=LARGEST_ACCURACY)] = 1e-3
+    """RMS error of the clean acceleration over its RMS."""
+    below_noise_db: Annotated[float, Field(ge=0.0, le=200.0)] | None = None
+    """An error this far (dB) below the record's own white noise, or below a background of given signal-to-noise ratio
+    over the whole band, is allowed too; not if not given."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from datagen.sizing.estimators import AnyEstimator
-from datagen.sizing.sized_records import SizedRecord
+from datagen.sizing.sized_records import SizedRecord, nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.rules import EnvelopeLagRule
@@ -98,7 +98,7 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator) -> ScoredRecord:
     began = time.process_time()
     told = estimator.estimate(sized.acceleration, sized.rate, situation)
     seconds = time.process_time() - began
-    period = _nominal_period(labels)
+    period = nominal_period(labels)
     in_time, in_arc = _events(told, sized.truth, period, situation.bearing().spacing)
     plain = EnvelopeLagRule().estimate(sized.acceleration, sized.rate, situation)
     static = math.nan
@@ -118,11 +118,6 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator) -> ScoredRecord:
         static_arc=static, envelope_arc=plain.lag_arc, seconds=seconds,
         events_in_time=in_time, events_in_arc=in_arc, known_truth=sized.truth is not None,
     )  # fmt: skip
-
-
-def _nominal_period(labels: dict[str, Any]) -> float:
-    order = {"outer": "bpfo", "inner": "bpfi"}.get(str(labels["location"]), "bpfo")
-    return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))
 
 
 def _events(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +18,9 @@ from labels.spall_size.event_truth import EventTruth, event_truth
 from labels.spall_size.situation import Situation
 
 Array = NDArray[np.float64]
-PASS_COLUMNS = ("entry_time", "exit_time", "release_time", "regain_time", "fall_time", "rise_time")
+PASS_COLUMNS = ("exit_time", "release_time", "regain_time", "fall_time", "rise_time")
 SPEED_ERROR = 0.02
+LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
 NEEDED = ("balls", "pitch_diameter", "ball_diameter", "speed_rpm", "rate_hz")
 
 
@@ -71,8 +72,11 @@ def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> Siz
         acceleration=np.asarray(file.variables["acceleration"][position], dtype=np.float64),
         clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),
         labels=labels,
-        situation=situation_of(labels, _stiffness(file, position) if load_known else None, record, seed),
-        truth=_truth(file, record),
+        situation=replace(
+            situation_of(labels, _stiffness(file, position) if load_known else None, record, seed),
+            polarity_known="scenario" in file.variables,  # where a sensor looked is not told with a recording
+        ),
+        truth=_truth(file, record, labels),
     )
 
 
@@ -106,8 +110,17 @@ def _stiffness(file: Any, position: int) -> tuple[float, float] | None:
         return None
 
 
-def _truth(file: Any, record: int) -> EventTruth | None:
+def nominal_period(labels: Mapping[str, Any]) -> float:
+    """Time between two ball passes without slip, s; of the outer race if there is no spall."""
+    order = {"outer": "bpfo", "inner": "bpfi"}.get(str(labels["location"]), "bpfo")
+    return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))
+
+
+def _truth(file: Any, record: int, labels: Mapping[str, Any]) -> EventTruth | None:
     if not set(PASS_COLUMNS) <= set(file.variables):
         return None
     own = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
-    return event_truth(*(np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS[2:]))
+    leave, release, regain, fall, rise = (
+        np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS
+    )
+    return event_truth(release, regain, fall, rise, leave + LATEST_REGAIN_SPACINGS * nominal_period(labels))

@@ -1,9 +1,8 @@
-"""What the calibration is fitted to: pairs of candidates of the training records, clean and with two noises."""
+"""What the calibration is fitted to: pairs of candidates of the training records, each clean and with noise."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,7 +17,8 @@ from labels.spall_size.situation import Situation
 
 Array = NDArray[np.float64]
 
-LEVELS_DB = (math.inf, 20.0, 10.0, 5.0, 0.0)
+LEVELS_DB = (20.0, 10.0, 5.0, 0.0)
+CLEAN_DB = 60.0
 ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
 SHORTEST_LAG = 1.5  # samples
 LAG_SCALE = 0.12
@@ -27,7 +27,7 @@ PLACE_TOLERANCE = 0.4
 
 @dataclass(frozen=True)
 class Trial:
-    """One record under one noise: what was found and what is true.
+    """One record under one noise: what was found and what is true; `stored` if the noise is the corpus's own.
 
     `true_lag` in samples (NaN: no events); `lag` the same modulo the period (NaN: no events or the wrong race), `arc`
     the spall's in rad (modulo the spacing), `quality` (P,) of each pair, 0 to 1.
@@ -35,6 +35,7 @@ class Trial:
 
     record: int
     bearing_id: str
+    stored: bool
     situation: Situation
     evidence: Evidence
     true_lag: float
@@ -54,25 +55,25 @@ def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Tria
 
 def _of_record(sized: SizedRecord) -> list[Trial]:
     made = []
-    for signal in _signals(sized):
+    for stored, signal in ((True, sized.acceleration[:, 1]), (False, _otherwise(sized))):
         evidence = gather_evidence(signal, sized.rate, sized.situation.pass_periods())
         if evidence is not None:
-            made.append(_trial(sized, replace(evidence, whitened=np.zeros(0))))  # the fit needs no signals
+            made.append(trial(sized, replace(evidence, whitened=np.zeros(0)), stored))  # the fit needs no signals
     return made
 
 
-def _signals(sized: SizedRecord) -> Iterator[Array]:
-    """The y axis clean, as stored, and with noise of a level drawn from those of the size ladder."""
-    stored = sized.acceleration[:, 1]
-    clean = stored if sized.clean is None else sized.clean[:, 1]
+def _otherwise(sized: SizedRecord) -> Array:
+    """The y axis clean if it was stored with noise, else with noise of a level drawn from those of the size ladder."""
+    clean = sized.acceleration[:, 1] if sized.clean is None else sized.clean[:, 1]
+    if float(sized.labels["snr_db"]) < CLEAN_DB:
+        return clean
     generator = stream(0, "record", sized.record, "white_noise", item=1)
     level = LEVELS_DB[int(generator.integers(len(LEVELS_DB)))]
-    yield clean
-    yield stored
-    yield clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size)
+    return np.asarray(clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size))
 
 
-def _trial(sized: SizedRecord, evidence: Evidence) -> Trial:
+def trial(sized: SizedRecord, evidence: Evidence, stored: bool) -> Trial:
+    """The `evidence` of a record beside its truth."""
     lag, arc, quality = math.nan, math.nan, np.zeros(evidence.pairs.lag.size)
     truth = sized.truth
     true_lag = truth.lag * sized.rate if truth is not None else math.nan
@@ -82,7 +83,7 @@ def _trial(sized: SizedRecord, evidence: Evidence) -> Trial:
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)
     bearing_id = str(sized.labels["bearing_id"])
-    return Trial(sized.record, bearing_id, sized.situation, evidence, true_lag, lag, arc, quality)
+    return Trial(sized.record, bearing_id, stored, sized.situation, evidence, true_lag, lag, arc, quality)
 
 
 def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:

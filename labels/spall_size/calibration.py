@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -31,53 +31,59 @@ class Guess:
         spread = max(float(self.spread.predict(row[None])[0]), 0.0) + SMALLEST_SPREAD
         return math.exp(centre), math.exp(self.reach * spread)
 
+    def to_arrays(self, name: str) -> Arrays:
+        """Everything by keys that begin with `name`, for a file of arrays."""
+        trees = self.centre.to_arrays(f"{name}.centre") | self.spread.to_arrays(f"{name}.spread")
+        return trees | {f"{name}.reach": np.array(self.reach)}
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays, name: str) -> Guess:
+        """The guess that gave these arrays; KeyError if they are not there."""
+        centre, spread = (Trees.from_arrays(arrays, f"{name}.{part}") for part in ("centre", "spread"))
+        return cls(centre, spread, float(arrays[f"{name}.reach"]))
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """`rank` of a leading pair (0 to 1); `lag` and `arc` guesses from the pair of the best rank; `trust`: log odds that
+    there are two events and the lag is right within 15 %; below `least` no size is told."""
+
+    rank: Trees
+    lag: Guess
+    arc: Guess
+    trust: Trees
+    least: float
+
+    def to_arrays(self, name: str) -> Arrays:
+        """Everything by keys that begin with `name`, for a file of arrays."""
+        arrays = self.rank.to_arrays(f"{name}.rank") | self.trust.to_arrays(f"{name}.trust")
+        arrays |= self.lag.to_arrays(f"{name}.lag") | self.arc.to_arrays(f"{name}.arc")
+        return arrays | {f"{name}.least": np.array(self.least)}
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays, name: str) -> Judgement:
+        """The judgement that gave these arrays; KeyError if they are not there."""
+        rank, trust = (Trees.from_arrays(arrays, f"{name}.{part}") for part in ("rank", "trust"))
+        lag, arc = (Guess.from_arrays(arrays, f"{name}.{part}") for part in ("lag", "arc"))
+        return cls(rank, lag, arc, trust, float(arrays[f"{name}.least"]))
+
 
 @dataclass(frozen=True)
 class Calibration:
-    """`pair_score` of a pair of candidates (0 to 1); `lag`, `arc` and `arc_with_load` guesses from the chosen pair;
-    `trust` and `trust_with_load`: log odds that there are two events and the lag is right within 15 %; below `least`
-    and `least_with_load` no size is told."""
+    """`pair_score` of a pair of candidates (0 to 1), by which the leading pairs are chosen; how those are judged
+    `blind`, and `with_load` and Hertz factor."""
 
     pair_score: Trees
-    lag: Guess
-    arc: Guess
-    arc_with_load: Guess
-    trust: Trees
-    trust_with_load: Trees
-    least: float
-    least_with_load: float
+    blind: Judgement
+    with_load: Judgement
 
     def to_arrays(self) -> Arrays:
         """Everything as named arrays, for a file."""
-        arrays: Arrays = {}
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, Trees):
-                arrays |= value.to_arrays(field.name)
-            elif isinstance(value, Guess):
-                arrays |= value.centre.to_arrays(f"{field.name}.centre") | value.spread.to_arrays(
-                    f"{field.name}.spread"
-                )
-                arrays[f"{field.name}.reach"] = np.array(value.reach)
-            else:
-                arrays[field.name] = np.array(value)
-        return arrays
+        judged = self.blind.to_arrays("blind") | self.with_load.to_arrays("with_load")
+        return self.pair_score.to_arrays("pair_score") | judged
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Calibration:
         """The calibration that gave these arrays; KeyError if one is missing."""
-
-        def guess(name: str) -> Guess:
-            centre, spread = (Trees.from_arrays(arrays, f"{name}.{part}") for part in ("centre", "spread"))
-            return Guess(centre, spread, float(arrays[f"{name}.reach"]))
-
-        return cls(
-            Trees.from_arrays(arrays, "pair_score"),
-            guess("lag"),
-            guess("arc"),
-            guess("arc_with_load"),
-            Trees.from_arrays(arrays, "trust"),
-            Trees.from_arrays(arrays, "trust_with_load"),
-            float(arrays["least"]),
-            float(arrays["least_with_load"]),
-        )
+        judged = (Judgement.from_arrays(arrays, name) for name in ("blind", "with_load"))
+        return cls(Trees.from_arrays(arrays, "pair_score"), *judged)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from labels.spall_size.alignment import LEAST_WEIGHT
-from labels.spall_size.calibration import Calibration
+from labels.spall_size.calibration import Calibration, Judgement
 from labels.spall_size.evidence import Evidence, gather_evidence
-from labels.spall_size.measurement import Measurement, measure
+from labels.spall_size.measurement import Measurement, leading_pairs, measure
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -30,57 +30,69 @@ class SizeEstimator:
     calibration: Calibration
 
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
-        """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz)."""
+        """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
+
+        If its polarity is not known, the one of the larger trust.
+        """
+        if not situation.polarity_known:
+            known = replace(situation, polarity_known=True)
+            return max((self.estimate(sign * acceleration, rate, known) for sign in (1.0, -1.0)), key=_trust)
         signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
-        method = WITH_LOAD if situation.load_known else BLIND
+        method = _method(situation)
         shortest = 6.0 * min(situation.pass_periods().values())
         if signal.size < shortest * rate:
             return SizeEstimate(SizeOutcome.TOO_SHORT, method)
         evidence = gather_evidence(np.asarray(signal, dtype=np.float64), rate, situation.pass_periods())
         if evidence is None:
             return SizeEstimate(SizeOutcome.NO_PASSES, method)
+        return self.judge(evidence, situation)
+
+    def judge(self, evidence: Evidence, situation: Situation) -> SizeEstimate:
+        """Size of the spall that gave `evidence`."""
         score = self.calibration.pair_score.predict(evidence.pairs.features)
-        measured = measure(evidence, score, situation)
-        odds, least = self._trust(measured)
-        if odds < least:
-            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, method, evidence.race, trust=_probability(odds))
-        return self._told(evidence, measured, situation, method, odds)
+        judgement = self.calibration.with_load if situation.load_known else self.calibration.blind
+        leading = leading_pairs(evidence, score, situation)
+        measured = measure(leading, judgement.rank.predict(leading.rows))
+        odds = float(judgement.trust.predict(measured.row[None])[0])
+        if odds < judgement.least:
+            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, _method(situation), evidence.race, trust=_probability(odds))
+        return _told(evidence, measured, judgement, situation, _probability(odds))
 
-    def _trust(self, measured: Measurement) -> tuple[float, float]:
-        learned = self.calibration
-        if measured.load_row is None:
-            return float(learned.trust.predict(measured.row[None])[0]), learned.least
-        return float(learned.trust_with_load.predict(measured.load_row[None])[0]), learned.least_with_load
 
-    def _told(
-        self, evidence: Evidence, measured: Measurement, situation: Situation, method: str, odds: float
-    ) -> SizeEstimate:
-        learned, bearing = self.calibration, situation.bearing()
-        factor, doubt = learned.lag.tell(measured.row)
-        lag = min(measured.lag * factor, evidence.mean.period) / evidence.rate
-        if measured.load_row is None:
-            arc_factor, arc_doubt = learned.arc.tell(measured.row)
-        else:
-            arc_factor, arc_doubt = learned.arc_with_load.tell(measured.load_row)
-        extent = min(measured.lag_arc * arc_factor, LONGEST_EXTENT)
-        millimetres = bearing.raceway_radius(evidence.race) * 1e3
-        more = math.floor((LONGEST_EXTENT - extent) / bearing.spacing)
-        return SizeEstimate(
-            outcome=SizeOutcome.ESTIMATED,
-            method=method,
-            race=evidence.race,
-            lag=lag,
-            lag_interval=(lag / doubt, lag * doubt),
-            lag_arc=lag * evidence.rate / evidence.mean.period * bearing.spacing,
-            extent=extent,
-            extent_interval=(extent / arc_doubt, extent * arc_doubt),
-            extent_mm=extent * millimetres,
-            extent_mm_interval=(extent / arc_doubt * millimetres, extent * arc_doubt * millimetres),
-            candidates=tuple(extent + turns * bearing.spacing for turns in range(more + 1)),
-            pass_period=evidence.mean.period / evidence.rate,
-            trust=_probability(odds),
-            event_times=_event_times(evidence, measured, lag),
-        )
+def _trust(estimate: SizeEstimate) -> float:
+    return estimate.trust
+
+
+def _method(situation: Situation) -> str:
+    return WITH_LOAD if situation.load_known else BLIND
+
+
+def _told(
+    evidence: Evidence, measured: Measurement, judgement: Judgement, situation: Situation, trust: float
+) -> SizeEstimate:
+    bearing = situation.bearing()
+    factor, doubt = judgement.lag.tell(measured.row)
+    lag = min(measured.lag * factor, evidence.mean.period) / evidence.rate
+    arc_factor, arc_doubt = judgement.arc.tell(measured.row)
+    extent = min(measured.lag_arc * arc_factor, LONGEST_EXTENT)
+    millimetres = bearing.raceway_radius(evidence.race) * 1e3
+    more = math.floor((LONGEST_EXTENT - extent) / bearing.spacing)
+    return SizeEstimate(
+        outcome=SizeOutcome.ESTIMATED,
+        method=_method(situation),
+        race=evidence.race,
+        lag=lag,
+        lag_interval=(lag / doubt, lag * doubt),
+        lag_arc=lag * evidence.rate / evidence.mean.period * bearing.spacing,
+        extent=extent,
+        extent_interval=(extent / arc_doubt, extent * arc_doubt),
+        extent_mm=extent * millimetres,
+        extent_mm_interval=(extent / arc_doubt * millimetres, extent * arc_doubt * millimetres),
+        candidates=tuple(extent + turns * bearing.spacing for turns in range(more + 1)),
+        pass_period=evidence.mean.period / evidence.rate,
+        trust=trust,
+        event_times=_event_times(evidence, measured, lag),
+    )
 
 
 def _event_times(evidence: Evidence, measured: Measurement, lag: float) -> Array:

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.spall_size.mean_pass import MeanPass
-from labels.spall_size.pair_features import Pairs, RunningEnergy
+from labels.spall_size.pair_features import Pairs
+from labels.spall_size.running_energy import RunningEnergy
 
 Array = NDArray[np.float64]
 

@@ -24,9 +24,13 @@ class EventTruth:
         return float(np.median(self.last - self.first)) if self.first.size else float("nan")
 
 
-def event_truth(release: Array, regain: Array, fall: Array, rise: Array) -> EventTruth:
-    """Events of the passes (N,): first release and last regain, else first fall and last rise; NaN: there is none."""
+def event_truth(release: Array, regain: Array, fall: Array, rise: Array, latest: Array) -> EventTruth:
+    """Events of the passes (N,): first release and last regain, else first fall and last rise; NaN: there is none.
+
+    A ball that carries no load behind the spall may hang free until it comes round to the load zone: a regain after
+    `latest` is no event of the spall, and its pass has none.
+    """
     kept = ~np.isfinite(release)
-    first, last = np.where(kept, fall, release), np.where(kept, rise, regain)
+    first, last = np.where(kept, fall, release), np.where(kept, rise, np.where(regain <= latest, regain, np.nan))
     there = np.isfinite(first) & np.isfinite(last)
     return EventTruth(first[there], last[there], kept[there])

@@ -47,7 +47,7 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
     alignment = aligned(energy, rate, found[race])
     if alignment is None:
         return None
-    mean = mean_pass(whitened, alignment, found[race].period * rate)
+    mean = mean_pass(signal, whitened, alignment, found[race].period * rate)
     places = candidate_places(mean)
     if places.size < 2:
         return None

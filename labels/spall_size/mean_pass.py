@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
 
 from labels.spall_size.alignment import Alignment
 
 Array = NDArray[np.float64]
 
 # Edges as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold the entry.
-BAND_EDGES = (0.0, 0.03, 0.12, 0.5)
+BAND_EDGES = (0.03, 0.12)
 CHANNELS = ("all", "low", "middle", "high")
-SHARPEST = 4.0
+SWAY_BLUR = 4.0
 
 
 @dataclass(frozen=True)
@@ -23,18 +23,20 @@ class MeanPass:
     """Weighted means over the passes at `offset` (S,) samples from the anchor, from −1.1 to 1.1 periods.
 
     `energy` (4, S): of the prewhitened signal, whole and in three bands, each over its own median in the record;
-    `waveform` (S,): the prewhitened signal itself; `passes`: how many passes there are in effect; `period` samples.
+    `waveform` (S,): the prewhitened signal itself; `sway` (S,): the signal before it was prewhitened, blurred by four
+    samples, in standard deviations; `passes`: how many passes there are in effect; `period` samples.
     """
 
     offset: NDArray[np.int64]
     energy: Array
     waveform: Array
+    sway: Array
     passes: float
     period: float
 
 
-def mean_pass(whitened: Array, alignment: Alignment, period: float) -> MeanPass:
-    """The mean pass of `whitened` (T,); `period` in samples."""
+def mean_pass(signal: Array, whitened: Array, alignment: Alignment, period: float) -> MeanPass:
+    """The mean pass of `signal` (T,) and of `whitened` (T,), the same prewhitened; `period` in samples."""
     reach = int(np.ceil(1.1 * period))
     offset = np.arange(-reach, reach + 1)
     anchor = np.round(alignment.place).astype(np.int64)
@@ -45,17 +47,23 @@ def mean_pass(whitened: Array, alignment: Alignment, period: float) -> MeanPass:
     place = np.clip(place, 0, whitened.size - 1)
     channels = [whitened**2, *(band**2 for band in _bands(whitened))]
     energy = [(weight * channel[place]).sum(axis=0) / total / _floor(channel) for channel in channels]
-    waveform = (weight * whitened[place]).sum(axis=0) / total
+    waveform, sway = ((weight * source[place]).sum(axis=0) / total for source in (whitened, signal))
     effective = float(alignment.weight.sum() ** 2 / max((alignment.weight**2).sum(), 1e-12))
-    return MeanPass(offset, np.array(energy), waveform, effective, period)
+    return MeanPass(offset, np.array(energy), waveform, _standardised(sway), effective, period)
+
+
+def _standardised(sway: Array) -> Array:
+    smooth = gaussian_filter1d(sway, SWAY_BLUR)
+    return np.asarray((smooth - smooth.mean()) / max(float(smooth.std()), 1e-300))
 
 
 def _bands(whitened: Array) -> list[Array]:
-    """The signal (T,) in each band, without phase shift."""
+    """The signal (T,) in each band, without phase shift; Gaussian edges do not ring, so what is quiet stays quiet."""
     spectrum = np.fft.rfft(whitened)
     share = np.fft.rfftfreq(whitened.size)
-    bands = [(share >= low) & (share < high) for low, high in pairwise(BAND_EDGES)]
-    return [np.fft.irfft(np.where(band, spectrum, 0.0), whitened.size) for band in bands]
+    below = [np.ones_like(share), *(np.exp(-0.5 * (share / edge) ** 2) for edge in reversed(BAND_EDGES)), 0.0 * share]
+    bands = [below[k] - below[k + 1] for k in range(3)]
+    return [np.fft.irfft(band * spectrum, whitened.size) for band in reversed(bands)]
 
 
 def _floor(energy: Array) -> float:

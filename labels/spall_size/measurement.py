@@ -1,4 +1,4 @@
-"""The chosen pair of events of a record and the numbers from which its lag, its arc and their doubt are told."""
+"""The leading pairs of events of a record, described by all that is known, and the one that is taken for the events."""
 
 from __future__ import annotations
 
@@ -15,34 +15,78 @@ from labels.spall_size.static_release import release_arc, static_compression
 
 Array = NDArray[np.float64]
 
+LEADING = 10
+NEAR = 0.3  # logarithm of a lag's ratio
+
+
+@dataclass(frozen=True)
+class LeadingPairs:
+    """The pairs of the best scores, best first: `entry`, `exit` (L,) in samples from the anchor, `lag` (L,) in samples,
+    its arc `lag_arc` (L,) in rad, and a row of numbers for each, `rows` (L, F)."""
+
+    entry: Array
+    exit: Array
+    lag: Array
+    lag_arc: Array
+    rows: Array
+
 
 @dataclass(frozen=True)
 class Measurement:
-    """Pair of events of the best score: `entry` and `exit` in samples from the anchor, raw `lag` in samples and its
-    arc in rad; `row` (F,) describes record and pair, `load_row` the same with what load and Hertz factor tell."""
+    """One pair taken for the events: as in LeadingPairs, and `row` (F,) with how it stands among the others."""
 
     entry: float
     exit: float
     lag: float
     lag_arc: float
     row: Array
-    load_row: Array | None
 
 
-def measure(evidence: Evidence, score: Array, situation: Situation) -> Measurement:
-    """The best pair of `evidence` by `score` (P,)."""
-    pairs, best = evidence.pairs, int(np.argmax(score))
-    entry, leave, lag = (float(column[best]) for column in (pairs.entry, pairs.exit, pairs.lag))
+def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> LeadingPairs:
+    """At most ten pairs of `evidence` by `score` (P,); rows are longer if load and Hertz factor are known."""
+    pairs = evidence.pairs
+    order = leading_order(score)
+    entry, leave, lag = pairs.entry[order], pairs.exit[order], pairs.lag[order]
     # The tracked period stands for one ball spacing, whatever the stated speed and the slip were.
     arc = lag / evidence.mean.period * situation.bearing().spacing
-    row = [
-        *(float(value) for value in pairs.features[best]),
-        *profile_columns(evidence.mean, entry, leave, lag),
-        *rival_columns(pairs, score, best),
-        *_length_columns(arc, evidence.race, situation),
+    rows = []
+    for k, own in enumerate(order):
+        row = [
+            *(float(value) for value in pairs.features[own]),
+            *profile_columns(evidence.mean, float(entry[k]), float(leave[k]), float(lag[k])),
+            *rival_columns(pairs, score, int(own)),
+            float(score[own] - score[order[0]]),
+            float(k),
+            *_length_columns(float(arc[k]), evidence.race, situation),
+        ]
+        rows.append(row + _load_columns(float(arc[k]), evidence, situation) if situation.load_known else row)
+    return LeadingPairs(entry, leave, lag, arc, np.array(rows))
+
+
+def leading_order(score: Array) -> NDArray[np.int64]:
+    """Which pairs lead by `score` (P,), the best first."""
+    return np.argsort(-score, kind="stable")[:LEADING]
+
+
+def measure(leading: LeadingPairs, rank: Array) -> Measurement:
+    """The pair of the best `rank` (L,) among `leading`."""
+    best = int(np.argmax(rank))
+    apart = np.log(leading.lag / leading.lag[best])
+    weight = np.maximum(rank, 1e-6) ** 2 * (np.abs(apart) < NEAR)
+    middle = float((weight * apart).sum() / weight.sum())
+    others = np.where(np.abs(apart) > 0.03, rank, -1.0)
+    rival = int(np.argmax(others))
+    standing = [
+        float(rank[best]),
+        float(others[rival]),
+        float(apart[rival]),
+        middle,
+        math.sqrt(float((weight * (apart - middle) ** 2).sum() / weight.sum())),
     ]
-    loaded = np.array([*row, *_load_columns(arc, evidence, situation)]) if situation.load_known else None
-    return Measurement(entry, leave, lag, arc, np.array(row), loaded)
+    row = np.concatenate([leading.rows[best], standing])
+    entry, leave, lag, arc = (float(column[best]) for column in (leading.entry, leading.exit, leading.lag,
+                                                                 leading.lag_arc))  # fmt: skip
+    return Measurement(entry, leave, lag, arc, row)
 
 
 def _length_columns(lag_arc: float, race: str, situation: Situation) -> list[float]:

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.spall_size.event_shapes import SHAPES, event_shapes
 from labels.spall_size.mean_pass import CHANNELS, MeanPass
+from labels.spall_size.running_energy import RunningEnergy
 
 Array = NDArray[np.float64]
 
@@ -26,6 +28,9 @@ NAMES = (
     "exit_over_entry_low",
     "exit_over_entry_high",
     *PAIRS,
+    "sway_inside",
+    "sway_after",
+    *(f"{event}_{shape}" for event in ("entry", "exit") for shape in SHAPES),
 )
 
 
@@ -59,12 +64,17 @@ def candidate_pairs(mean: MeanPass, places: Array, facts: RecordFacts) -> Pairs:
     lag = np.where(lag < 0.0, lag + mean.period, lag)
     kept = (first != second) & (lag < LONGEST_LAG * mean.period)
     entry, leave, lag = entry[kept], leave[kept], lag[kept]
-    return Pairs(entry, leave, lag, _features(mean, places.size, facts, entry, leave, lag))
-
-
-def _features(mean: MeanPass, count: int, facts: RecordFacts, entry: Array, leave: Array, lag: Array) -> Array:
-    ones = np.ones(lag.size)
     summed = RunningEnergy(mean)
+    shapes = event_shapes(mean, places, summed)
+    alone = [shapes[first[kept]], shapes[second[kept]]]
+    together = _features(mean, summed, places.size, facts, entry, leave, lag)
+    return Pairs(entry, leave, lag, np.column_stack([together, *alone]))
+
+
+def _features(
+    mean: MeanPass, summed: RunningEnergy, count: int, facts: RecordFacts, entry: Array, leave: Array, lag: Array
+) -> Array:
+    ones = np.ones(lag.size)
     core = np.maximum(SMALLEST_CORE, CORE_SHARE * lag)
     columns = [
         math.log(mean.period) * ones, np.log(lag), lag / mean.period, math.log(max(mean.passes, 1.0)) * ones,
@@ -83,31 +93,10 @@ def _features(mean: MeanPass, count: int, facts: RecordFacts, entry: Array, leav
         _largest_between(mean, entry + lag + core + 1.0, entry + mean.period - core - 1.0) - weaker,
         _alike(mean, entry, leave),
         *(_coherence(mean, place) for place in (entry, leave)),
+        _mean_sway(mean, entry, entry + lag),
+        _mean_sway(mean, entry + lag, entry + np.minimum(1.5 * lag, mean.period)),
     ]
     return np.column_stack(columns)
-
-
-class RunningEnergy:
-    """Mean energy of any stretch of the mean pass from running sums; offsets wrap round one period."""
-
-    def __init__(self, mean: MeanPass) -> None:
-        self.first = float(mean.offset[0])
-        self.last = float(mean.offset[-1])
-        self.period = mean.period
-        self.running = np.concatenate([np.zeros((len(CHANNELS), 1)), np.cumsum(mean.energy, axis=1)], axis=1)
-        self.grid = np.arange(self.running.shape[1])
-
-    def level(self, start: Array, stop: Array) -> Array:
-        """Log mean energy (4, P) between the offsets `start` and `stop` (P,)."""
-        shift = np.where(start < self.first, self.period, 0.0) - np.where(stop > self.last, self.period, 0.0)
-        left, right = start + shift - self.first, stop + shift - self.first + 1.0
-        width = np.maximum(right - left, 1e-9)
-        return np.stack(
-            [
-                np.log((np.interp(right, self.grid, row) - np.interp(left, self.grid, row)) / width + 1e-9)
-                for row in self.running
-            ]
-        )
 
 
 def _levels(summed: RunningEnergy, place: Array, lag: Array, core: Array) -> Array:
@@ -160,3 +149,13 @@ def _coherence(mean: MeanPass, place: Array) -> Array:
     centre = np.round(place).astype(np.int64) - mean.offset[0]
     near = np.clip(centre[:, None] + np.arange(-3, 4), 0, mean.waveform.size - 1)
     return np.log((mean.waveform[near] ** 2).mean(axis=1) + 1e-9) - np.log(mean.energy[0][near].mean(axis=1) + 1e-9)
+
+
+def _mean_sway(mean: MeanPass, start: Array, stop: Array) -> Array:
+    """Mean (P,) of the sway between two offsets, which wrap round one period."""
+    shift = np.where(stop > mean.offset[-1], mean.period, 0.0)
+    running = np.concatenate([[0.0], np.cumsum(mean.sway)])
+    left, right = (
+        np.interp(place - shift - mean.offset[0], np.arange(running.size), running) for place in (start, stop)
+    )
+    return np.asarray((right - left) / np.maximum(stop - start, 1.0))

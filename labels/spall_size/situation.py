@@ -16,7 +16,8 @@ class Situation:
     """Geometry and shaft speed (rad/s, to about ±2 %) of a recorded bearing, SI units.
 
     `load` (N) and `load_deflection` (N/mⁿ, the Hertz factor) make the size more accurate, `race` ("outer", "inner")
-    spares finding it out; each is None if unknown.
+    spares finding it out; each is None if unknown. `polarity_known` is False if a push upwards may show as a negative
+    acceleration.
     """
 
     balls: int
@@ -29,6 +30,7 @@ class Situation:
     load_deflection: float | None = None
     exponent: float = 1.5
     race: str | None = None
+    polarity_known: bool = True
 
     def __post_init__(self) -> None:
         require_positive("shaft_speed", self.shaft_speed, "rad/s")

@@ -24,7 +24,9 @@ def scenarios(name: str) -> list[Scenario]:
 
 
 def test_the_promised_datasets_are_shipped() -> None:
-    assert {"corpus", "fan_rig", "gearbox_rig", "quickstart", "size_ladder", "transfer"} <= set(shipped_recipes())
+    assert {"corpus", "fan_rig", "gearbox_rig", "quickstart", "size_ladder", "size_training", "transfer"} <= set(
+        shipped_recipes()
+    )
 
 
 @pytest.mark.parametrize(
@@ -133,3 +135,16 @@ def test_the_size_ladder_spans_lengths_tapers_loads_speeds_and_noises_in_the_sha
     longest = [draw_scenario(recipe, record) for record in range(1200, 1344, 6)]
     extents = [scenario.scene.spalls[0].extent / scenario.scene.rig.bearing.spacing for scenario in longest]
     assert (min(extents) >= 0.9, max(extents) <= 2.0, max(extents) > 1.5) == (True, True, True)
+
+
+def test_the_size_training_is_for_training_only_and_shares_no_machine_with_the_ladder() -> None:
+    recipe, ladder = load_recipe("size_training"), load_recipe("size_ladder")
+    drawn = [draw_scenario(recipe, record) for record in range(0, recipe.count, 40)]
+    assert {scenario.split for scenario in drawn} == {"train"}
+    assert recipe.seed != ladder.seed
+    theirs = [draw_scenario(ladder, record) for record in range(0, ladder.count, 40)]
+    rigs = [{scenario.scene.rig for scenario in scenarios} for scenarios in (drawn, theirs)]
+    assert not rigs[0] & rigs[1]
+    wide = [s.scene.spalls[0].extent / s.scene.rig.bearing.spacing for s in drawn if s.part.endswith("wide")]
+    assert len(wide) > 5
+    assert all(0.4 <= share <= 0.9 for share in wide)

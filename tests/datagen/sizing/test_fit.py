@@ -47,9 +47,9 @@ def small_ladder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.slow
 def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
     made = trials(small_ladder, ("train",))
-    assert len(made) == 3 * 24  # clean, as stored and with another noise
+    assert len(made) == 2 * 24  # clean, as stored, and with noise
     with_events = [trial for trial in made if np.isfinite(trial.lag)]
-    assert len(with_events) > 24
+    assert len(with_events) > 20
     for trial in with_events:
         best = trial.quality.argmax()
         if trial.quality[best] > 0.9:  # by its definition within 1.3 % of the lag, or half a sample
@@ -58,7 +58,7 @@ def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
 
 @pytest.mark.slow
 def test_a_fit_to_few_records_gives_a_calibration_that_estimates(small_ladder: Path, tmp_path: Path) -> None:
-    main(str(small_ladder), str(tmp_path / "calibration.npz"), workers=1)
+    main([str(small_ladder)], str(tmp_path / "calibration.npz"), workers=1)
     with np.load(tmp_path / "calibration.npz") as file:
         learned = Calibration.from_arrays({name: file[name] for name in file.files})
     estimator = SizeEstimator(learned)

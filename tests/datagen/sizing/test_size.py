@@ -68,7 +68,7 @@ def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(size
     scores = score_sizes(sized_corpus, None, True, "all")
     gaps, healthy = scores.records[:3], scores.records[3]
     assert all(one.found and one.found_race == "outer" for one in gaps)
-    # Half of the ladder's clean records are within 4 %, its mean is 13 %; three sharp gaps lie between.
+    # Half of the ladder's clean records are within 3 %, its mean is about 5 %; three records may do twice as badly.
     assert np.mean([lag_error(one) for one in gaps]) < 0.10
     assert np.mean([extent_error(one) for one in gaps]) < 0.15
     assert not healthy.found
@@ -80,6 +80,16 @@ def test_the_same_holds_without_load_and_the_estimator_is_told_nothing_of_it(siz
     assert all(not one.load_known and one.race is None for one in told)
     scores = score_sizes(sized_corpus, None, False, "all")
     assert np.mean([extent_error(one) for one in scores.records[:3]]) < 0.25
+
+
+def test_a_sensor_that_may_look_either_way_is_told_the_same_upside_down(sized_corpus: Path) -> None:
+    one = next(sized_records(sized_corpus, load_known=True))
+    assert one.situation.polarity_known
+    unsure = replace(one.situation, polarity_known=False)
+    told = [default_estimator().estimate(sign * one.acceleration, one.rate, unsure) for sign in (1.0, -1.0)]
+    assert told[0].found
+    assert told[0].extent == told[1].extent  # the same two signals are tried, in another order
+    assert told[0].trust >= default_estimator().estimate(one.acceleration, one.rate, one.situation).trust
 
 
 def test_the_stated_speed_is_wrong_by_up_to_two_per_cent(sized_corpus: Path) -> None:
@@ -173,9 +183,9 @@ def test_between_two_and_five_samples_nothing_is_scored() -> None:
 
 def test_events_are_release_and_regain_or_else_fall_and_rise() -> None:
     gone = math.nan
-    release, regain = np.array([1.0, gone, gone, 4.0]), np.array([1.5, gone, gone, gone])
-    fall, rise = np.array([gone, 2.0, gone, gone]), np.array([gone, 2.3, gone, gone])
-    truth = event_truth(release, regain, fall, rise)
+    release, regain = np.array([1.0, gone, gone, 4.0, 5.0]), np.array([1.5, gone, gone, gone, 9.0])
+    fall, rise = np.array([gone, 2.0, gone, gone, gone]), np.array([gone, 2.3, gone, gone, gone])
+    truth = event_truth(release, regain, fall, rise, np.array([1.6, 2.6, 3.6, 4.6, 5.6]))  # the last comes too late
     assert truth.first.tolist() == [1.0, 2.0]
     assert truth.kept.tolist() == [False, True]
     assert truth.lag == pytest.approx(0.4)  # the median of 0.5 and 0.3
@@ -186,7 +196,7 @@ def test_the_calibration_comes_back_from_its_arrays() -> None:
     again = Calibration.from_arrays(learned.to_arrays())
     rows = np.zeros((1, int(learned.pair_score.feature.max()) + 1))
     assert again.pair_score.predict(rows) == learned.pair_score.predict(rows)
-    assert again.least_with_load == learned.least_with_load
+    assert again.with_load.least == learned.with_load.least
 
 
 def test_noise_alone_is_told_no_size() -> None:

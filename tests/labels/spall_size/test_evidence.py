@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from labels.spall_size.alignment import aligned
+from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
+from labels.spall_size.event_shapes import SHAPES, event_shapes
 from labels.spall_size.evidence import gather_evidence
-from labels.spall_size.mean_pass import mean_pass
+from labels.spall_size.mean_pass import MeanPass, mean_pass
 from labels.spall_size.pair_features import NAMES
 from labels.spall_size.pass_track import track_passes
 from labels.spall_size.prewhitening import prewhitened
+from labels.spall_size.running_energy import RunningEnergy
 
 RATE = 65536.0
 PERIOD = 0.011
@@ -84,7 +86,7 @@ def test_the_mean_pass_repeats_after_one_period(pulse_train):
     train = pulse_train(LAG, PERIOD, slip=0.0)
     whitened = prewhitened(train.signal)
     track = track_passes(whitened**2, RATE, PERIOD)
-    mean = mean_pass(whitened, aligned(whitened**2, RATE, track), track.period * RATE)
+    mean = mean_pass(train.signal, whitened, aligned(whitened**2, RATE, track), track.period * RATE)
     places = candidate_places(mean)
     assert np.all(np.abs(places) <= 0.5 * mean.period)
     period = round(mean.period)
@@ -92,3 +94,51 @@ def test_the_mean_pass_repeats_after_one_period(pulse_train):
     here, later = (mean.energy[0, place - 3 : place + 4].max() for place in (middle, middle + period))
     # Without slip the next pass comes one period later, rounded to a sample: a third of its sharp peak at least.
     assert abs(math.log(later / here)) < math.log(3.0)
+
+
+def mean_of_steps(first, last, period=400.0):
+    """A mean pass with a rumble of a hundredfold energy between two offsets, in every channel."""
+    offset = np.arange(-440, 441)
+    phase = (offset + 0.5 * period) % period - 0.5 * period
+    rumble = np.where((phase >= first) & (phase <= last), 100.0, 1.0)
+    return MeanPass(offset, np.tile(rumble, (4, 1)), np.zeros(offset.size), np.zeros(offset.size), 50.0, period)
+
+
+def test_both_ends_of_a_rumble_are_candidates():
+    places = candidate_places(mean_of_steps(-60, 20))
+    # The least blur puts an edge one sample inside the rumble, a coarser one further.
+    assert np.abs(places - 20).min() < 1.5
+    assert np.abs(places + 60).min() < 1.5
+
+
+def test_levels_beside_a_candidate_tell_on_which_side_it_is_quiet():
+    mean = mean_of_steps(-60, 20)
+    start, end = (dict(zip(SHAPES, row, strict=True)) for row in event_shapes(mean, np.array([-60.0, 20.0]),
+                                                                             RunningEnergy(mean)))  # fmt: skip
+    # A factor of a hundred is 4.6; the core holds 2.5 of 4 samples of the rumble, so it lies 0.3 to 0.5 below it.
+    assert start["before_12"] == pytest.approx(-math.log(100.0), abs=0.6)
+    assert start["after_12"] == pytest.approx(0.0, abs=0.6)
+    assert end["before_12"] == pytest.approx(0.0, abs=0.6)
+    assert end["after_12"] == pytest.approx(-math.log(100.0), abs=0.6)
+    assert start["low_step_12"] == pytest.approx(math.log(100.0), abs=0.1)  # both windows lie beside the step
+    assert end["low_step_12"] == pytest.approx(-math.log(100.0), abs=0.1)
+
+
+def test_a_signal_upside_down_turns_the_sway_and_nothing_else(pulse_train):
+    train = pulse_train(LAG, PERIOD, noise=0.1)
+    one, other = (gather_evidence(sign * train.signal, RATE, {"outer": PERIOD}) for sign in (1.0, -1.0))
+    assert np.allclose(one.mean.energy, other.mean.energy, rtol=1e-9)
+    assert np.allclose(one.mean.sway, -other.mean.sway, atol=1e-9)
+    same = [k for k, name in enumerate(NAMES) if "sway" not in name and "wave_sign" not in name]
+    assert np.allclose(one.pairs.features[:, same], other.pairs.features[:, same], atol=1e-6)
+
+
+def test_bands_of_the_mean_pass_do_not_ring(pulse_train):
+    train = pulse_train(300.0 / RATE, PERIOD, slip=0.0)
+    whitened = np.zeros(train.signal.size)
+    whitened[np.round(train.entry * RATE).astype(int)] = 1.0
+    place = np.round(train.entry * RATE)[1:-1]
+    mean = mean_pass(whitened, whitened + 1e-9, Alignment(place, np.ones(place.size)), PERIOD * RATE)
+    middle, far = mean.energy.shape[1] // 2, 60
+    # A Gaussian band of 0.03 of the rate is 5.3 samples wide in time: nothing but rounding is left 60 samples off.
+    assert np.all(mean.energy[:, middle + far] < 1e-12 * mean.energy[:, middle])

@@ -1,0 +1,33 @@
+"""Mean energy of any stretch of the mean pass."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.mean_pass import CHANNELS, MeanPass
+
+Array = NDArray[np.float64]
+
+
+class RunningEnergy:
+    """Log mean energies from running sums; offsets wrap round one period."""
+
+    def __init__(self, mean: MeanPass) -> None:
+        self.first = float(mean.offset[0])
+        self.last = float(mean.offset[-1])
+        self.period = mean.period
+        self.running = np.concatenate([np.zeros((len(CHANNELS), 1)), np.cumsum(mean.energy, axis=1)], axis=1)
+        self.grid = np.arange(self.running.shape[1])
+
+    def level(self, start: Array, stop: Array) -> Array:
+        """Log mean energy (4, P) between the offsets `start` and `stop` (P,)."""
+        shift = np.where(start < self.first, self.period, 0.0) - np.where(stop > self.last, self.period, 0.0)
+        left, right = start + shift - self.first, stop + shift - self.first + 1.0
+        width = np.maximum(right - left, 1e-9)
+        return np.stack(
+            [
+                np.log((np.interp(right, self.grid, row) - np.interp(left, self.grid, row)) / width + 1e-9)
+                for row in self.running
+            ]
+        )

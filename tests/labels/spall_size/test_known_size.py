@@ -1,0 +1,31 @@
+"""A known size on the same machine moves other sizes a little towards it, and never far."""
+
+import math
+
+import pytest
+
+from labels.spall_size.known_size import FURTHEST, SHARE, corrected, known_size_factor
+from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+
+
+def test_a_size_told_rightly_changes_nothing():
+    assert known_size_factor(0.1, 0.1) == 1.0
+
+
+@pytest.mark.parametrize("ratio", [1.02, 1.5, 10.0])
+def test_the_factor_goes_towards_the_known_size_and_is_bounded(ratio):
+    up, down = known_size_factor(1.0, ratio), known_size_factor(ratio, 1.0)
+    assert 1.0 < up <= math.exp(SHARE * FURTHEST)
+    assert up * down == pytest.approx(1.0, rel=1e-12)
+
+
+def test_a_correction_scales_every_extent_and_leaves_the_lag():
+    told = SizeEstimate(SizeOutcome.ESTIMATED, "m", "outer", lag=1e-3, lag_interval=(9e-4, 2e-3), extent=0.1,
+                        extent_interval=(0.08, 0.12), extent_mm=2.0, extent_mm_interval=(1.6, 2.4),
+                        candidates=(0.1, 0.6))  # fmt: skip
+    made = corrected(told, 1.1)
+    assert made.extent == pytest.approx(0.11)
+    assert made.extent_interval == pytest.approx((0.088, 0.132))
+    assert made.extent_mm_interval == pytest.approx((1.76, 2.64))
+    assert made.candidates == pytest.approx((0.11, 0.66))
+    assert (made.lag, made.lag_interval) == (told.lag, told.lag_interval)

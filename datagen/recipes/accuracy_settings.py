@@ -16,5 +16,5 @@ class AccuracySettings(Table):
     relative: Annotated[float, Field(ge=SMALLEST_ACCURACY, le=LARGEST_ACCURACY)] = 1e-3
     """RMS error of the clean acceleration over its RMS."""
     below_noise_db: Annotated[float, Field(ge=0.0, le=200.0)] | None = None
-    """An error this far (dB) below the record's own white noise, or below a background of given signal-to-noise ratio
-    over the whole band, is allowed too; not if not given."""
+    """How far below the record's own white noise, or a background of given signal-to-noise ratio over the whole band,
+    an error may always be, dB; nothing more is allowed if not given."""

@@ -13,6 +13,7 @@ import pytest
 from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
 from datagen.records.background import Background, NoiseTarget, Stretch
+from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario, Seeds
@@ -87,6 +88,7 @@ def full_scenario() -> Scenario:
         noise_target=NoiseTarget(7.7, False),
         snr_band=(987.6, 5432.1),
         redraws=(Redraw("record", 0, "extent", "too long"),),
+        accuracy=Accuracy(3e-3, 17.0),
     )
 
 

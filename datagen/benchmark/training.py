@@ -72,8 +72,8 @@ def _by_name(probability: Array, names: list[str]) -> Array:
     return found
 
 
-def training_records(folder: Path, also_tested: bool) -> pandas.DataFrame:
-    """Labels of the records to learn from: without the split "test" where the corpus is also tested on.
+def training_records(folder: Path, also_tested: bool, first: int | None = None) -> pandas.DataFrame:
+    """Labels of the records to learn from, the `first` so many: without the split "test" where that is tested on.
 
     Raises BadInput if it is a corpus of recordings, or holds too few virtual bearings.
     """
@@ -82,6 +82,7 @@ def training_records(folder: Path, also_tested: bool) -> pandas.DataFrame:
     chosen = labels[np.isin(classes, CLASSES)]
     if also_tested:
         chosen = chosen[chosen["split"] != "test"]
+    chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
         raise BadInput("too few virtual bearings to learn from", str(folder), "--train", None, allowed)

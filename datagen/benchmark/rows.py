@@ -55,7 +55,7 @@ class Reading:
 class Rows:
     """Rows (N, F) of the feature table, the record (N,) of each, and per record why it must not be classified."""
 
-    table: Array
+    table: NDArray[Any]
     record: NDArray[np.int64]
     rejected: dict[int, str] = field(default_factory=dict)
 

@@ -26,6 +26,7 @@ SPEED_ERROR = 0.02
 LOWEST_BANDWIDTH = 5500.0
 COPIES_DB = (-18.0, 12.0)
 FEWEST_BEARINGS = 4
+ROWS_AT_A_TIME = 2048
 
 
 @dataclass(frozen=True)
@@ -51,8 +52,11 @@ class Model:
     takes_windows: bool = False
 
     def probability(self, table: Array) -> Array:
-        """Probabilities (N, 5) of CLASSES; a class that the estimator never saw has 0."""
-        return class_probability(self.estimator, table)
+        """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
+        starts = range(0, max(len(table), 1), ROWS_AT_A_TIME)
+        return np.concatenate(
+            [class_probability(self.estimator, table[start : start + ROWS_AT_A_TIME]) for start in starts]
+        )
 
 
 def class_probability(estimator: Any, table: Array) -> Array:

@@ -15,7 +15,7 @@ from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, window
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import class_probability, load_estimator, training_records
 from datagen.benchmark.votes import averaged, joined
-from datagen.benchmark.windows import WINDOW_SAMPLES, cut, resampled
+from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -205,3 +205,13 @@ def test_runs_on_recordings_are_listed_line_by_line(tmp_path):
     assert [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()] == [{"first": 1}, {"second": 2}]
     with pytest.raises(BadInput, match="logged"):
         write_line(tmp_path / "nowhere", {})
+
+
+def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):
+    corpus = Corpus(tiny_corpus)
+    record, rate = int(corpus.labels["record"].iloc[0]), float(corpus.labels["rate_hz"].iloc[0])
+    found = read_windows(tiny_corpus, np.array([record]), rate)
+    assert isinstance(found.table, np.memmap)
+    first = cut(corpus.waveform(record)[:, 0].astype(np.float64))
+    np.testing.assert_allclose(found.table[: len(first)], first, rtol=1e-6, atol=1e-12)  # float32 in the file
+    assert set(found.record.tolist()) == {record}

@@ -1,6 +1,7 @@
 """Writes the tables of docs/transfer.md from reports of `spallgen classify`: python docs/make_transfer.py REPORT.json …
 
-A report is named by the folder that it lies in; the first is the main run, the others are ablations.
+A report is named by the folder that it lies in; the first is the main run, the others are those of make_ablation.py and
+of make_recorded_background.py.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any
 
 PAGE = Path(__file__).with_name("transfer.md")
 BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"
+BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
 ODD = {"197", "198", "199", "174", "201"}
 
 
@@ -148,7 +150,10 @@ def main(paths: list[str]) -> None:
     learned = f"Learned from {first['training_records']} simulated records; no real one."
     page = replaced(page, "scores", [learned, "", *main_table(first)])
     page = replaced(page, "noise", noise_table(first))
-    page = replaced(page, "ablation", ablation_table(dict(list(reports.items())[1:])))
+    others = dict(list(reports.items())[1:])
+    backgrounds = {name: others.pop(name) for name in BACKGROUNDS if name in others}
+    page = replaced(page, "ablation", ablation_table(others))
+    page = replaced(page, "background", ablation_table(backgrounds))
     PAGE.write_text(page, encoding="utf-8")
 
 

@@ -1,6 +1,7 @@
 """Writes the tables of docs/transfer.md from reports of `spallgen classify`: python docs/make_transfer.py REPORT.json …
 
-A report is named by the folder that it lies in; the first is the main run, the others are ablations.
+A report is named by the folder that it lies in; the first is the main run, the others are those of make_ablation.py and
+of make_recorded_background.py.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any
 
 PAGE = Path(__file__).with_name("transfer.md")
 BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"
+BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
 ODD = {"197", "198", "199", "174", "201"}
 
 
@@ -87,18 +89,50 @@ def noise_table(report: dict[str, Any]) -> list[str]:
 
 
 def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
-    """Balanced accuracy over outer and inner, without odd records, of each report's models on each imported corpus."""
-    if len(reports) < 2:
+    """Balanced accuracy over outer and inner of each report's models: on each imported corpus without odd records, on
+    all of them in noise (race and AUC, mean over corpora), and on simulated machines."""
+    if not reports:
         return ["Not run."]
     first = next(iter(reports.values()))
-    corpora = [Path(test["corpus"]).name for test in first["tests"] if test["imported"]]
-    lines = ["| learned from | model | " + " | ".join(corpora) + " |", "|---" * (len(corpora) + 2) + "|"]
+    corpora = [Path(test["corpus"]).name for test in first["tests"] if test["imported"] and _has_faults(test)]
+    head = ["learned from", "model", *corpora, "false alarms", "race in noise", "AUC in noise", "simulated"]
+    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
     for name, report in reports.items():
         tests = {Path(test["corpus"]).name: test for test in report["tests"]}
         for model in next(iter(tests.values()))["models"]:
             cells = [without_odd(tests[corpus], model) for corpus in corpora]
+            cells += [alarms(report, model), in_noise(report, model, "race_accuracy")]
+            cells += [in_noise(report, model, "detection_auc"), simulated(report, model)]
             lines.append(f"| {name} | {model} | " + " | ".join(cells) + " |")
     return lines
+
+
+def _has_faults(test: dict[str, Any]) -> bool:
+    return bool(test["locations"]["outer"] + test["locations"]["inner"])
+
+
+def alarms(report: dict[str, Any], model: str) -> str:
+    """False alarms over healthy recordings of all imported corpora."""
+    own = [test["models"][model] for test in report["tests"] if test["imported"]]
+    return f"{sum(scores['false_alarms'] for scores in own)} of {sum(scores['healthy'] for scores in own)}"
+
+
+def in_noise(report: dict[str, Any], model: str, score: str) -> str:
+    """Mean of a score over the imported corpora and levels at which noise was added."""
+    values = [
+        noisy["models"][model][score]["value"]
+        for test in report["tests"]
+        if test["imported"]
+        for noisy in test["noise"]
+    ]
+    known = [value for value in values if value is not None]
+    return f"{sum(known) / len(known):.3f}" if known else "–"
+
+
+def simulated(report: dict[str, Any], model: str) -> str:
+    """Balanced accuracy over outer and inner of simulated records, with its interval."""
+    own = [test["models"][model] for test in report["tests"] if not test["imported"]]
+    return interval(own[0]["faults_balanced_accuracy"]) if own else "–"
 
 
 def replaced(page: str, name: str, lines: list[str]) -> str:
@@ -116,7 +150,10 @@ def main(paths: list[str]) -> None:
     learned = f"Learned from {first['training_records']} simulated records; no real one."
     page = replaced(page, "scores", [learned, "", *main_table(first)])
     page = replaced(page, "noise", noise_table(first))
-    page = replaced(page, "ablation", ablation_table(reports))
+    others = dict(list(reports.items())[1:])
+    backgrounds = {name: others.pop(name) for name in BACKGROUNDS if name in others}
+    page = replaced(page, "ablation", ablation_table(others))
+    page = replaced(page, "background", ablation_table(backgrounds))
     PAGE.write_text(page, encoding="utf-8")
 
 

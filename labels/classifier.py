@@ -15,18 +15,19 @@ from labels.stage import Stage
 
 CLASSES = ("healthy", "line outer", "line inner", "extended outer", "extended inner")
 HEALTHY = "healthy"
-FALSE_ALARMS = 0.02
-RACE_PREFIXES = ("outer_", "inner_", "race_")
-SPALL_NAMES = (
-    "kurtosis",
-    "crest_factor",
-    "flat_kurtosis",
-    "band_kurtosis",
-    "median_band_kurtosis",
-    "decoy_evidence",
-    "largest_decoy",
-    "ball_evidence",
-    "cage_evidence",
+FALSE_ALARMS = 0.05
+"""Share of simulated healthy records that may be called faulty: that of the rule's threshold."""
+RACES = ("outer", "inner")
+STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
+IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")
+RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS)
+"""More of these never makes a spall less likely."""
+DIFFERENCES = ("race_evidence", "race_spread", "race_strength", "race_depth", "race_others")
+SPALL_NAMES = (*RISING, *DIFFERENCES, "turns")
+SIGNS = tuple(1 if name in RISING else -1 if name == "turns" else 0 for name in SPALL_NAMES)
+RACE_NAMES = (
+    *(f"{race}_{name}" for race in RACES for name in (*STRENGTHS, "sidebands", "cage", "slip")),
+    *DIFFERENCES,
 )
 EVEN = 0.5
 
@@ -34,8 +35,9 @@ EVEN = 0.5
 class SpallClassifier(ClassifierMixin, BaseEstimator):
     """Three calibrated questions asked with one kind of learner ("forest", "logistic" or "boosting").
 
-    Spall or none, from the features of the two races' line families and of impulsiveness; outer or inner race, from the
-    families alone; line or extended, from all. Lines of the shaft, which belong to the machine, tell neither.
+    Spall or none, from the two races' line families in the envelopes, from impulsiveness, and from how long was looked;
+    outer or inner race, from the families alone; line or extended, from all features. What belongs to the machine as
+    much as to a spall (lines of the shaft, lines of the vibration itself) tells neither of the first two.
     `alarm_` is the probability of a spall that `false_alarms` of the healthy records exceed, on bearings not learned
     from.
     """
@@ -51,7 +53,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
-        self.spall_ = self._stage().fit(_spall_columns(X), faulty, groups)
+        self.spall_ = self._stage(SIGNS).fit(_spall_columns(X), faulty, groups)
         self.alarm_ = float(np.quantile(self.spall_.held_out[~faulty], 1.0 - self.false_alarms))
         faults, fault_groups = X[faulty], groups[faulty]
         self.race_ = self._stage().fit(_race_columns(faults), _ends_with(y[faulty], "inner"), fault_groups)
@@ -75,8 +77,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         """The likeliest class (N,) of the rows whose probability of a spall passes the alarm; "healthy" for others."""
         return decide(self.predict_proba(X), self.alarm_)
 
-    def _stage(self) -> Stage:
-        return Stage(learner(self.kind, self.seed), self.seed)
+    def _stage(self, signs: tuple[int, ...] | None = None) -> Stage:
+        return Stage(learner(self.kind, self.seed, signs), self.seed)
 
 
 def decide(probability: Array, alarm: float = EVEN) -> NDArray[np.str_]:
@@ -109,11 +111,11 @@ def joint_class(condition: str, location: str) -> str:
 
 
 def _race_columns(table: Array) -> Array:
-    return np.asarray(table)[:, [name.startswith(RACE_PREFIXES) for name in FEATURE_NAMES]]
+    return np.asarray(table)[:, [FEATURE_NAMES.index(name) for name in RACE_NAMES]]
 
 
 def _spall_columns(table: Array) -> Array:
-    return np.asarray(table)[:, [name.startswith(RACE_PREFIXES) or name in SPALL_NAMES for name in FEATURE_NAMES]]
+    return np.asarray(table)[:, [FEATURE_NAMES.index(name) for name in SPALL_NAMES]]
 
 
 def _ends_with(names: NDArray[Any], ending: str) -> NDArray[np.bool_]:

@@ -2,25 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 SEED = 2014
 LEARNERS = ("forest", "logistic", "boosting")
 
 
-def learner(name: str, seed: int = SEED) -> Any:
-    """A fresh classifier with `fit` and `predict_proba`; ValueError for an unknown name."""
+def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> Any:
+    """A fresh classifier with `fit` and `predict_proba`; ValueError for an unknown name.
+
+    `signs` (F,) are 1 for features with which the probability may only rise, −1 only fall, 0 either.
+    """
     from sklearn.ensemble import ExtraTreesClassifier, HistGradientBoostingClassifier
-    from sklearn.linear_model import LogisticRegression
     from sklearn.pipeline import make_pipeline
     from sklearn.preprocessing import StandardScaler
 
+    from labels.signed_logistic import SignedLogistic
+
     if name == "forest":
         return make_pipeline(
-            ExtraTreesClassifier(120, min_samples_leaf=3, max_features=0.4, class_weight="balanced", random_state=seed)
+            ExtraTreesClassifier(
+                120,
+                min_samples_leaf=3,
+                max_features=0.4,
+                class_weight="balanced",
+                monotonic_cst=signs,
+                random_state=seed,
+            )
         )
     if name == "logistic":
-        return make_pipeline(StandardScaler(), LogisticRegression(C=0.05, max_iter=3000, class_weight="balanced"))
+        return make_pipeline(StandardScaler(), SignedLogistic(0.05, signs))
     if name == "boosting":
         return make_pipeline(
             HistGradientBoostingClassifier(
@@ -31,6 +43,7 @@ def learner(name: str, seed: int = SEED) -> Any:
                 l2_regularization=3.0,
                 max_features=0.4,
                 class_weight="balanced",
+                monotonic_cst=signs,
                 random_state=seed,
             )
         )

@@ -16,7 +16,7 @@ from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.score_log import log_run, write_line
-from datagen.benchmark.summary import summarise
+from datagen.benchmark.summary import RACES, summarise
 from datagen.benchmark.training import (
     COPIES_DB,
     LOWEST_BANDWIDTH,
@@ -52,6 +52,8 @@ class Benchmark:
     estimator: Any | None = None
     takes_windows: bool = False
     bandwidth: float | None = None
+    speed_error: float = SPEED_ERROR
+    first: int | None = None
     doubt: float = 0.0
     noise_db: tuple[float, ...] = ()
     noise_draws: int = 10
@@ -70,7 +72,9 @@ class Benchmark:
 
     def training_reading(self) -> Reading:
         """How those that are learned from are: speeds only roughly known, any bandwidth, and noisy copies."""
-        return replace(self.reading(), speed_error=SPEED_ERROR, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB)
+        return replace(
+            self.reading(), speed_error=self.speed_error, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB
+        )
 
 
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
@@ -104,11 +108,11 @@ def _learned_from(benchmark: Benchmark, say: Say) -> tuple[TrainingSet, pandas.D
     ingredients = ingredients_of(benchmark.train)
     if ingredients is not None:
         say("learning from plain impulse trains")
-        return impulse_training(ingredients, benchmark.training_reading(), benchmark.workers), None
+        return impulse_training(ingredients, benchmark.training_reading(), benchmark.workers, benchmark.first), None
     places = [folder.resolve() for folder in benchmark.tests]
     if Corpus(benchmark.train).manifest.imported:
         raise BadInput("classifiers learn from simulated corpora only", str(benchmark.train), "--train")
-    labels = training_records(benchmark.train, benchmark.train.resolve() in places)
+    labels = training_records(benchmark.train, benchmark.train.resolve() in places, benchmark.first)
     say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
     return training_set(benchmark.train, labels, benchmark.training_reading(), benchmark.workers), labels
 
@@ -137,7 +141,8 @@ def _test(
         raw = read_windows(folder, labels["record"].to_numpy(np.int64), benchmark.window_rate)
     tested = judge(folder, labels, rows, rule, models, benchmark.doubt, imported, raw)
     summary = summarise(tested)
-    levels = () if benchmark.takes_windows else benchmark.noise_db
+    noise_tells = imported and not benchmark.takes_windows and np.isin(tested.truth, RACES).any()
+    levels = benchmark.noise_db if noise_tells else ()
     summary["noise"] = [_noisy(benchmark, folder, labels, rule, models, level, say) for level in levels]
     if imported:
         log_run(folder, benchmark.train, benchmark.options, summary)

@@ -16,6 +16,8 @@ from labels.features.kinematics import Kinematics
 
 Array = NDArray[np.float64]
 LOCATIONS = ("none", "outer", "inner")
+DURATIONS, SHARES = (0.4, 0.8, 2.0, 10.0), (4 / 12, 4 / 12, 3 / 12, 1 / 12)
+"""Lengths (s) and their shares, as in the transfer recipe."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients | 
     ingredients = ingredients or Ingredients()
     own = np.random.default_rng([seed, machine])
     generator = np.random.default_rng([seed, machine, record + 1])
-    rate, duration = 25_600.0, float(generator.choice([0.4, 0.8, 1.2]))
+    rate, duration = 25_600.0, float(generator.choice(DURATIONS, p=SHARES))
     kinematics = _bearing(own, generator)
     location = LOCATIONS[record % len(LOCATIONS)]
     paths = _paths(own if ingredients.sensor_paths else np.random.default_rng(seed), ingredients.sensor_paths)

@@ -9,7 +9,7 @@ import numpy as np
 
 from datagen.benchmark.impulse_train import LOCATIONS, Ingredients, draw_train
 from datagen.benchmark.rows import Reading, signal_rows
-from datagen.benchmark.training import TrainingSet
+from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from labels.classifier import HEALTHY
 
@@ -34,13 +34,16 @@ def ingredients_of(train: Path) -> Ingredients | None:
     return Ingredients(**{left_out: False}) if left_out else Ingredients()
 
 
-def impulse_training(ingredients: Ingredients, reading: Reading, workers: int) -> TrainingSet:
-    """Rows of 240 virtual machines, one healthy record and one with a spall on each race of every machine."""
+def impulse_training(
+    ingredients: Ingredients, reading: Reading, workers: int, records: int | None = None
+) -> TrainingSet:
+    """Rows of about that many `records` (720 if None): of each machine a healthy one and a spall on either race."""
     from joblib import Parallel, delayed, parallel_config
 
+    machines = MACHINES if records is None else max(FEWEST_BEARINGS, records // len(LOCATIONS))
     with parallel_config(backend="loky", inner_max_num_threads=1):
         found = Parallel(n_jobs=workers)(
-            delayed(_machine)(machine, ingredients, reading) for machine in range(MACHINES)
+            delayed(_machine)(machine, ingredients, reading) for machine in range(machines)
         )
     return TrainingSet(
         np.concatenate([part.table for part in found]),

@@ -12,6 +12,7 @@ from labels.learners import LEARNERS
 
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
+MOST_SPEED_ERROR = 0.02
 
 
 def benchmark_of(train: Path, tests: tuple[Path, ...], options: dict[str, Any], curve: bool, workers: int) -> Benchmark:
@@ -24,6 +25,8 @@ def benchmark_of(train: Path, tests: tuple[Path, ...], options: dict[str, Any], 
         raise BadInput("our learners take features", field="--input", value="windows", allowed="with --estimator")
     if options["bandwidth"] is not None and not options["bandwidth"] >= LEAST_BANDWIDTH:
         raise BadInput(field="--bandwidth", value=options["bandwidth"], allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
+    if not 0.0 <= options["speed_error"] <= MOST_SPEED_ERROR:
+        raise BadInput(field="--speed-error", value=options["speed_error"], allowed=f"0 to {MOST_SPEED_ERROR:g}")
     own = load_estimator(options["estimator"]) if options["estimator"] else None
     return Benchmark(
         train,
@@ -32,6 +35,8 @@ def benchmark_of(train: Path, tests: tuple[Path, ...], options: dict[str, Any], 
         own,
         options["input"] == "windows",
         options["bandwidth"],
+        options["speed_error"],
+        options["first"],
         options["reject"],
         _levels(options["noise_db"]),
         options["noise_draws"],

@@ -23,9 +23,11 @@ if TYPE_CHECKING:
     import pandas
 
 UNKNOWN_MACHINE = "no speed or no geometry"
-LONGEST_WINDOW = 1.25
+LONGEST_WINDOW = 10.5
 """s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
-grows with the length of what is looked at; so long records are cut, and their windows vote."""
+grows with the length of what is looked at; so what is longer than anything learned from is cut, and the pieces vote."""
+SHORTEST_COPY = 0.3
+NOISY_COPIES = 2
 RECORDS_A_TASK = 24
 
 
@@ -36,8 +38,8 @@ class Reading:
     `bandwidth` (Hz) limits all records alike; `window` (s) is the longest piece; white noise of `noise_db` (signal over
     noise, None: none) is added in `noise_draw`. `speed_error` and `lowest_bandwidth` are for training on simulated
     records, whose speed is exact and whose rate is one: the speed told is off by up to that share, and each record is
-    limited to a bandwidth drawn between that and its own; beside it as it is, a copy is read with white noise at a
-    level drawn from `copies_db`.
+    limited to a bandwidth drawn between that and its own; beside it as it is, all of it and a stretch from 0.3 s up are
+    read with white noise at levels drawn from `copies_db`.
     """
 
     bandwidth: float = COMMON_BANDWIDTH
@@ -53,7 +55,7 @@ class Reading:
 class Rows:
     """Rows (N, F) of the feature table, the record (N,) of each, and per record why it must not be classified."""
 
-    table: Array
+    table: NDArray[Any]
     record: NDArray[np.int64]
     rejected: dict[int, str] = field(default_factory=dict)
 
@@ -116,10 +118,11 @@ def signal_rows(
     if is_dead(signal):
         return [], [DEAD]
     rows, reasons = [], []
-    for copy in range(1 if reading.copies_db is None else 2):
+    for copy in range(1 if reading.copies_db is None else 1 + NOISY_COPIES):
         level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
         stream = np.random.default_rng([*seed, reading.noise_draw, level, copy])
-        for piece in windows(_noisy(signal, reading, stream, copy), rate, reading.window):
+        heard = _noisy(signal, reading, stream, copy)
+        for piece in windows(_stretch(heard, rate, stream) if copy > 1 else heard, rate, reading.window):
             given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
             analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
             rows.append(feature_values(analysis))
@@ -131,6 +134,14 @@ def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:
     """The signal (T,) in as few equal pieces as are no longer than `longest` (s)."""
     count = max(1, int(np.ceil(signal.size / rate / longest - 0.05)))
     yield from np.array_split(signal, count)
+
+
+def _stretch(signal: Array, rate: float, stream: np.random.Generator) -> Array:
+    """A stretch of the signal (T,), its length log-uniform from 0.3 s to the whole, anywhere in it."""
+    shortest = min(SHORTEST_COPY * rate, signal.size)
+    size = int(np.exp(stream.uniform(np.log(shortest), np.log(signal.size))))
+    start = int(stream.integers(0, signal.size - size, endpoint=True))
+    return signal[start : start + size]
 
 
 def _seed(labels: pandas.Series[Any]) -> list[int]:

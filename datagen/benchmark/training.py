@@ -26,6 +26,7 @@ SPEED_ERROR = 0.02
 LOWEST_BANDWIDTH = 5500.0
 COPIES_DB = (-18.0, 12.0)
 FEWEST_BEARINGS = 4
+ROWS_AT_A_TIME = 2048
 
 
 @dataclass(frozen=True)
@@ -51,8 +52,11 @@ class Model:
     takes_windows: bool = False
 
     def probability(self, table: Array) -> Array:
-        """Probabilities (N, 5) of CLASSES; a class that the estimator never saw has 0."""
-        return class_probability(self.estimator, table)
+        """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
+        starts = range(0, max(len(table), 1), ROWS_AT_A_TIME)
+        return np.concatenate(
+            [class_probability(self.estimator, table[start : start + ROWS_AT_A_TIME]) for start in starts]
+        )
 
 
 def class_probability(estimator: Any, table: Array) -> Array:
@@ -72,8 +76,8 @@ def _by_name(probability: Array, names: list[str]) -> Array:
     return found
 
 
-def training_records(folder: Path, also_tested: bool) -> pandas.DataFrame:
-    """Labels of the records to learn from: without the split "test" where the corpus is also tested on.
+def training_records(folder: Path, also_tested: bool, first: int | None = None) -> pandas.DataFrame:
+    """Labels of the records to learn from, the `first` so many: without the split "test" where that is tested on.
 
     Raises BadInput if it is a corpus of recordings, or holds too few virtual bearings.
     """
@@ -82,6 +86,7 @@ def training_records(folder: Path, also_tested: bool) -> pandas.DataFrame:
     chosen = labels[np.isin(classes, CLASSES)]
     if also_tested:
         chosen = chosen[chosen["split"] != "test"]
+    chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
         raise BadInput("too few virtual bearings to learn from", str(folder), "--train", None, allowed)

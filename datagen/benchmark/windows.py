@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from tempfile import TemporaryFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,21 +27,25 @@ def common_rate(folders: Iterable[Path], bandwidth: float) -> float:
 def read_windows(folder: Path, records: NDArray[np.int64], rate: float) -> Rows:
     """Windows (N, 4096) at `rate` (Hz), in m/s², of at most eight places of each axis of a record.
 
-    What the window is too long for is padded with silence.
+    What the window is too long for is padded with silence. They lie in a temporary file, read as they are needed, so
+    that memory does not grow with the corpus.
     """
     corpus = Corpus(folder)
     rates = corpus.labels.set_index("record")["rate_hz"]
-    table: list[Array] = []
     owners: list[int] = []
-    for record in records.tolist():
-        for signal in np.asarray(corpus.waveform(record), dtype=np.float64).T:
-            if np.isfinite(signal).all():
-                found = cut(resampled(signal, float(rates[record]), rate))
-                table += found
-                owners += [record] * len(found)
+    with TemporaryFile() as file:
+        for record in records.tolist():
+            for signal in np.asarray(corpus.waveform(record), dtype=np.float64).T:
+                if np.isfinite(signal).all():
+                    found = cut(resampled(signal, float(rates[record]), rate))
+                    file.write(np.asarray(found, dtype=np.float32).tobytes())
+                    owners += [record] * len(found)
+        file.flush()
+        # The mapping keeps the file alive after it is closed, and an empty one cannot be mapped.
+        shape = (len(owners), WINDOW_SAMPLES)
+        table = np.memmap(file, np.float32, "r", shape=shape) if owners else np.empty(shape, np.float32)
     corpus.close()
-    stacked = np.array(table, dtype=np.float64) if table else np.empty((0, WINDOW_SAMPLES))
-    return Rows(stacked, np.array(owners, dtype=np.int64))
+    return Rows(table, np.array(owners, dtype=np.int64))
 
 
 def resampled(signal: Array, rate: float, target: float) -> Array:

@@ -29,12 +29,16 @@ def classify(
         float | None,
         typer.Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given."),
     ] = None,
+    speed_error: Annotated[
+        float, typer.Option(metavar="SHARE", help="By how much speeds told in training may be off, 0 to 0.02.")
+    ] = 0.02,
+    first: Annotated[int | None, typer.Option(metavar="N", min=1, help="Learn from the first N records only.")] = None,
     doubt: Annotated[
         float,
         typer.Option("--reject", min=0.0, max=1.0, help="Reject records whose likeliest location is less likely."),
     ] = 0.0,
     noise_db: Annotated[
-        str, typer.Option(metavar="DB,DB", help="Also score with white noise at these signal-to-noise ratios.")
+        str, typer.Option(metavar="DB,DB", help="Also score recordings of faults with white noise at these ratios.")
     ] = "",
     noise_draws: Annotated[int, typer.Option(metavar="N", min=1, help="Draws of that noise.")] = 10,
     learning_curve: Annotated[bool, typer.Option(help="Also learn from shares of the corpus.")] = False,
@@ -51,7 +55,8 @@ def classify(
     from datagen.plain import plain_json
 
     options: dict[str, Any] = {
-        "learner": learner, "estimator": estimator, "input": inputs, "bandwidth": bandwidth, "reject": doubt,
+        "learner": learner, "estimator": estimator, "input": inputs, "bandwidth": bandwidth,
+        "speed_error": speed_error, "first": first, "reject": doubt,
         "noise_db": noise_db, "noise_draws": noise_draws,
     }  # fmt: skip
     benchmark = benchmark_of(train, (*test, *(more or [])), options, learning_curve, workers)

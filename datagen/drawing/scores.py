@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, house_style, plt
 
@@ -14,8 +15,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
-WIDTH, ROW, DPI = 13.0, 3.0, 110
+WIDTH, ROW, DPI = 18.0, 3.0, 100
 MOST_FEATURES = 15
+AGAINST = {"snr_db": "SNR, dB", "speed_rpm": "speed, rpm", "extent_mm": "size, mm"}
+COLUMNS = 3 + len(AGAINST)
 
 
 def scores_png(results: dict[str, Any]) -> bytes:
@@ -23,16 +26,16 @@ def scores_png(results: dict[str, Any]) -> bytes:
     tests = results["tests"]
     with house_style():
         rows = len(tests) + 1
-        figure, axes = plt.subplots(rows, 4, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False)
+        figure, axes = plt.subplots(rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False)
         for panels, test in zip(axes, tests, strict=False):
             draw_scores(panels[0], test)
             draw_confusion(panels[1], test)
             draw_reliability(panels[2], test)
-            draw_against(panels[3], test)
-        draw_importances(axes[-1][0], results)
-        draw_curve(axes[-1][1], results)
-        for panel in axes[-1][2:]:
-            panel.axis("off")
+            for panel, quantity in zip(panels[3:], AGAINST, strict=True):
+                draw_against(panel, test, quantity)
+        draw_importances(axes[-1][:-2], results)
+        draw_curve(axes[-1][-2], results)
+        axes[-1][-1].axis("off")
         picture = io.BytesIO()
         figure.savefig(picture, dpi=DPI, format="png")
         plt.close(figure)
@@ -91,40 +94,41 @@ def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
     axes.set_title("reliability")
 
 
-def draw_against(axes: Axes, test: dict[str, Any]) -> None:
-    """Accuracy over fault records against the first quantity that varies."""
-    if not any(scores["accuracy_against"] for scores in test["models"].values()):
+def draw_against(axes: Axes, test: dict[str, Any], quantity: str) -> None:
+    """Accuracy over fault records against one of AGAINST, in bins of equally many records."""
+    models = test["models"]
+    if not any(quantity in scores["accuracy_against"] for scores in models.values()):
         axes.axis("off")
         return
-    axes.set_title("accuracy over faults")
+    for place, scores in enumerate(models.values()):
+        table = scores["accuracy_against"].get(quantity, [])
+        at, value = [point["at"] for point in table], np.array([point["accuracy"] for point in table])
+        axes.plot(at, value, "o-", color=COLOURS[place % 6], markersize=3)
+        axes.fill_between(
+            at,
+            [point["low"] for point in table],
+            [point["high"] for point in table],
+            color=COLOURS[place % 6],
+            alpha=0.1,
+            linewidth=0,
+        )
+    axes.set_xlabel(AGAINST[quantity])
     axes.set_ylim(0.0, 1.03)
+    axes.set_title("accuracy over faults")
     faint_grid(axes)
-    units = {
-        "snr_db": "SNR, dB",
-        "speed_rpm": "speed, rpm",
-        "extent_mm": "size, mm",
-        "extent_spacing": "size, ball spacings",
-    }
-    for place, scores in enumerate(test["models"].values()):
-        for quantity, table in list(scores["accuracy_against"].items())[:1]:
-            at, value = [point["at"] for point in table], [point["accuracy"] for point in table]
-            bars = [[v - p["low"] for v, p in zip(value, table, strict=True)],
-                    [p["high"] - v for v, p in zip(value, table, strict=True)]]  # fmt: skip
-            axes.errorbar(at, value, yerr=np.maximum(bars, 0.0), color=COLOURS[place % 6], marker="o", markersize=3)
-            axes.set_xlabel(units[quantity])
 
 
-def draw_importances(axes: Axes, results: dict[str, Any]) -> None:
-    """The features that the last model uses most."""
-    if not results["importances"]:
-        axes.axis("off")
-        return
-    name, table = list(results["importances"].items())[-1]
-    chosen = list(table.items())[:MOST_FEATURES][::-1]
-    axes.barh([row[0] for row in chosen], [row[1] for row in chosen], color=BLUE)
-    axes.tick_params(axis="y", labelsize=6.5)
-    axes.set_xlabel("rise of log loss when shuffled, nats")
-    axes.set_title(f"importances, {name}")
+def draw_importances(axes: NDArray[Any], results: dict[str, Any]) -> None:
+    """The features that each model uses most, one of `axes` (N,) each."""
+    for panel in axes:
+        panel.axis("off")
+    for panel, (name, table) in zip(axes, results["importances"].items(), strict=False):
+        chosen = list(table.items())[:MOST_FEATURES][::-1]
+        panel.axis("on")
+        panel.barh([row[0] for row in chosen], [row[1] for row in chosen], color=BLUE)
+        panel.tick_params(axis="y", labelsize=6.5)
+        panel.set_xlabel("rise of log loss when shuffled, nats")
+        panel.set_title(f"importances, {name}")
 
 
 def draw_curve(axes: Axes, results: dict[str, Any]) -> None:

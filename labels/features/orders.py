@@ -16,6 +16,7 @@ RAHMONICS = 2
 VELOCITY_HARMONICS = 6
 
 ROWS = (
+    Feature("turns", "ln", "ln of the number of turns of the shaft in the record.", ORDERS),
     Feature("shaft_evidence", "ln nat", "ln(1 + evidence of shaft harmonics, vibration and widest envelope).", ORDERS),
     Feature("outer_vibration", "ln nat", "ln(1 + evidence of BPFO 1 to 4 in the vibration itself).", ORDERS),
     Feature("inner_vibration", "ln nat", "ln(1 + evidence of BPFI 1 to 4 in the vibration itself).", ORDERS),
@@ -40,6 +41,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
     velocity = _velocity_power(analysis)
     cepstrum = _cepstrum(analysis)
     return lines | {
+        "turns": float(np.log(shaft * analysis.record.duration)),
         "shaft_evidence": float(np.log1p(analysis.speed.evidence)),
         "race_vibration": lines["outer_vibration"] - lines["inner_vibration"],
         "outer_velocity": _share(analysis, velocity, float(outer.fundamental[0]), VELOCITY_HARMONICS),

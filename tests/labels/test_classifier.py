@@ -5,6 +5,7 @@ import pytest
 
 from labels.classifier import (
     CLASSES,
+    RISING,
     SpallClassifier,
     condition_probability,
     decide,
@@ -57,8 +58,19 @@ def test_the_same_seed_gives_the_same_probabilities():
 def test_few_healthy_rows_of_unseen_bearings_pass_the_alarm(fitted):
     table, classes, _ = made_up(2000, 3)
     said = fitted.predict(table[classes == "healthy"])
-    # 2 % by design, from 80 healthy rows: the quantile is uncertain by a factor of two or three.
-    assert np.mean(said != "healthy") < 0.08
+    # 5 % by design, from 80 healthy rows: four of them pass, and four scatters by its root (three times: 13 %).
+    assert 0.0 < np.mean(said != "healthy") < 0.13
+
+
+@pytest.mark.parametrize("kind", LEARNERS)
+def test_more_evidence_never_makes_a_spall_less_likely(kind):
+    model = SpallClassifier(kind).fit(*made_up(150, 1))
+    table, _, _ = made_up(60, 5)
+    spall = 1.0 - model.predict_proba(table)[:, 0]
+    for name in RISING:
+        raised = table.copy()
+        raised[:, FEATURE_NAMES.index(name)] += 2.0
+        assert np.all(1.0 - model.predict_proba(raised)[:, 0] >= spall - 1e-12)  # up to rounding
 
 
 def test_the_race_is_told_from_the_families_alone(fitted):

@@ -9,11 +9,13 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.benchmark.classify import tested_records as records_to_test
+from datagen.benchmark.impulse_train import Ingredients
+from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, windows
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import class_probability, load_estimator, training_records
 from datagen.benchmark.votes import averaged, joined
-from datagen.benchmark.windows import WINDOW_SAMPLES, cut, resampled
+from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -84,6 +86,27 @@ def test_a_corpus_learned_from_and_tested_on_is_divided_by_virtual_bearing(tiny_
     assert len(training_records(copy, also_tested=False)) == len(index)
 
 
+def test_only_the_first_records_are_learned_from_if_asked(tiny_corpus):
+    every = training_records(tiny_corpus, also_tested=False)
+    assert training_records(tiny_corpus, False, 10)["record"].tolist() == every["record"].tolist()[:10]
+
+
+def test_noisy_copies_are_whole_and_a_stretch_from_anywhere(tiny_corpus):
+    labels, signal = Corpus(tiny_corpus).labels.iloc[0].copy(), np.random.default_rng(1).standard_normal((40_000, 1))
+    labels["rate_hz"] = 20_000.0
+    rows, _ = record_rows(signal, labels, Reading(copies_db=(-18.0, 12.0)))
+    turns = np.exp([row[FEATURE_NAMES.index("turns")] for row in rows])
+    assert len(rows) == 3
+    assert turns[1] == pytest.approx(turns[0], rel=0.03)  # the speed is refined by up to 2.2 %
+    assert 0.14 * turns[0] < turns[2] < 1.03 * turns[0]  # 0.3 s of 2 s is the least
+
+
+def test_plain_impulse_trains_are_as_many_as_asked():
+    made = impulse_training(Ingredients(), Reading(), 1, 12)
+    assert sorted(set(made.classes)) == ["healthy", "line inner", "line outer"]
+    assert len(made.classes) == 12
+
+
 def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
     done, results = classify("--estimator", "own_estimators:Guesser", "--out", tmp_path / "report")
     assert done.exit_code == 0
@@ -106,7 +129,13 @@ def test_a_function_that_names_classes_is_scored_too(classify, inputs):
 
 @pytest.mark.parametrize(
     "options",
-    [("--learner", "oracle"), ("--estimator", "nowhere:Thing"), ("--input", "windows"), ("--noise-db", "loud")],
+    [
+        ("--learner", "oracle"),
+        ("--estimator", "nowhere:Thing"),
+        ("--input", "windows"),
+        ("--noise-db", "loud"),
+        ("--speed-error", "0.1"),
+    ],
 )
 def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options):
     assert classify(*options)[0].exit_code == 2
@@ -176,3 +205,13 @@ def test_runs_on_recordings_are_listed_line_by_line(tmp_path):
     assert [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()] == [{"first": 1}, {"second": 2}]
     with pytest.raises(BadInput, match="logged"):
         write_line(tmp_path / "nowhere", {})
+
+
+def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):
+    corpus = Corpus(tiny_corpus)
+    record, rate = int(corpus.labels["record"].iloc[0]), float(corpus.labels["rate_hz"].iloc[0])
+    found = read_windows(tiny_corpus, np.array([record]), rate)
+    assert isinstance(found.table, np.memmap)
+    first = cut(corpus.waveform(record)[:, 0].astype(np.float64))
+    np.testing.assert_allclose(found.table[: len(first)], first, rtol=1e-6, atol=1e-12)  # float32 in the file
+    assert set(found.record.tolist()) == {record}

@@ -1,0 +1,75 @@
+"""What a healthy machine's recording as background does: python docs/make_recorded_background.py OUT RECORDS FILE RATE
+CHANNEL,CHANNEL… TEST…
+
+Learns from `transfer` at the rate (Hz) of FILE, with records no longer than it: once with the machines' drawn layers at
+their absolute levels, once with these at a drawn signal-to-noise ratio, once with stretches of the recording's channels
+at that same ratio. OUT gets the corpora and reports; TEST are the corpora to score on.
+"""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+from make_ablation import report, spallgen
+
+from datagen.cards.toml_text import toml_text
+from datagen.recipes.recipe_files import find_recipe
+
+RATIO_DB = {"uniform": [-15, 25]}
+DURATIONS = {"choice": [0.4, 0.9]}
+HIGHEST = 0.45
+"""Highest resonance, as a share of the rate."""
+
+
+def limited(setting: dict[str, list[float]], rate: float) -> dict[str, list[float]]:
+    """A distribution of frequencies with its upper end below half the rate (Hz)."""
+    [(kind, (low, high))] = setting.items()
+    return {kind: [low, min(high, HIGHEST * rate)]}
+
+
+def at_rate(recipe: dict[str, Any], rate: float) -> dict[str, Any]:
+    """The recipe with short records at that rate (Hz)."""
+    changed = deepcopy(recipe)
+    changed["signal"] = {"rate_hz": rate, "duration_s": DURATIONS}
+    part = changed["part"][0]
+    part["machine"]["resonator_frequency_hz"] = limited(part["machine"]["resonator_frequency_hz"], rate)
+    part["chain"]["mounting_cutoff_hz"] = limited(part["chain"]["mounting_cutoff_hz"], rate)
+    for table in (*part["chain"]["modes"], part["background"]["impulses"]):
+        table["frequency_hz"] = limited(table["frequency_hz"], rate)
+    return changed
+
+
+def with_recording(recipe: dict[str, Any], file: Path, rate: float, channels: list[str], records: int) -> None:
+    """One part a channel, its background nothing but stretches of that channel."""
+    [part] = recipe["part"]
+    recipe["part"] = [deepcopy(part) for _ in channels]
+    for number, (own, channel) in enumerate(zip(recipe["part"], channels, strict=True)):
+        recording = {"file": str(file), "rate_hz": rate, "channels": [channel]}
+        own |= {"name": f"machines-{number}", "records": records // len(channels)}
+        own["background"] = {"recording": recording, "snr_db": RATIO_DB}
+
+
+def main(out: Path, records: int, file: Path, rate: float, channels: list[str], tests: list[str]) -> None:
+    """Make the three corpora and their reports."""
+    recipe = at_rate(tomllib.loads(find_recipe("transfer").read_text(encoding="utf-8")), rate)
+    recipe["part"][0]["records"] = records
+    at_ratio, recorded = deepcopy(recipe), deepcopy(recipe)
+    at_ratio["part"][0]["background"]["snr_db"] = RATIO_DB
+    with_recording(recorded, file.absolute(), rate, channels, records)
+    named = {"drawn layers": recipe, "drawn layers at a ratio": at_ratio, "recording at a ratio": recorded}
+    for name, data in named.items():
+        folder = out / "corpora" / name.replace(" ", "_")
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "recipe.toml").write_text(toml_text(data), encoding="utf-8")
+        spallgen("generate", folder / "recipe.toml", "--out", folder / "corpus", "--workers", 1)
+        report(out, name, folder / "corpus", tests, records)
+
+
+if __name__ == "__main__":
+    main(
+        Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), float(sys.argv[4]), sys.argv[5].split(","), sys.argv[6:]
+    )

@@ -1,0 +1,58 @@
+"""Logistic regression whose coefficients may be held to one sign."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.base import BaseEstimator, ClassifierMixin
+
+from labels.features.conditioning import Array
+
+MOST_STEPS = 2000
+
+
+class SignedLogistic(ClassifierMixin, BaseEstimator):
+    """Two classes of equal weight, a quadratic penalty of strength 1 / C, and coefficients of the given `signs`.
+
+    A sign of 1 keeps a feature's coefficient at 0 or above, −1 at 0 or below, 0 leaves it free (so does None for all).
+    """
+
+    def __init__(self, C: float = 1.0, signs: Sequence[int] | None = None) -> None:
+        self.C = C
+        self.signs = signs
+
+    def fit(self, X: Array, y: NDArray[Any]) -> SignedLogistic:
+        """Learn from rows (N, F) and their two classes (N,)."""
+        from scipy.optimize import minimize
+
+        table = np.column_stack([np.asarray(X, dtype=np.float64), np.ones(len(X))])
+        self.classes_, place = np.unique(y, return_inverse=True)
+        side = np.where(place == 1, 1.0, -1.0)
+        weight = 0.5 * len(side) / np.maximum(np.bincount(place), 1)[place]
+
+        def loss(coefficients: Array) -> tuple[float, Array]:
+            margin = side * (table @ coefficients)
+            slope = -side * weight * 0.5 * (1.0 - np.tanh(0.5 * margin))
+            shrunk = np.append(coefficients[:-1], 0.0)
+            value = float(weight @ np.logaddexp(0.0, -margin)) + 0.5 / self.C * float(shrunk @ shrunk)
+            return value, table.T @ slope + shrunk / self.C
+
+        signs = [0] * (table.shape[1] - 1) if self.signs is None else list(self.signs)
+        bounds = [(0.0 if sign > 0 else None, 0.0 if sign < 0 else None) for sign in (*signs, 0)]
+        found = minimize(
+            loss, np.zeros(table.shape[1]), jac=True, bounds=bounds, method="L-BFGS-B", options={"maxiter": MOST_STEPS}
+        )
+        self.coef_, self.intercept_ = found.x[:-1], float(found.x[-1])
+        return self
+
+    def predict_proba(self, X: Array) -> Array:
+        """Probabilities (N, 2) of the two classes."""
+        second = 0.5 * (1.0 + np.tanh(0.5 * (np.asarray(X) @ self.coef_ + self.intercept_)))
+        return np.column_stack([1.0 - second, second])
+
+    def predict(self, X: Array) -> NDArray[Any]:
+        """The likelier class (N,)."""
+        return np.asarray(self.classes_[self.predict_proba(X).argmax(axis=1)])

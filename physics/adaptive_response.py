@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,14 +76,19 @@ class _Case:
     start: Array
     rate: float
 
+    @cached_property
+    def ringing(self) -> float:
+        """What a push of 1 N s leaves in the resonator's acceleration, m²/s³ per (N s)²."""
+        return ringing(self.flow)
+
     @property
     def push(self) -> float:
         """Momentum (N s) a step may be wrong by for an error of 1 m/s² (RMS), at the usual number of pushes."""
-        return 1.0 / math.sqrt(ringing(self.flow) * USUAL_PUSHES * self.rate)
+        return 1.0 / math.sqrt(self.ringing * USUAL_PUSHES * self.rate)
 
     def pushed(self, output: Output, samples: int) -> float:
         """What the errors of a march's steps add up to in the resonator's acceleration (m/s², RMS of both axes)."""
-        return math.sqrt(0.5 * ringing(self.flow) * float(output.budget[0]) * self.rate / samples)
+        return math.sqrt(0.5 * self.ringing * float(output.budget[0]) * self.rate / samples)
 
 
 def respond_accurately(

@@ -1,10 +1,11 @@
 """Does the program keep the accuracy asked for by itself, and what does that cost beside the best choice in hindsight?
 
-python tests/benchmarks/own_choice.py [--scenes 300] [--seed 777001] writes docs/own_choice.json. Scenes are drawn from
-the whole corpus recipe under a seed that nothing was tuned with. Each is simulated as a user would, at an accuracy of
-1e-3, and held against an independent method, fixed steps of the exponential Runge-Kutta method with every change
-located, 32 a sample and, where that is not enough to judge by, 128. The rivals in hindsight are the settings of
-`spallgen chart`, the cheapest of which that kept the accuracy counts, without any pilot.
+python tests/benchmarks/own_choice.py [--scenes 300] [--seed 777001] [--seconds 0.1] [--out docs/own_choice.json]
+
+Scenes are drawn from the whole corpus recipe under a seed that nothing was tuned with. Each is simulated as a user
+would, at an accuracy of 1e-3, and held against an independent method, fixed steps of the exponential Runge-Kutta method
+with every change located, 32 a sample and, where that is not enough to judge by, 128. The rivals in hindsight are the
+settings of `spallgen chart`, the cheapest of which that kept the accuracy counts, without any pilot.
 """
 
 from __future__ import annotations
@@ -30,7 +31,6 @@ from physics.simulate import simulate, warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
 ACCURACY = 1e-3
-DURATION = 0.1
 JUDGING_SUBSTEPS = (32, 128)
 # A judge that two step sizes of its own method tell apart by less than this share of the accuracy is good enough.
 CERTAIN = 0.2
@@ -54,9 +54,9 @@ def timed(run: Callable[[], Array]) -> tuple[float, Array]:
     return min(seconds), result
 
 
-def shortened(scene: Scene) -> Scene:
-    """Its first tenth of a second."""
-    cages = [cage and replace(cage, duration=min(cage.duration, DURATION)) for cage in (scene.cage, scene.second_cage)]
+def shortened(scene: Scene, seconds: float) -> Scene:
+    """Its first `seconds`."""
+    cages = [cage and replace(cage, duration=min(cage.duration, seconds)) for cage in (scene.cage, scene.second_cage)]
     return replace(scene, cage=cages[0], second_cage=cages[1])
 
 
@@ -155,6 +155,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scenes", type=int, default=300)
     parser.add_argument("--seed", type=int, default=777001)
+    parser.add_argument("--seconds", type=float, default=0.1, help="length of each scene")
     parser.add_argument("--hindsight", type=int, default=1, help="rival settings on every n-th scene; 0: none")
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "own_choice.json")
     options = parser.parse_args()
@@ -166,12 +167,12 @@ def main() -> None:
         record = place * stride
         scenario = draw_scenario(recipe, record)
         hindsight = options.hindsight > 0 and place % options.hindsight == 0
-        rows[str(record)] = measure(shortened(scenario.scene), scenario.rate, hindsight)
+        rows[str(record)] = measure(shortened(scenario.scene, options.seconds), scenario.rate, hindsight)
         report = {
             "recipe": "corpus",
             "seed": options.seed,
             "accuracy": ACCURACY,
-            "seconds_a_scene": DURATION,
+            "seconds_a_scene": options.seconds,
             "machine": f"{platform.machine()}, {platform.system()}",
             "versions": {name: version(name) for name in ("numpy", "scipy", "numba")},
             "summary": summary(rows) if place >= 9 else {},

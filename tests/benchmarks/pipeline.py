@@ -1,0 +1,170 @@
+"""The whole pipeline: draw, simulate, sensor, background, envelope, stiffness, truth and writing, as a run does them.
+
+python tests/benchmarks/pipeline.py [--records 64] [--rounds 3] writes docs/pipeline.json and the tables of
+docs/pipeline.md: times real time of one processor with the default compression and with none, bytes a second of record,
+where the time goes, and what a second worker adds (wall clock, on a machine that does nothing else).
+"""
+
+from __future__ import annotations
+
+import argparse
+import cProfile
+import json
+import platform
+import pstats
+import shutil
+import statistics
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.metadata import version
+from pathlib import Path
+
+from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.runs.generate import corpus_identity, generate
+from datagen.runs.plan import plan_shards
+from datagen.runs.task import make_shard
+from datagen.runs.workers import Engine
+from physics.simulate import warm_up
+
+ROOT = Path(__file__).resolve().parents[2]
+DATASETS = ("gearbox_rig", "fan_rig", "corpus")
+COMPRESSIONS = ("zlib", "none")
+WORKER_DATASET, WORKER_RECORDS = "gearbox_rig", 96
+BEGIN, END = "<!-- pipeline: begin (written by tests/benchmarks/pipeline.py) -->", "<!-- pipeline: end -->"
+# Functions that the profile adds up, by the step that they are; each does nothing that another one counts.
+STAGES = {
+    "draw the scenario": ("draw_scenario",),
+    "simulate": ("simulate",),
+    "quasi-static stiffness": ("stiffness_trace",),
+    "truth of every ball pass": ("ball_passes",),
+    "sensor path and background": ("sensed", "background_layers", "sensor_labels"),
+    "envelope": ("band_envelope",),
+    "text of the scenario": ("to_json",),
+    "lay out the file": ("to_dataset",),
+    "compress and write": ("write_shard",),
+}
+
+
+@contextmanager
+def scratch() -> Iterator[Path]:
+    """A folder that is gone afterwards."""
+    folder = Path(tempfile.mkdtemp(prefix="spallgen-pipeline-"))
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def with_compression(recipe: Recipe, compression: str) -> Recipe:
+    """The recipe, stored otherwise."""
+    return recipe.model_copy(update={"store": recipe.store.model_copy(update={"compression": compression})})
+
+
+def one_process(recipe: Recipe, records: int) -> tuple[float, float, int]:
+    """Processor time (s) of making and writing the first `records`, their length (s), and bytes written."""
+    identity, planned = corpus_identity(recipe), plan_shards(recipe, records)
+    with scratch() as folder:
+        begin = time.process_time()
+        rows = [make_shard(recipe, folder, shard, identity) for shard in planned]
+        spent = time.process_time() - begin
+    assert not any(row.error or row.failed for row in rows)
+    length = sum(len(shard.records) * shard.record_seconds for shard in planned)
+    return spent, length, sum(row.bytes for row in rows)
+
+
+def shares(recipe: Recipe, records: int) -> dict[str, float]:
+    """Share of the time in every step of STAGES, and of all else."""
+    identity, planned = corpus_identity(recipe), plan_shards(recipe, records)
+    profile = cProfile.Profile()
+    with scratch() as folder:
+        profile.enable()
+        for shard in planned:
+            make_shard(recipe, folder, shard, identity)
+        profile.disable()
+    found = pstats.Stats(profile)
+    stats: dict[tuple[str, int, str], tuple[int, int, float, float, object]] = found.stats  # type: ignore[attr-defined]
+    spent = {
+        stage: sum(row[3] for (file, _, name), row in stats.items() if name in names and str(ROOT) in file)
+        for stage, names in STAGES.items()
+    }
+    whole = max(row[3] for row in stats.values())
+    told = {stage: seconds / whole for stage, seconds in spent.items()}
+    return told | {"all else": 1.0 - sum(told.values())}
+
+
+def wall_seconds(recipe: Recipe, workers: int) -> float:
+    """Wall-clock seconds of a run with so many workers."""
+    with scratch() as folder:
+        begin = time.perf_counter()
+        generate(recipe, folder / "corpus", limit=WORKER_RECORDS, engine=Engine(workers=workers))
+        return time.perf_counter() - begin
+
+
+def measure(records: int, rounds: int) -> dict[str, object]:
+    """Everything the tables hold."""
+    rows: dict[str, dict[str, object]] = {}
+    for name in DATASETS:
+        recipe = load_recipe(ROOT / "datasets" / name)
+        row: dict[str, object] = {}
+        for compression in COMPRESSIONS:
+            runs = [one_process(with_compression(recipe, compression), records) for _ in range(rounds)]
+            spent = statistics.median(run[0] for run in runs)
+            row[compression] = {"real_time": runs[0][1] / spent, "bytes_per_second": runs[0][2] / runs[0][1]}
+        row["shares"] = shares(recipe, records)
+        rows[name] = row
+        print(name, json.dumps(row), flush=True)
+    recipe = load_recipe(ROOT / "datasets" / WORKER_DATASET)
+    pairs = [(wall_seconds(recipe, 1), wall_seconds(recipe, 2)) for _ in range(rounds)]
+    return {
+        "datasets": rows,
+        "two_workers": statistics.median(one / two for one, two in pairs),
+        "worker_records": WORKER_RECORDS,
+        "records": records,
+        "machine": f"{platform.machine()}, {platform.system()}",
+        "versions": {name: version(name) for name in ("numpy", "scipy", "numba", "xarray", "netCDF4")},
+    }
+
+
+def page(found: dict[str, object]) -> str:
+    """The tables, as Markdown."""
+    rows: dict[str, dict[str, dict[str, float]]] = found["datasets"]  # type: ignore[assignment]
+    lines = ["| dataset | times real time, zlib | none | kB a second of record, zlib | none |", "|---|---|---|---|---|"]
+    for name, row in rows.items():
+        speed = [f"{row[one]['real_time']:.1f}" for one in COMPRESSIONS]
+        size = [f"{row[one]['bytes_per_second'] / 1e3:.0f}" for one in COMPRESSIONS]
+        lines.append(f"| {name} | {' | '.join(speed)} | {' | '.join(size)} |")
+    lines += ["", "| share of the time | " + " | ".join(rows) + " |", "|---" * (len(rows) + 1) + "|"]
+    for stage in (*STAGES, "all else"):
+        told = " | ".join(f"{100.0 * row['shares'][stage]:.0f} %" for row in rows.values())
+        lines.append(f"| {stage} | {told} |")
+    versions: dict[str, str] = found["versions"]  # type: ignore[assignment]
+    made = ", ".join(f"{name} {number}" for name, number in versions.items())
+    lines += [
+        "",
+        f"First {found['records']} records of each dataset, processor time of one process, median of the rounds; "
+        f"shares from a profile. Two workers make the first {found['worker_records']} records of {WORKER_DATASET} "
+        f"{found['two_workers']:.2f} times as fast as one (wall clock, start of the processes included). "
+        f"Measured on {found['machine']}, {made}.",
+    ]
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Measure, and write both files."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--records", type=int, default=64)
+    parser.add_argument("--rounds", type=int, default=3)
+    options = parser.parse_args()
+    warm_up()
+    found = measure(options.records, options.rounds)
+    (ROOT / "docs" / "pipeline.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    target = ROOT / "docs" / "pipeline.md"
+    text = target.read_text(encoding="utf-8")
+    head, tail = text[: text.index(BEGIN)], text[text.index(END) :]
+    target.write_text(f"{head}{BEGIN}\n{page(found)}\n{tail}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -325,6 +325,6 @@ def _relief(path: DepthPath) -> Array:
         if depth.size > 2 * reach:
             middle = depth[reach:-reach] - 0.5 * (depth[: -2 * reach] + depth[2 * reach :])
             strayed[level] = np.max(np.abs(middle))
-    relief = np.cumsum(strayed)
+    relief = np.minimum(np.cumsum(strayed), np.ptp(depth))
     relief[-1] = np.ptp(depth)
     return relief

@@ -26,7 +26,7 @@ OUTCOMES = {
 
 # A shaft that moved by less than this share of its displacement is expected to move on as far.
 NEARBY = 0.05
-# An unbalanced force below this share of the load leaves the stiffness as it is.
+# An unbalanced force below this share of the load is one step of Newton's method, which squares it, away.
 CLOSE = 1e-6
 
 
@@ -80,7 +80,7 @@ def load_vector(scene: Scene, time: Array) -> Array:
 
 
 def quasi_static_stiffness(scene: Scene, time: Array) -> Array:
-    """The `stiffness` (T, 3) of `equilibrium` alone, to 1e-5 of kyy at worst, for many instants in a row."""
+    """The `stiffness` (T, 3) of `equilibrium` alone, in half the time where many instants follow closely."""
     model = assemble(scene)
     time = np.ascontiguousarray(time, dtype=np.float64)
     stiffness, place = np.zeros((time.size, 3)), np.zeros((time.size, 2))
@@ -94,8 +94,7 @@ def _follow(
 ) -> None:
     """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m.
 
-    Where the shaft is nearly where it was expected, Newton's step from there is its place, and the stiffness is as good
-    as that of the place itself: one sum over the balls instead of several.
+    Where the shaft is nearly where it was expected, one step of Newton's method from there is its place.
     """
     for k in range(time.size):
         set_time(balls, frames, track, time[k])
@@ -105,10 +104,12 @@ def _follow(
         determinant = hold.xx * hold.yy - hold.xy * hold.xy
         near = math.hypot(gx, gy) <= CLOSE * math.hypot(loads[k, 0], loads[k, 1])
         if near and determinant > CLOSE * (hold.xx + hold.yy) ** 2:
-            place[k, 0] = dx + (hold.yy * gx - hold.xy * gy) / determinant
-            place[k, 1] = dy + (hold.xx * gy - hold.xy * gx) / determinant
+            dx += (hold.yy * gx - hold.xy * gy) / determinant
+            dy += (hold.xx * gy - hold.xy * gx) / determinant
+            hold = elastic(balls, frames, law, dx, dy)
         else:
-            place[k, 0], place[k, 1], hold, _ = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
+            dx, dy, hold, _ = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
+        place[k, 0], place[k, 1] = dx, dy
         stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from physics.assembly import assemble
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.modal.flow import (
     AMPLITUDES,
@@ -19,7 +20,9 @@ from physics.integrators.modal.flow import (
     reading,
     ringing,
 )
-from physics.integrators.modal.judgement import set_foretelling
+from physics.integrators.modal.grazing import is_rough
+from physics.integrators.modal.judgement import may_shrink, set_foretelling
+from physics.integrators.modal.memory import Stride
 from physics.integrators.modal.weights import (
     FIRST,
     INSIDE_KICKS,
@@ -37,6 +40,7 @@ from physics.integrators.modal.weights import (
 )
 from physics.motion import motion_model
 from physics.outcome import SimulationFailed
+from physics.profile import build_path
 from physics.simulate import simulate
 
 RATE = 65536.0
@@ -264,3 +268,53 @@ def test_an_accuracy_out_of_range_is_refused_with_the_range(accuracy, reference_
 def test_the_modal_method_takes_no_fixed_steps(reference_scene):
     with pytest.raises(SimulationFailed, match="chooses its own steps"):
         simulate(reference_scene("G0", 0.01), RATE, method="modal_rk4", substeps=2)
+
+
+@pytest.mark.parametrize("load", [20.0, 60.0])
+def test_a_touch_of_a_rough_spall_shorter_than_a_step_is_not_passed_over(load, reference_scene):
+    scene = reference_scene("F2r", 0.06)
+    operation = dataclasses.replace(scene.operation, load=load, shaft_speed=4.0 * scene.operation.shaft_speed)
+    cage = dataclasses.replace(scene.cage, nominal_speed=4.0 * scene.cage.nominal_speed)
+    scene = dataclasses.replace(scene, operation=operation, cage=cage, contact_law="no_tension")
+    trace, fine = simulate(scene, RATE), simulate(scene, RATE, substeps=32, estimate_error=False)
+    assert trace.changes.time.size == fine.changes.time.size
+    assert rms(trace.acceleration - fine.acceleration) < 1e-3 * rms(fine.acceleration)
+
+
+def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_scene):
+    scene = reference_scene("F2r", 0.01)
+    path = build_path(scene.spalls[0], scene.rig.bearing)
+    generator = np.random.default_rng(8)
+    for level in range(path.relief.size - 1):
+        width = path.finest_cell * 2**level
+        left = generator.uniform(path.breaks[0], path.breaks[-1] - width, 200)
+        share = np.linspace(0.0, 1.0, 33)
+        depth = path.depth((left[:, None] + share * width).ravel()).reshape(200, 33)
+        chord = depth[:, :1] + share * (depth[:, -1:] - depth[:, :1])
+        assert np.abs(depth - chord).max() <= 1.1 * path.relief[level]  # the bound sums what grid points stray
+    assert np.all(np.diff(path.relief) >= 0.0)
+
+
+def test_a_smooth_path_has_no_relief_and_is_not_searched(reference_scene):
+    scene = reference_scene("G2", 0.01)
+    assert not build_path(scene.spalls[0], scene.rig.bearing).relief.any()
+    assert not is_rough(assemble(scene).track)
+    assert is_rough(assemble(reference_scene("G2r", 0.01)).track)
+
+
+def test_no_step_is_taken_back_for_ever():
+    grid = Stride(100, 1.0 / RATE, 3, 1e-9, 1e-9, 1.0, 512.0, 1.0)
+    step, halvings = 8.0 / RATE, 0
+    while may_shrink(grid, step):
+        step, halvings = 0.5 * step, halvings + 1
+    assert halvings <= 14  # from eight samples to a sixty-fourth of a unit, 2^13 times shorter
+
+
+def test_the_finest_accuracy_that_may_be_asked_for_is_answered(reference_scene):
+    assert np.isfinite(simulate(reference_scene("G0", 0.01), RATE, accuracy=1e-6).acceleration).all()
+
+
+def test_the_sensitivity_of_a_tame_scene_is_small(reference_scene):
+    trace = simulate(reference_scene("G1", 0.1), RATE)
+    assert 0.0 < trace.sensitivity < 10.0
+    assert not trace.chaotic

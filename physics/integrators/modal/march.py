@@ -1,10 +1,10 @@
 """Marching on the modes with steps as long as the scene allows, every contact change located and every kink a stop.
 
-Steps are whole numbers of units, a sixteenth of a sample, or two, four, eight samples; the samples inside such a stride
-are exact responses of the modes to the contact force of the step's stages. Everything is measured by one tolerance, the
-momentum (N s) by which a step or a contact change may be wrong: the length of steps from how well the past of the
-contact force foretells it, how exactly a change is located from the jump of force it makes, how finely steps are graded
-next to it from how fast contact begins or ends.
+Steps are whole numbers of units, a sixteenth of a sample, or two, four, eight samples, and shorter than a unit where an
+error asks for it; the samples inside a stride are exact responses of the modes to the force of the step's stages.
+Everything is measured by one tolerance, the momentum (N s) by which a step or a contact change may be wrong: the length
+of steps from how well the past of the contact force foretells it, how exactly a change is located from the jump of
+force it makes, how finely steps are graded next to it from how fast contact begins or ends.
 """
 
 from __future__ import annotations

@@ -31,7 +31,8 @@ def test_loads_of_figure_5_are_the_check_values_and_two_statements_do_not_hold(o
 def test_the_rows_stiffnesses_add_up_to_the_bearings():
     found, of = stiffness(line_spall("gearbox")), scene("gearbox", line_spall("gearbox"))
     time = np.radians(60.0) * np.arange(STEPS) / STEPS / of.cage.mean_speed
-    assert found.total == pytest.approx(stiffness_trace(of, time) * 1e-6, rel=1e-9, abs=1e-9)
+    expected = stiffness_trace(of, time) * 1e-6
+    assert found.total == pytest.approx(expected, rel=0.0, abs=1e-9 * expected.max())  # what Newton's method leaves
 
 
 def test_stiffness_of_figure_6_agrees_but_for_two_statements_and_one_axis(ours, refused):

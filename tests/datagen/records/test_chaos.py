@@ -1,0 +1,39 @@
+"""A record whose bouncing balls leave no trajectory to converge to says so."""
+
+from dataclasses import replace
+
+import pytest
+
+from datagen.recipes.recipe import load_recipe
+from datagen.records.record import make_record
+from datagen.scenarios.sampling import draw_scenario
+from labels.description import label_values
+from physics.simulate import simulate
+
+LOOSE_RECORD = 5697  # of the wide corpus: 0.6 changes of contact a millisecond and ball
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    drawn = draw_scenario(load_recipe("corpus"), LOOSE_RECORD)
+    cages = [cage and replace(cage, duration=0.1) for cage in (drawn.scene.cage, drawn.scene.second_cage)]
+    return replace(drawn, scene=replace(drawn.scene, cage=cages[0], second_cage=cages[1]))
+
+
+def test_two_step_sizes_of_another_method_end_far_apart(scenario):
+    one, other = (
+        simulate(scenario.scene, scenario.rate, substeps=count, estimate_error=False).acceleration for count in (16, 32)
+    )
+    assert ((one - other) ** 2).mean() > 0.01 * (other**2).mean()  # a hundred times the accuracy asked for
+
+
+def test_the_record_is_called_chaotic_and_its_points_unknown(scenario):
+    record = make_record(scenario)
+    assert "chaotic" in record.labels["validity"]
+    assert record.labels["validity"].startswith(label_values(scenario.scene)["validity"])
+    assert record.labels["error_estimate"] == 1.0
+
+
+def test_a_tame_record_is_not(scenario):
+    tame = draw_scenario(load_recipe("gearbox_rig"), 0)
+    assert "chaotic" not in make_record(tame).labels["validity"]

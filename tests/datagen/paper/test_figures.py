@@ -32,7 +32,9 @@ def test_the_rows_stiffnesses_add_up_to_the_bearings():
     found, of = stiffness(line_spall("gearbox")), scene("gearbox", line_spall("gearbox"))
     time = np.radians(60.0) * np.arange(STEPS) / STEPS / of.cage.mean_speed
     expected = stiffness_trace(of, time) * 1e-6
-    assert found.total == pytest.approx(expected, rel=0.0, abs=1e-9 * expected.max())  # what Newton's method leaves
+    # A ball that just touches adds the root of its compression: 1e-16 m, which round-off leaves, are 1.4e-4 MN/m.
+    assert found.total == pytest.approx(expected, rel=0.0, abs=2e-4)
+    assert np.median(np.abs(found.total - expected)) < 1e-9
 
 
 def test_stiffness_of_figure_6_agrees_but_for_two_statements_and_one_axis(ours, refused):

@@ -49,8 +49,9 @@ STAGES = {
 
 @contextmanager
 def scratch() -> Iterator[Path]:
-    """A folder that is gone afterwards."""
+    """A folder for a corpus that is gone afterwards."""
     folder = Path(tempfile.mkdtemp(prefix="spallgen-pipeline-"))
+    (folder / "shards").mkdir()
     try:
         yield folder
     finally:

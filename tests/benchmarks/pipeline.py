@@ -21,7 +21,7 @@ from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
 
-from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.recipes.recipe import Recipe, Store, load_recipe
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard
@@ -58,9 +58,10 @@ def scratch() -> Iterator[Path]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def with_compression(recipe: Recipe, compression: str) -> Recipe:
-    """The recipe, stored otherwise."""
-    return recipe.model_copy(update={"store": recipe.store.model_copy(update={"compression": compression})})
+def plain(recipe: Recipe, compression: str) -> Recipe:
+    """The recipe with what is always stored and nothing else."""
+    store = Store(compression=compression, records_per_shard=recipe.store.records_per_shard)
+    return recipe.model_copy(update={"store": store})
 
 
 def one_process(recipe: Recipe, records: int) -> tuple[float, float, int]:
@@ -110,13 +111,13 @@ def measure(records: int, rounds: int) -> dict[str, object]:
         recipe = load_recipe(ROOT / "datasets" / name)
         row: dict[str, object] = {}
         for compression in COMPRESSIONS:
-            runs = [one_process(with_compression(recipe, compression), records) for _ in range(rounds)]
+            runs = [one_process(plain(recipe, compression), records) for _ in range(rounds)]
             spent = statistics.median(run[0] for run in runs)
             row[compression] = {"real_time": runs[0][1] / spent, "bytes_per_second": runs[0][2] / runs[0][1]}
-        row["shares"] = shares(recipe, records)
+        row["shares"] = shares(plain(recipe, COMPRESSIONS[0]), records)
         rows[name] = row
         print(name, json.dumps(row), flush=True)
-    recipe = load_recipe(ROOT / "datasets" / WORKER_DATASET)
+    recipe = plain(load_recipe(ROOT / "datasets" / WORKER_DATASET), COMPRESSIONS[0])
     pairs = [(wall_seconds(recipe, 1), wall_seconds(recipe, 2)) for _ in range(rounds)]
     return {
         "datasets": rows,

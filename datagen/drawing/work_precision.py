@@ -12,7 +12,7 @@ from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, 
 from physics.integrators.general_purpose import BALL_BY_BALL
 
 WIDTH, HEIGHT, DPI = 9.2, 6.0, 110
-METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK)
+METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
 RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": PURPLE}
 WORST_SHOWN, BEST_SHOWN, EDGE_HEIGHT = 8.0, 1e-7, 4.5
 
@@ -84,6 +84,7 @@ def _mark_edge(axes: plt.Axes, chart: Chart, name: str, colour: str) -> None:
         axes.annotate(
             f"{name}: unstable beyond", (chart.edges[name], height), fontsize=6.5, color=colour,
             xytext=(-5, 0), textcoords="offset points", va="center", ha="right",
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
         )  # fmt: skip
 
 

@@ -79,7 +79,7 @@ class _Case:
     @cached_property
     def ringing(self) -> float:
         """What a push of 1 N s leaves in the resonator's acceleration, m²/s³ per (N s)²."""
-        return ringing(self.flow)
+        return ringing(self.flow, self.scene.duration)
 
     @property
     def push(self) -> float:

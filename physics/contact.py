@@ -222,6 +222,14 @@ def _spall_under(track: Track, spall: int, number: int, angle: float, speed: flo
     return depth, slope * sign * (speed - race_speed)
 
 
+@njit_inline
+def law_power(law: Law, compression: float) -> float:
+    """A compression (m) to the power of the law's exponent less one, its secant stiffness over K; 0 out of contact."""
+    if compression <= 0.0:
+        return 0.0
+    return math.sqrt(compression) if law.exponent == 1.5 else compression ** (law.exponent - 1.0)
+
+
 @njit_lean
 def press(balls: Array, frames: Array, law: Law, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
     """Net force (N) of the contact set along x and y, pushing the outer ring [P14 Eq. 8, 10].

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import COMPRESSION, COSINE, FLOOR, FORCE, FRAME_COSINE, FRAME_SINE, SINE, Law
+from physics.contact import COMPRESSION, COSINE, FLOOR, FORCE, FRAME_COSINE, FRAME_SINE, SINE, Law, law_power
 
 Array = NDArray[np.float64]
 
@@ -73,7 +73,7 @@ def elastic(balls: Array, frames: Array, law: Law, dx: float, dy: float) -> Hold
             compression = balls[cage, COMPRESSION, j]
             if compression > 0.0:
                 c, s = balls[cage, COSINE, j], balls[cage, SINE, j]
-                secant = law.stiffness * (math.sqrt(compression) if n == 1.5 else compression ** (n - 1.0))
+                secant = law.stiffness * law_power(law, compression)
                 force = secant * compression
                 balls[cage, FORCE, j] = force
                 energy += force * compression / (n + 1.0)

@@ -2,27 +2,75 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
+from physics._jit import njit, njit_lean
 from physics.assembly import assemble
 from physics.contact import Law, Track, set_time
-from physics.rest import elastic
+from physics.rest import elastic, solve_at
 from physics.scene import Scene
-from physics.statics import quasi_static_stiffness
+from physics.statics import load_vector
 
 Array = NDArray[np.float64]
 
 COMPONENTS = ("xx", "yy", "xy")
+# A shaft that moved by less than this share of its displacement is expected to move on as far.
+NEARBY = 0.05
+# An unbalanced force below this share of the load is one step of Newton's method, which squares it, away.
+CLOSE = 1e-6
 
 
 def stiffness_trace(scene: Scene, time: Array) -> Array:
     """Stiffness (T, 3): kxx, kyy, kxy in N/m at the times (T,), s, each at its instant's load and angles.
 
-    Zero where no ball is loaded.
+    Zero where no ball is loaded. The `stiffness` of `equilibrium`, in half the time where many instants follow closely.
     """
-    return quasi_static_stiffness(scene, time)
+    model = assemble(scene)
+    time = np.ascontiguousarray(time, dtype=np.float64)
+    stiffness, place = np.zeros((time.size, 3)), np.zeros((time.size, 2))
+    _follow(model.balls, model.frames, model.law, model.track, time, load_vector(scene, time), place, stiffness)
+    return stiffness
+
+
+@njit_lean
+def _follow(
+    balls: Array, frames: Array, law: Law, track: Track, time: Array, loads: Array, place: Array, stiffness: Array
+) -> None:
+    """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m.
+
+    Where the shaft is nearly where it was expected, one step of Newton's method from there is its place.
+    """
+    for k in range(time.size):
+        set_time(balls, frames, track, time[k])
+        dx, dy = _expected(place, k)
+        hold = elastic(balls, frames, law, dx, dy)
+        gx, gy = loads[k, 0] - hold.force_x, loads[k, 1] - hold.force_y
+        determinant = hold.xx * hold.yy - hold.xy * hold.xy
+        near = math.hypot(gx, gy) <= CLOSE * math.hypot(loads[k, 0], loads[k, 1])
+        if near and determinant > CLOSE * (hold.xx + hold.yy) ** 2:
+            dx += (hold.yy * gx - hold.xy * gy) / determinant
+            dy += (hold.xx * gy - hold.xy * gx) / determinant
+            hold = elastic(balls, frames, law, dx, dy)
+        else:
+            dx, dy, hold, _ = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
+        place[k, 0], place[k, 1] = dx, dy
+        stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
+
+
+@njit_lean
+def _expected(place: Array, k: int) -> tuple[float, float]:
+    """Where the shaft will be at instant `k`, going on as at the last three instants, unless it moved far."""
+    if k == 0:
+        return 0.0, 0.0
+    x, y = place[k - 1, 0], place[k - 1, 1]
+    if k > 1 and math.hypot(x - place[k - 2, 0], y - place[k - 2, 1]) < NEARBY * math.hypot(x, y):
+        if k == 2:
+            return 2.0 * x - place[0, 0], 2.0 * y - place[0, 1]
+        return 3.0 * (x - place[k - 2, 0]) + place[k - 3, 0], 3.0 * (y - place[k - 2, 1]) + place[k - 3, 1]
+    return x, y
 
 
 def stiffness_at(scene: Scene, time: Array, displacement: Array) -> Array:

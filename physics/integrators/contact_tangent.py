@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import ACTIVE, COMPRESSION, COSINE, FRAME_COSINE, FRAME_SINE, FRAME_SPEED, SINE, Law
+from physics.contact import ACTIVE, COMPRESSION, COSINE, FRAME_COSINE, FRAME_SINE, FRAME_SPEED, SINE, Law, law_power
 
 Array = NDArray[np.float64]
 
@@ -26,8 +24,7 @@ def contact_tangent(balls: Array, frames: Array, law: Law, rate: float) -> tuple
             if balls[cage, ACTIVE, j] > 0.5:
                 c = balls[cage, COSINE, j] * cosine - balls[cage, SINE, j] * sine
                 s = balls[cage, SINE, j] * cosine + balls[cage, COSINE, j] * sine
-                pressed = max(balls[cage, COMPRESSION, j], 0.0)
-                power = math.sqrt(pressed) if law.exponent == 1.5 else pressed ** (law.exponent - 1.0)
+                power = law_power(law, balls[cage, COMPRESSION, j])
                 along = law.exponent * law.stiffness * power + law.damping * rate
                 across = law.damping * speed
                 to_x, to_y = along * c - across * s, along * s + across * c

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import ACTIVE, Law, Track, compression_of, of_ball, touches
+from physics.contact import ACTIVE, Law, Track, compression_of, law_power, of_ball, touches
 from physics.motion import MotionModel, outer_load, relative_acceleration
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def contact_condition(
     compression, rate = compression_of(balls, track, ball, time + share * step, x, y, u / step, v / step)
     if law.no_tension:
         # Compression (m) is brought to the scale of a force so that one number carries both conditions.
-        force = law.stiffness * max(compression, 0.0) ** law.exponent + law.damping * rate
+        force = law.stiffness * max(compression, 0.0) * law_power(law, compression) + law.damping * rate
         return min(law.stiffness * 1e-3 * compression, force), 0.0, rate
     return compression, rate * step, rate
 

@@ -4,8 +4,8 @@ Outer ring, resonator and the inner ring's free motion are solved exactly under 
 through its values at the end of this step and of the last ones; the prediction leaves out the first of these. Past
 values are only of use while nothing breaks: after a change of the contact set, a kink or a step of another length the
 method restarts with steps of the exponential Runge-Kutta method of order 4 until its past no longer holds the break
-itself, where the force starts like a root. Not to be
-confused with Adams methods for the whole state, whose step the resonator would limit.
+itself, where the force starts like a root. Not to be confused with Adams methods for the whole state, whose step the
+resonator would limit.
 
 The state is longer by eleven: order, length and end time of the step before, a mark of its contact set, how many past
 forces are known, and the last three of them, two numbers each.
@@ -32,7 +32,9 @@ ORDERS = (2, 3, 4)
 # Places in the longer state.
 ORDER, LENGTH, END, CONTACTS, KNOWN, PAST = 12, 13, 14, 15, 16, 17
 CARRIED = PAST + 6
+# Shares of the step below which lengths and times are the same.
 SAME = 1e-9
+Cubic = tuple[float, float, float, float]
 
 
 @njit
@@ -60,11 +62,12 @@ def _restart(
     end: Array,
     stage: Array,
 ) -> int:
+    """The Runge-Kutta step as a called function: it is pasted once, here, and not wherever the Adams step is."""
     return step_exponential_rk4(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)
 
 
 @njit
-def polynomial(order: int, now: float, past: Array, axis: int, ahead: float, corrected: bool) -> tuple[float, ...]:
+def polynomial(order: int, now: float, past: Array, axis: int, ahead: float, corrected: bool) -> Cubic:
     """Coefficients from the constant to the cube, in shares of the step, of the force along one axis.
 
     Through the force `now` and as many in `past` (6,) as the order asks for; `corrected`: with the one `ahead`, at the

@@ -38,7 +38,7 @@ METHODS: Mapping[str, Method] = {
             dense_output="the modes' exact response to the parabola through the force of three stages",
             events="located as exactly as the jump of force asks, steps graded as far as the speed of contact asks; "
             "stops at every known kink",
-            purpose="the default: steps from a sixteenth of a sample to eight samples, as long as the accuracy allows",
+            purpose="the default: steps of up to eight samples, as long as the accuracy allows",
             source="Krogstad 2005, J. Comput. Phys. 203, 72; step control and modes of our own",
         ),
         Method(

@@ -162,7 +162,17 @@ def test_the_ringing_of_a_push_is_the_energy_of_its_response(fan, quiet_flow):
                          -fan.resonator_damping]) / fan.resonator_mass  # fmt: skip
         response = sum((read @ vectors[:, k] * start[k] * np.exp(values[k] * time)).real for k in range(6))
         energy.append(np.sum(response**2) * 1e-6)
-    assert ringing(quiet_flow) == pytest.approx(max(energy), rel=1e-3)  # Riemann sum of 100 samples a period
+    assert ringing(quiet_flow, 10.0) == pytest.approx(max(energy), rel=1e-3)  # Riemann sum of 100 samples a period
+
+
+def test_without_damping_a_push_rings_as_long_as_the_scene(fan, build_scene):
+    free = dataclasses.replace(
+        fan, film_damping=0.0, support_damping_x=0.0, support_damping_y=0.0, resonator_damping=0.0
+    )
+    motion = motion_model(build_scene(free, operation={"load": 0.0}))
+    flow = linear_flow(motion, STIFFNESS, (0.0, 0.0))
+    assert 0.0 < ringing(flow, 0.1) < np.inf
+    assert ringing(flow, 0.2) == pytest.approx(2.0 * ringing(flow, 0.1), rel=1e-2)  # other modes' beats hardly count
 
 
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 2.0, 3.7])

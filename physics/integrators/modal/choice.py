@@ -55,19 +55,15 @@ def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> in
 
 
 @njit_inline
-def short_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple[int, int, float, float]:
-    """What `next_step` returns for a pace below a unit: a step off the grid, or up to the next unit or kink."""
-    clock, marks = memory.clock, memory.marks
-    unit = grid.interval / UNITS
-    line = (marks[CELL] + 1) * unit
-    target = min(line, clock[TIME] + clock[PACE])
+def up_to_kink(
+    balls: Array, grid: Stride, stops: Stops, memory: Memory, row: int, units: int, target: float
+) -> tuple[int, int, float, float]:
+    """What `next_step` returns for a step to `target` (s), or to the first kink before it."""
     smallest, nudge = SMALLEST_STEP_SHARE * grid.interval, KINK_NUDGE_SHARE * grid.interval
-    if line - target < SHORT * clock[PACE]:
-        target = line
-    kink = next_kink(balls, stops, marks[STOP], target - smallest)
+    kink = next_kink(balls, stops, memory.marks[STOP], target - smallest)
     if kink < target - smallest:
         return 0, 0, kink - nudge, kink + nudge
-    return 0, 1 if target == line else 0, target, target
+    return row, units, target, target
 
 
 @njit_inline
@@ -87,15 +83,11 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple
     if level > 0:
         units = UNITS * (1 << level)
         return UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit
-    if clock[PACE] < SHORT * unit:
-        return short_step(balls, grid, stops, memory)
+    next_line = (marks[CELL] + 1) * unit
+    if clock[PACE] < SHORT * unit and next_line - time > (1.0 + SHORT) * clock[PACE]:
+        return up_to_kink(balls, grid, stops, memory, 0, 0, time + clock[PACE])
     sample_end = (marks[CELL] // UNITS + 1) * UNITS
     reach = int((time + clock[PACE]) / unit + NEARLY)
     units = min(sample_end, max(marks[CELL] + 1, reach)) - marks[CELL]
-    target = (marks[CELL] + units) * unit
-    smallest = SMALLEST_STEP_SHARE * grid.interval
-    kink = next_kink(balls, stops, marks[STOP], target - smallest)
-    if kink < target - smallest:
-        nudge = KINK_NUDGE_SHARE * grid.interval
-        return 0, 0, kink - nudge, kink + nudge
-    return units if marks[ON_GRID] == 1 else 0, units, target, target
+    row = units if marks[ON_GRID] == 1 else 0
+    return up_to_kink(balls, grid, stops, memory, row, units, (marks[CELL] + units) * unit)

@@ -167,7 +167,7 @@ def _loaded(motion: MotionModel, axis: int, matrix: Array, push: Array) -> tuple
 
 
 @njit_inline
-def seen(shares: Array, first: int, amplitudes: Array, axis: int) -> float:
+def weigh(shares: Array, first: int, amplitudes: Array, axis: int) -> float:
     """Sum of six `shares` from the place `first` on times the `amplitudes` (12,) of one direction."""
     total = 0.0
     for k in range(AXIS):
@@ -178,7 +178,7 @@ def seen(shares: Array, first: int, amplitudes: Array, axis: int) -> float:
 @njit_inline
 def reading(flow: LinearFlow, row: int, amplitudes: Array, axis: int) -> float:
     """What the amplitudes (12,) of one direction add to a reading."""
-    return seen(flow.read[row], axis * AXIS, amplitudes, axis)
+    return weigh(flow.read[row], axis * AXIS, amplitudes, axis)
 
 
 @njit_inline
@@ -226,16 +226,15 @@ def physical_state(flow: LinearFlow, time: float, amplitudes: Array, state: Arra
             state[part // 2 * 2 + part % 2 * 6 + axis] = value + reading(flow, row, amplitudes, axis)
 
 
-def ringing(flow: LinearFlow) -> float:
+def ringing(flow: LinearFlow, duration: float) -> float:
     """What a push of 1 N s between the rings leaves in the resonator's acceleration: ∫ a² dt, m²/s³ per (N s)².
 
-    The larger of both directions.
+    The larger of both directions. A mode that rings on for longer than `duration` (s) counts as if it did not.
     """
     sums = []
     for axis in range(2):
         rate, kick, read = (_complex_modes(flow, values, axis) for values in (flow.rate, flow.kick, flow.read[OUTPUT]))
-        used = rate.real < 0.0
-        rate, share = rate[used], (read.conj() * kick)[used]
+        rate, share = np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
         # Re(s e^λt) Re(s' e^λ't), integrated from 0 to ∞, for all pairs of modes.
         same = share[:, None] * share / (rate[:, None] + rate)
         mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())

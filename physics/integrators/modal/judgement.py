@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, count_dips
+from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, count_dips, law_power
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
@@ -128,20 +128,12 @@ def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: 
                 middle, middle_rate = midway[cage, 0, j], midway[cage, 1, j]
                 end, end_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
                 film = end - start - step / 6.0 * (rate + 4.0 * middle_rate + end_rate)
-                root, end_root = compression_power(law, start), compression_power(law, end)
+                root, end_root = law_power(law, start), law_power(law, end)
                 told = 0.5 * (max(start, 0.0) * root + max(end, 0.0) * end_root)
                 told += 0.125 * step * law.exponent * (root * rate - end_root * end_rate)
-                elastic = max(middle, 0.0) * compression_power(law, middle) - told
+                elastic = max(middle, 0.0) * law_power(law, middle) - told
                 total += abs(law.damping * film) + HERMITE_ERROR * step * law.stiffness * abs(elastic)
     return total
-
-
-@njit_inline
-def compression_power(law: Law, compression: float) -> float:
-    """Compression (m) to the power of the contact law's exponent less one; 0 out of contact."""
-    if compression <= 0.0:
-        return 0.0
-    return math.sqrt(compression) if law.exponent == 1.5 else compression ** (law.exponent - 1.0)
 
 
 @njit_inline

@@ -18,8 +18,8 @@ from physics.integrators.modal.flow import (
     physical_state,
     reading,
     relative,
-    seen,
     set_rest,
+    weigh,
 )
 from physics.integrators.modal.weights import (
     INSIDE_FIRST,
@@ -175,8 +175,8 @@ def write_inside(
         x += w[INSIDE_FIRST] * first[0] + w[INSIDE_MIDDLE] * middle[0] + w[INSIDE_LAST] * last[0]
         o = INSIDE_OTHER
         y += w[o + INSIDE_FIRST] * first[1] + w[o + INSIDE_MIDDLE] * middle[1] + w[o + INSIDE_LAST] * last[1]
-        output.acceleration[sample + 1 + k, 0] = x + seen(w, INSIDE_READ, state, 0)
-        output.acceleration[sample + 1 + k, 1] = y + seen(w, o + INSIDE_READ, state, 1)
+        output.acceleration[sample + 1 + k, 0] = x + weigh(w, INSIDE_READ, state, 0)
+        output.acceleration[sample + 1 + k, 1] = y + weigh(w, o + INSIDE_READ, state, 1)
     if output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0:
         keep_inside(
             balls, frames, law, track, flow, inside, count, state, between, rest, first, middle, last, start, interval,

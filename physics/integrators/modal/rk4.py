@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline
 from physics.contact import Law, Track, count_changes, move_to, note_motion, press
-from physics.integrators.modal.flow import AXIS, DISPLACEMENT, VELOCITY, LinearFlow, seen, set_rest
+from physics.integrators.modal.flow import AXIS, DISPLACEMENT, VELOCITY, LinearFlow, set_rest, weigh
 from physics.integrators.modal.march import bind_modal_method
 from physics.integrators.modal.weights import (
     END,
@@ -42,10 +42,10 @@ Array = NDArray[np.float64]
 def free_motion(weights: Array, first: int, start: Array, rest: Array) -> tuple[float, float, float, float]:
     """Relative displacement x, y (m) and velocity x, y (m/s) without contact force, by the shares from `first` on."""
     return (
-        rest[0, DISPLACEMENT] + seen(weights, first, start, 0),
-        rest[1, DISPLACEMENT] + seen(weights, OTHER + first, start, 1),
-        rest[0, VELOCITY] + seen(weights, first + AXIS, start, 0),
-        rest[1, VELOCITY] + seen(weights, OTHER + first + AXIS, start, 1),
+        rest[0, DISPLACEMENT] + weigh(weights, first, start, 0),
+        rest[1, DISPLACEMENT] + weigh(weights, OTHER + first, start, 1),
+        rest[0, VELOCITY] + weigh(weights, first + AXIS, start, 0),
+        rest[1, VELOCITY] + weigh(weights, OTHER + first + AXIS, start, 1),
     )
 
 

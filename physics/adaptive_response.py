@@ -21,9 +21,8 @@ from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import LOG_FULL, NOT_FINITE, STEPS, Grid, Output, Stops
 from physics.integrators.methods import MODAL
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, ringing
-from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE
+from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, march_modal
 from physics.integrators.modal.memory import Stride, memory_for
-from physics.integrators.modal.rk4 import march_modal_rk4
 from physics.kinks import known_kinks
 from physics.motion import MotionModel, motion_model
 from physics.outcome import Outcome, SimulationFailed
@@ -41,7 +40,7 @@ USUAL_PUSHES = 0.3
 # them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
 ERROR_FACTOR, SENSITIVE = 6.0, 2.5
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
-AIM, MARGIN = 0.09, 0.75
+AIM, MARGIN = 0.06, 0.75
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -176,7 +175,7 @@ def _run(case: _Case, grid: Stride, kept: Kept) -> tuple[Trace, Output]:
         output = empty_output(contact, grid.samples, capacity, kept.state, kept.force, kept.outer)
         start = amplitudes_of(case.flow, case.start)
         memory = memory_for(case.flow, start, grid, contact.balls.shape[0], contact.balls.shape[2])
-        status = march_modal_rk4(
+        status = march_modal(
             contact.balls, contact.frames, contact.law, contact.track, case.flow, grid, case.stops, memory, output
         )
         capacity *= 8

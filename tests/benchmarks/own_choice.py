@@ -76,7 +76,7 @@ def judge(scene: Scene, rate: float) -> tuple[Array, float]:
 
 def rivals(scene: Scene, rate: float, exact: Array) -> dict[str, float]:
     """Processor time (s) of every setting of the chart that keeps the accuracy."""
-    settings: dict[str, dict[str, object]] = {f"modal_rk4 {a:g}": {"accuracy": a} for a in ACCURACIES}
+    settings: dict[str, dict[str, object]] = {f"modal {a:g}": {"accuracy": a} for a in ACCURACIES}
     for method in CHEAP_METHODS:
         for count in SUBSTEPS[method]:
             settings[f"{method} {count}"] = {"method": method, "substeps": count, "estimate_error": False}

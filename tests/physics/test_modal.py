@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from physics.adaptive_response import mean_flow
 from physics.assembly import assemble
 from physics.imperfections import Imperfections, Waviness
+from physics.integrators.march import DONE, LOGGED
+from physics.integrators.modal.carried import foretell, through_end, through_middle
 from physics.integrators.modal.flow import (
     AMPLITUDES,
     AXIS,
@@ -21,27 +24,34 @@ from physics.integrators.modal.flow import (
     ringing,
 )
 from physics.integrators.modal.grazing import is_rough
-from physics.integrators.modal.judgement import may_shrink, set_foretelling
-from physics.integrators.modal.memory import Stride
+from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, may_shrink
+from physics.integrators.modal.march import march_modal
+from physics.integrators.modal.memory import Stride, memory_for
 from physics.integrators.modal.weights import (
-    FIRST,
+    AT_END,
+    AT_HALF,
+    HALF_POWERS,
     INSIDE_KICKS,
     INSIDE_OTHER,
+    INSIDE_POWERS,
     INSIDE_TURN,
     INSIDE_WEIGHTS,
-    LAST,
-    MIDDLE,
+    KICKS,
     OTHER,
+    POWERS,
     STEP_WEIGHTS,
     TURN,
     set_inside,
     set_step,
     turn,
 )
-from physics.motion import motion_model
+from physics.kinks import known_kinks
+from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed
 from physics.profile import build_path
+from physics.response import empty_output
 from physics.simulate import simulate
+from physics.statics import equilibrium
 
 RATE = 65536.0
 STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)
@@ -99,7 +109,7 @@ def test_amplitudes_give_back_the_state(fan, build_scene, change):
 
 def step_weights(flow, step):
     weights = np.empty(STEP_WEIGHTS)
-    set_step(flow, weights, step, np.empty((2, 4, AMPLITUDES)))
+    set_step(flow, weights, step, np.empty((2, POWERS + 1, AMPLITUDES)))
     return weights
 
 
@@ -122,34 +132,55 @@ def test_the_free_turn_is_the_matrix_exponential(fan, build_scene, step, change)
         assert found[here] == pytest.approx(expected, rel=1e-7, abs=1e-12)  # round-off times the modes' condition
 
 
+def pushed(rig, axis, step, power, until=1.0):
+    """State (6,) of one axis at `until` of a step from rest under the contact force (t / step)^power, by expm."""
+    chain = np.zeros((7 + power, 7 + power))
+    chain[:6, :6] = matrix(rig, axis)
+    chain[[1, 3], 6] = -1.0 / rig.inner_mass, 1.0 / rig.outer_mass
+    # Entry 6 is the force; each of the following is the derivative of the one before, to the share of the step.
+    for order in range(power):
+        chain[6 + order, 7 + order] = 1.0 / step
+    start = np.zeros(7 + power)
+    start[-1] = math.factorial(power)
+    return (expm(until * step * chain) @ start)[:6]
+
+
+@pytest.mark.parametrize("power", range(POWERS))
 @pytest.mark.parametrize("change", [lambda rig: rig, overdamped])
 @pytest.mark.parametrize("step", [1e-7, 1.0 / RATE, 8.0 / RATE])
-def test_a_constant_force_does_what_the_matrix_exponential_says(fan, build_scene, step, change):
+def test_every_power_of_the_force_does_what_the_matrix_exponential_says(fan, build_scene, step, change, power):
     rig, found = change(fan), np.empty(12)
     flow = linear_flow(motion_model(build_scene(rig, operation={"load": 0.0})), STIFFNESS, DAMPING)
     weights = step_weights(flow, step)
-    kicks = kicked(weights, FIRST, OTHER) + 2 * kicked(weights, MIDDLE, OTHER) + kicked(weights, LAST, OTHER)
-    physical_state(flow, 0.0, kicks, found)
+    physical_state(flow, 0.0, kicked(weights, KICKS + AXIS * power, OTHER), found)
     for axis in range(2):
-        forced = np.zeros((7, 7))
-        forced[:6, :6] = matrix(rig, axis)
-        forced[[1, 3], 6] = -1.0 / rig.inner_mass, 1.0 / rig.outer_mass
-        expected = expm(step * forced)[:6, 6]
+        expected = pushed(rig, axis, step, power)
         scale = np.abs(expected).max()
         assert found[[place + axis for place in PLACES]] == pytest.approx(expected, rel=1e-7, abs=1e-11 * scale)
+        for first, until, powers in ((AT_END, 1.0, POWERS), (AT_HALF, 0.5, HALF_POWERS)):
+            if power < powers:
+                place = axis * OTHER + first + 2 * power
+                xi, vi, xo, vo, _, _ = pushed(rig, axis, step, power, until)
+                assert weights[place : place + 2] == pytest.approx([xi - xo, vi - vo], rel=1e-7, abs=1e-11 * scale)
 
 
-def test_a_sample_inside_a_stride_is_the_end_of_a_shorter_step(quiet_flow):
-    inside = np.empty((7, INSIDE_WEIGHTS))
-    set_inside(quiet_flow, inside, 8.0 / RATE, np.empty((4, AMPLITUDES)))
+def test_a_sample_inside_a_stride_is_the_exact_response_up_to_there(fan, quiet_flow):
+    inside, found = np.empty((7, INSIDE_WEIGHTS)), np.empty(12)
+    set_inside(quiet_flow, inside, 8.0 / RATE, np.empty((POWERS + 1, AMPLITUDES)))
     for k in range(1, 8):
         weights = step_weights(quiet_flow, k / RATE)
+        for power in range(POWERS):
+            kicks = kicked(inside[k - 1], INSIDE_KICKS + AXIS * power, INSIDE_OTHER)
+            physical_state(quiet_flow, 0.0, kicks, found)
+            for axis in range(2):
+                expected = pushed(fan, axis, 8.0 / RATE, power, k / 8)
+                scale = np.abs(expected).max()
+                assert found[[place + axis for place in PLACES]] == pytest.approx(expected, rel=1e-7, abs=1e-11 * scale)
+                output = inside[k - 1, axis * INSIDE_OTHER + INSIDE_POWERS + power]
+                assert output == pytest.approx(reading(quiet_flow, OUTPUT, kicks, axis), rel=1e-9)
         for axis in range(2):
             here, there = axis * INSIDE_OTHER + INSIDE_TURN, axis * OTHER + TURN
             assert inside[k - 1, here : here + 12] == pytest.approx(weights[there : there + 12], abs=1e-13)
-        kicks = sum(kicked(inside[k - 1], INSIDE_KICKS + AXIS * row, INSIDE_OTHER) for row in range(3))
-        constant = kicked(weights, FIRST, OTHER) + 2 * kicked(weights, MIDDLE, OTHER) + kicked(weights, LAST, OTHER)
-        assert kicks == pytest.approx(constant, abs=1e-12 * np.abs(constant).max())
 
 
 def test_the_ringing_of_a_push_is_the_energy_of_its_response(fan, quiet_flow):
@@ -175,22 +206,49 @@ def test_without_damping_a_push_rings_as_long_as_the_scene(fan, build_scene):
     assert ringing(flow, 0.2) == pytest.approx(2.0 * ringing(flow, 0.1), rel=1e-2)  # other modes' beats hardly count
 
 
-@pytest.mark.parametrize("ratio", [0.25, 1.0, 2.0, 3.7])
-def test_a_cubic_force_is_foretold_exactly(ratio):
-    told = np.empty(5)
-    set_foretelling(ratio, told)
-    force = np.polynomial.Polynomial([0.3, -1.2, 2.0, 0.7])
-    known = force(np.array([-ratio, -0.5 * ratio, 0.0, 1.0]))
-    assert told[:4] @ known == pytest.approx(force(0.5), rel=1e-12)
+@pytest.mark.parametrize("ratio", [0.25, 1.0, 2.0, 37.0])
+def test_the_course_of_a_carried_step_runs_through_five_forces(ratio):
+    force = np.polynomial.Polynomial([0.3, -1.2, 2.0, 0.7, -0.9])
+    course, past = np.full((2, POWERS), np.nan), np.full((2, 2), np.nan)
+    past[:, 1] = force(-ratio), force(-0.5 * ratio)
+    foretell(past, ratio, force(0.0), 1, course)
+    for share in (-ratio, -0.5 * ratio, 0.0):
+        assert np.polyval(course[1, ::-1], share) == pytest.approx(force(share), rel=1e-12)
+    through_middle(ratio, force(0.5), 1, course)
+    through_end(ratio, force(1.0), 1, course)
+    assert course[1] == pytest.approx(force.coef, rel=1e-9)  # a quartic through five points is the quartic
 
 
 def test_the_error_of_a_quartic_force_is_that_of_simpsons_rule():
-    told = np.empty(5)
-    set_foretelling(1.0, told)
     force = np.polynomial.Polynomial([0.0, 0.0, 0.0, 0.0, 1.0])
-    deviation = abs(told[:4] @ force(np.array([-1.0, -0.5, 0.0, 1.0])) - force(0.5))
     simpson = (force(0.0) + 4.0 * force(0.5) + force(1.0)) / 6.0 - 1.0 / 5.0
-    assert deviation * told[4] == pytest.approx(simpson, rel=1e-12)
+    assert pytest.approx(simpson, rel=1e-12) == FOURTH_POWER_ERROR
+
+
+def marched(scene, samples, interval):
+    """Acceleration (samples, 2) by carried steps of one `interval` (s) throughout, from the static equilibrium."""
+    contact, motion = assemble(scene), motion_model(scene)
+    flow = mean_flow(scene, motion)
+    grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
+    start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
+    output = empty_output(contact, samples, 64, False, False, False)
+    memory = memory_for(flow, start, grid, contact.balls.shape[0], contact.balls.shape[2])
+    status = march_modal(
+        contact.balls, contact.frames, contact.law, contact.track, flow, grid, known_kinks(scene, contact), memory,
+        output,
+    )  # fmt: skip
+    assert status == DONE
+    assert output.tally[LOGGED] == 0
+    return output.acceleration
+
+
+def test_carried_steps_are_of_order_five_while_no_contact_changes(fan, build_scene):
+    scene = build_scene(
+        fan, bearing={"clearance": -20e-6}, operation={"load": 2000.0, "unbalance_force": 800.0}
+    )  # loaded all round, and shaken hard so that the error is far above round-off
+    fine = marched(scene, 8193, 1.0 / RATE / 64.0)[::64]
+    errors = [rms(marched(scene, 128 * k + 1, 1.0 / k / RATE)[::k] - fine) for k in (1, 2, 4)]
+    assert -np.diff(np.log2(errors)) == pytest.approx(5.0, abs=0.1)
 
 
 def test_readings_are_what_the_state_gives(fan, quiet_flow):
@@ -277,7 +335,7 @@ def test_an_accuracy_out_of_range_is_refused_with_the_range(accuracy, reference_
 
 def test_the_modal_method_takes_no_fixed_steps(reference_scene):
     with pytest.raises(SimulationFailed, match="chooses its own steps"):
-        simulate(reference_scene("G0", 0.01), RATE, method="modal_rk4", substeps=2)
+        simulate(reference_scene("G0", 0.01), RATE, method="modal", substeps=2)
 
 
 @pytest.mark.parametrize("load", [20.0, 60.0])

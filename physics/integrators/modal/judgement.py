@@ -17,7 +17,6 @@ from physics.integrators.modal.memory import (
     LEFT,
     ON_GRID,
     PACE,
-    RATIO,
     SHORTEST,
     SQUARES,
     TOLERANCE,
@@ -28,9 +27,11 @@ from physics.integrators.modal.memory import (
 
 Array = NDArray[np.float64]
 
-# Error of Simpson's rule, in which the method's quadrature consists, over one step: its length to the fifth times the
-# fourth derivative over 2880; and, relative, for the force (t − t0)^1.5 with which contact starts and ends.
-SIMPSON_ERROR = 1.0 / 2880.0
+# A step is carried by the one before if that was at least this share as long.
+LEAST_RATIO = 0.24
+# Error of Simpson's rule over a step: of the fourth power of the share of the step; and, relative, of the force
+# (t − t0)^1.5 with which contact starts and ends.
+FOURTH_POWER_ERROR = 1.0 / 120.0
 START_ERROR = 0.0024
 # And, over the step's length, in terms of how far the middle strays from the cubic of values and rates at both ends.
 HERMITE_ERROR = 2.0 / 15.0
@@ -50,22 +51,6 @@ REJECTED, DOUBLED = 4.0, 1.0 / 32.0
 def graded_length(law: Law, speed: float, tolerance: float) -> float:
     """Longest step (s) next to an instant at which a ball starts or ceases to touch at `speed` (m/s)."""
     return (tolerance / (START_ERROR * law.stiffness * max(abs(speed), 1e-12) ** 1.5)) ** 0.4
-
-
-@njit_inline
-def set_foretelling(ratio: float, foretelling: Array) -> None:
-    """Fill `foretelling` (5,): weights of the cubic's value in the middle of a step, and what turns a deviation from it
-    into the error of the step over its length.
-
-    The cubic runs through the force at the beginning and in the middle of the step before, `ratio` times as long, and
-    at both ends of the step.
-    """
-    a, b = ratio, 0.5 * ratio
-    foretelling[0] = 0.25 * (0.5 + b) / ((a - b) * a * (a + 1.0))
-    foretelling[1] = -0.25 * (0.5 + a) / ((a - b) * b * (b + 1.0))
-    foretelling[2] = 0.5 * (0.5 + a) * (0.5 + b) / (a * b)
-    foretelling[3] = 0.5 * (0.5 + a) * (0.5 + b) / ((1.0 + a) * (1.0 + b))
-    foretelling[4] = 96.0 * SIMPSON_ERROR / ((0.5 + a) * (0.5 + b))
 
 
 @njit_inline
@@ -137,50 +122,31 @@ def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: 
 
 
 @njit_inline
-def foretelling_error(
-    memory: Memory,
-    step: float,
-    force: tuple[float, float],
-    middle: tuple[float, float],
-    after: tuple[float, float],
-) -> float:
-    """Momentum (N s) by which the step is wrong, from how well the past foretold the force in its middle."""
-    told, past = memory.foretelling, memory.past
-    ratio = memory.clock[BEFORE] / step
-    if ratio != memory.clock[RATIO]:
-        memory.clock[RATIO] = ratio
-        set_foretelling(ratio, told)
-    error = 0.0
-    for axis in range(2):
-        foretold = told[0] * past[0, axis] + told[1] * past[1, axis] + told[2] * force[axis] + told[3] * after[axis]
-        error += abs(foretold - middle[axis])
-    return error * step * told[4]
+def is_carried(memory: Memory, step: float) -> bool:
+    """Whether the step before is long enough to foretell this one by."""
+    before = memory.clock[BEFORE]
+    return before > 0.0 and before >= LEAST_RATIO * step
 
 
 @njit_inline
-def judge(
-    balls: Array,
-    law: Law,
-    grid: Stride,
-    memory: Memory,
-    step: float,
-    force: tuple[float, float],
-    middle: tuple[float, float],
-    after: tuple[float, float],
-) -> bool:
+def carried_error(memory: Memory, step: float) -> float:
+    """Momentum (N s) by which a carried step is wrong at most: what Simpson's rule misses of the force's fourth power,
+    which the step itself does not miss."""
+    return step * FOURTH_POWER_ERROR * (abs(memory.course[0, 4]) + abs(memory.course[1, 4]))
+
+
+@njit_inline
+def judge(balls: Array, law: Law, grid: Stride, memory: Memory, step: float, carried: bool) -> bool:
     """Set the pace by the error of the step; False to take it back."""
-    clock, first, tolerance = memory.clock, memory.clock[BEFORE] == 0.0, memory.clock[TOLERANCE]
-    if first:
-        error = resolution_error(balls, law, memory.noted, memory.midway, step)
-    else:
-        error = foretelling_error(memory, step, force, middle, after)
+    clock, tolerance = memory.clock, memory.clock[TOLERANCE]
+    error = carried_error(memory, step) if carried else resolution_error(balls, law, memory.noted, memory.midway, step)
     if error > REJECTED * tolerance and may_shrink(grid, step):
         clock[PACE] = 0.5 * step
         return False
     clock[BUDGET] += error * error
     if error > tolerance:
         clock[PACE] = 0.5 * step
-    elif first:
+    elif clock[BEFORE] == 0.0:
         clock[PACE] = min(max(2.0 * step, clock[PACE]), grid.interval)
     elif error < DOUBLED * tolerance:
         clock[PACE] = 2.0 * step

@@ -9,13 +9,10 @@ force it makes, how finely steps are graded next to it from how fast contact beg
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean, specialise
+from physics._jit import njit_inline, njit_lean
 from physics.contact import ACTIVE, Law, Track, count_changes, note_motion, of_ball, reset_contact, set_time
 from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import (
@@ -23,26 +20,23 @@ from physics.integrators.march import (
     LARGEST_ACCELERATION,
     LOG_FULL,
     LOGGED,
-    MOST_CHANGES_PER_STEP,
     NOT_FINITE,
     SMALLEST_STEP_SHARE,
     STEPS,
-    UNLOCATED,
     Output,
     Stops,
     passed_kinks,
-    toggle,
 )
+from physics.integrators.modal.carried import step_carried
+from physics.integrators.modal.changes import AGAIN, TAKE, change_sides, look
 from physics.integrators.modal.choice import next_step
 from physics.integrators.modal.flow import OUTPUT, LinearFlow, set_rest
 from physics.integrators.modal.grazing import is_rough, mark_grazing
-from physics.integrators.modal.judgement import dipped, judge, meet_change, remember, set_tolerance
-from physics.integrators.modal.location import locate
+from physics.integrators.modal.judgement import dipped, is_carried, judge, remember, set_tolerance
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
     BUDGET,
-    CAREFUL,
     CELL,
     LEFT,
     NO_BALL,
@@ -57,12 +51,11 @@ from physics.integrators.modal.memory import (
     Stride,
 )
 from physics.integrators.modal.output import keep, record, remaining_force, write_inside
+from physics.integrators.modal.rk4 import step_modal_rk4
 from physics.integrators.modal.weights import set_inside, set_step
 
 Array = NDArray[np.float64]
 
-# What a look at a trial step says: take it, or go on from where it began.
-TAKE, AGAIN = range(2)
 # No scene takes this many steps on average: what does, asks for more accuracy than it has.
 MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000
 
@@ -94,65 +87,6 @@ def begin(
     set_tolerance(grid, memory, 1)
     keep(balls, flow, state, memory.rest, force, 0.0, 0, output)
     return force
-
-
-@njit_lean
-def change_sides(balls: Array, memory: Memory, output: Output) -> None:
-    """Let the ball of the contact change ahead change sides now."""
-    toggle(balls, memory.marks[BALL], memory.clock[TIME], output)
-    memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
-
-
-@njit_lean
-def look(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    flow: LinearFlow,
-    grid: Stride,
-    memory: Memory,
-    step: float,
-    units: int,
-    now: Array,
-    force: tuple[float, float],
-    then: Array,
-    after: tuple[float, float],
-    contradicted: bool,
-    halfway: bool,
-    grazing: bool,
-    output: Output,
-) -> int:
-    """What to do about the trial step `now` to `then` in which balls may change sides: TAKE it or AGAIN.
-
-    They do if `contradicted`, and may if `grazing`. AGAIN: shorter, or up to the change that was located, or from here
-    with a ball that has just changed sides.
-    """
-    clock, marks, rest = memory.clock, memory.marks, memory.rest
-    if units > UNITS and contradicted:
-        marks[CAREFUL] = marks[CELL] + units
-        return AGAIN
-    if marks[TRIED] >= MOST_CHANGES_PER_STEP:
-        if contradicted:
-            output.tally[UNLOCATED] += count_changes(balls, law)
-            reset_contact(balls, law)
-        return TAKE
-    share, ball, speed = locate(
-        balls, frames, law, track, flow, clock[TIME], step, now, force, then, after, rest, halfway, grazing,
-        memory.ends, memory.suspects,
-    )  # fmt: skip
-    if ball < 0:
-        set_time(balls, frames, track, clock[TIME] + step)
-        return TAKE
-    if units > UNITS:
-        marks[CAREFUL] = marks[CELL] + units
-        return AGAIN
-    marks[TRIED] += 1
-    meet_change(law, grid, memory, share * step, ball, of_ball(balls, ACTIVE, ball) > 0.5, speed, step)
-    if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
-        return AGAIN
-    change_sides(balls, memory, output)
-    return AGAIN
 
 
 @njit_inline
@@ -228,15 +162,40 @@ def arrive(
     return False
 
 
-def _unbound(*_arguments: object) -> Any:
-    raise RuntimeError("a march needs the step of a method: use bind_modal_method")
+@njit_inline
+def try_step(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    flow: LinearFlow,
+    memory: Memory,
+    row: int,
+    step: float,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
+) -> tuple[bool, int, float, float, float, float]:
+    """Whether the step before carried this one, how many balls contradict the contact set halfway, and the remaining
+    contact force (N) halfway and at the end."""
+    start = memory.clock[TIME]
+    note_motion(balls, memory.noted)
+    carried = is_carried(memory, step)
+    if carried:
+        halfway, mx, my, after_x, after_y = step_carried(
+            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then,
+            memory.rest, memory.past, memory.clock[BEFORE] / step, memory.course,
+        )  # fmt: skip
+    else:
+        halfway, mx, my, after_x, after_y = step_modal_rk4(
+            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then,
+            memory.rest, memory.midway, memory.course,
+        )  # fmt: skip
+    return carried, halfway, mx, my, after_x, after_y
 
 
-# Bound by `bind_modal_method`: the step of the method, pasted into the march.
-step_pasted: Callable[..., tuple[int, float, float, float, float]] = _unbound
-
-
-def _march(
+@njit_lean
+def march_modal(
     balls: Array,
     frames: Array,
     law: Law,
@@ -264,11 +223,9 @@ def _march(
         if row == 0:
             set_step(flow, memory.weights[0], step, memory.phi)
         before = rest[0, OUTPUT], rest[1, OUTPUT]
-        note_motion(balls, memory.noted)
-        halfway, mx, my, after_x, after_y = step_pasted(
-            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then, rest,
-            memory.midway,
-        )  # fmt: skip
+        carried, halfway, mx, my, after_x, after_y = try_step(
+            balls, frames, law, track, flow, memory, row, step, now, force, then
+        )
         after = after_x, after_y
         if marks[BALL] == NO_BALL:
             action = TAKE
@@ -282,7 +239,7 @@ def _march(
                     halfway > 0, grazing, output,
                 )  # fmt: skip
                 after = remaining_force(balls, frames, law, flow, then, rest)
-            if action == TAKE and not judge(balls, law, grid, memory, step, force, (mx, my), after):
+            if action == TAKE and not judge(balls, law, grid, memory, step, carried):
                 action = AGAIN
             if action != TAKE:
                 set_time(balls, frames, track, start)
@@ -294,7 +251,7 @@ def _march(
         if units > UNITS:
             write_inside(
                 balls, frames, law, track, flow, memory.inside, units // UNITS, now, memory.between, then, before, rest,
-                force, (mx, my), after, start, grid.interval, marks[CELL] // UNITS, output,
+                memory.course, start, grid.interval, marks[CELL] // UNITS, output,
             )  # fmt: skip
         now, then = then, now
         force = after
@@ -305,8 +262,3 @@ def _march(
             return NOT_FINITE
     output.budget[0] = clock[BUDGET]
     return DONE if output.tally[LOGGED] < room else LOG_FULL
-
-
-def bind_modal_method(name: str, step: Callable[..., tuple[int, float, float, float, float]]) -> Callable[..., int]:
-    """The march with `step` built in, compiled and cached under the method's `name`."""
-    return specialise(_march, f"march_{name}", lean=True, step_pasted=step)

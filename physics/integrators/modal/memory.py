@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
-from physics.integrators.modal.weights import INSIDE_WEIGHTS, STEP_WEIGHTS
+from physics.integrators.modal.weights import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS
 
 Array = NDArray[np.float64]
 
@@ -20,8 +20,8 @@ NO_BALL = -1
 NEARLY = 1e-6
 # Entries of `clock`: time (s), longest next step (s), length of the step before (s, 0 if its past is of no use), what
 # is left to the contact change ahead (s), longest step next to it (s), tolerance (N s), sum of the squares of the
-# acceleration (m²/s⁴), ratio of step lengths for which `foretelling` stands, sum of the squares of the errors (N² s²).
-TIME, PACE, BEFORE, LEFT, GRADED, TOLERANCE, SQUARES, RATIO, BUDGET = range(9)
+# acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
+TIME, PACE, BEFORE, LEFT, GRADED, TOLERANCE, SQUARES, BUDGET = range(8)
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
 # of the contact change ahead, whether `time` is a whole number of units.
 CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID = range(6)
@@ -29,21 +29,22 @@ CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID = range(6)
 
 class Memory(NamedTuple):
     """Memory of a march: amplitudes (2, 12) at both ends of a step and in between (12,), weights of every step length
-    and of the samples inside strides, φ-functions, what the loads alone do, scratch for locating changes, contact force
-    at the beginning and in the middle of the step before (2, 2), weights that foretell it (5,), motion of the balls at
-    the beginning of the step and midway (G, 2, M), `clock` and `marks` as above.
+    and of the samples inside strides, contact force of the step along x and y as a polynomial in the share of the step
+    (2, 5), φ-functions, what the loads alone do, scratch for locating changes, contact force at the beginning and in
+    the middle of the step before (2, 2), motion of the balls at the beginning of the step and midway (G, 2, M),
+    `clock` and `marks` as above.
     """
 
     states: Array
     between: Array
     weights: Array
     inside: Array
+    course: Array
     phi: Array
     rest: Array
     ends: Array
     suspects: Array
     past: Array
-    foretelling: Array
     noted: Array
     midway: Array
     clock: Array
@@ -76,14 +77,14 @@ def memory_for(flow: LinearFlow, start: Array, grid: Stride, cages: int, balls: 
         between=np.zeros_like(start),
         weights=np.zeros((UNITS + grid.levels + 1, STEP_WEIGHTS)),
         inside=np.zeros((2 << grid.levels, INSIDE_WEIGHTS)),
-        phi=np.zeros((2, 4, AMPLITUDES)),
+        course=np.zeros((2, POWERS)),
+        phi=np.zeros((2, POWERS + 1, AMPLITUDES)),
         rest=flow.rest.copy(),
         ends=np.zeros((2, 3, 2)),
         suspects=np.zeros((cages, balls)),
         past=np.zeros((2, 2)),
-        foretelling=np.zeros(5),
         noted=np.zeros((cages, 2, balls)),
         midway=np.zeros((cages, 2, balls)),
-        clock=np.zeros(9),
+        clock=np.zeros(8),
         marks=np.zeros(6, dtype=np.int64),
     )

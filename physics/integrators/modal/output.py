@@ -9,7 +9,6 @@ from physics._jit import njit_inline, njit_lean
 from physics.contact import ACTIVE, FORCE, Law, Track, of_ball, press, set_time
 from physics.integrators.march import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
 from physics.integrators.modal.flow import (
-    AXIS,
     OUTER,
     OUTER_ACCELERATION,
     OUTER_SPEED,
@@ -22,13 +21,13 @@ from physics.integrators.modal.flow import (
     weigh,
 )
 from physics.integrators.modal.weights import (
-    INSIDE_FIRST,
     INSIDE_KICKS,
-    INSIDE_LAST,
-    INSIDE_MIDDLE,
     INSIDE_OTHER,
+    INSIDE_POWERS,
     INSIDE_READ,
     INSIDE_TURN,
+    POWERS,
+    push,
     turn,
 )
 
@@ -70,6 +69,15 @@ def keep(
             output.force[sample, ball] = of_ball(balls, FORCE, ball)
 
 
+@njit_inline
+def force_on(course: Array, axis: int, share: float) -> float:
+    """Contact force (N) at a share of the step."""
+    force = course[axis, POWERS - 1]
+    for power in range(POWERS - 2, -1, -1):
+        force = force * share + course[axis, power]
+    return force
+
+
 @njit_lean
 def keep_inside(
     balls: Array,
@@ -82,9 +90,7 @@ def keep_inside(
     state: Array,
     between: Array,
     rest: Array,
-    first: tuple[float, float],
-    middle: tuple[float, float],
-    last: tuple[float, float],
+    course: Array,
     start: float,
     interval: float,
     sample: int,
@@ -96,17 +102,9 @@ def keep_inside(
     """
     for k in range(count - 1):
         w, share, time = inside[count + k], (k + 1.0) / count, start + (k + 1) * interval
-        a, b, c = 1.0 - 3.0 * share + 2.0 * share**2, 4.0 * (share - share**2), 2.0 * share**2 - share
-        force = a * first[0] + b * middle[0] + c * last[0], a * first[1] + b * middle[1] + c * last[1]
+        force = force_on(course, 0, share), force_on(course, 1, share)
         turn(w, INSIDE_TURN, INSIDE_OTHER, state, between)
-        for axis in range(2):
-            kicks = axis * INSIDE_OTHER + INSIDE_KICKS
-            for part in range(AXIS):
-                between[axis * AXIS + part] += (
-                    w[kicks + part] * first[axis]
-                    + w[kicks + AXIS + part] * middle[axis]
-                    + w[kicks + 2 * AXIS + part] * last[axis]
-                )
+        push(w, INSIDE_KICKS, INSIDE_OTHER, course, between)
         set_rest(flow, time, rest)
         if output.force.shape[0] > 0:
             set_time(balls, frames, track, time)
@@ -154,9 +152,7 @@ def write_inside(
     end: Array,
     before: tuple[float, float],
     rest: Array,
-    first: tuple[float, float],
-    middle: tuple[float, float],
-    last: tuple[float, float],
+    course: Array,
     start: float,
     interval: float,
     sample: int,
@@ -165,21 +161,21 @@ def write_inside(
     """Write the `count` − 1 samples inside the stride that starts at `sample` in `state` and ends in `end` (12,).
 
     `before` (x, y) is the resonator acceleration of the loads alone at its beginning, `rest` (2, 11) of its end. The
-    contact force is given at the beginning, in the middle and at the end.
+    contact force runs through the step as `course` (2, 5) says.
     """
     for k in range(count - 1):
         w = inside[count + k]
         share = (k + 1.0) / count
         x = before[0] + share * (rest[0, OUTPUT] - before[0])
         y = before[1] + share * (rest[1, OUTPUT] - before[1])
-        x += w[INSIDE_FIRST] * first[0] + w[INSIDE_MIDDLE] * middle[0] + w[INSIDE_LAST] * last[0]
-        o = INSIDE_OTHER
-        y += w[o + INSIDE_FIRST] * first[1] + w[o + INSIDE_MIDDLE] * middle[1] + w[o + INSIDE_LAST] * last[1]
+        for power in range(POWERS):
+            x += w[INSIDE_POWERS + power] * course[0, power]
+            y += w[INSIDE_OTHER + INSIDE_POWERS + power] * course[1, power]
         output.acceleration[sample + 1 + k, 0] = x + weigh(w, INSIDE_READ, state, 0)
-        output.acceleration[sample + 1 + k, 1] = y + weigh(w, o + INSIDE_READ, state, 1)
+        output.acceleration[sample + 1 + k, 1] = y + weigh(w, INSIDE_OTHER + INSIDE_READ, state, 1)
     if output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0:
         keep_inside(
-            balls, frames, law, track, flow, inside, count, state, between, rest, first, middle, last, start, interval,
-            sample, output,
+            balls, frames, law, track, flow, inside, count, state, between, rest, course, start, interval, sample,
+            output,
         )  # fmt: skip
         remaining_force(balls, frames, law, flow, end, rest)

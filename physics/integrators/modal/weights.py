@@ -1,6 +1,6 @@
 """What a step of given length does to the modes: their free turn and the φ-functions that weigh the contact force.
 
-φ0 = exp, φm(z) = (φ(m−1)(z) − 1/(m − 1)!)/z. Each comes from the power series of φ3 at half the step, recursion down to
+φ0 = exp, φm(z) = (φ(m−1)(z) − 1/(m − 1)!)/z. Each comes from the power series of φ5 at half the step, recursion down to
 φ0, and the doubling formulas, all without cancellation. A pair of amplitudes multiplies like a complex number if it
 swings, and part by part if it decays; `product` does both.
 
@@ -14,34 +14,45 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.integrators.modal.flow import AMPLITUDES, AXIS, DISPLACEMENT, OUTPUT, PAIRS, LinearFlow
+from physics.integrators.modal.flow import (
+    AMPLITUDES,
+    AXIS,
+    DISPLACEMENT,
+    OUTPUT,
+    PAIRS,
+    VELOCITY,
+    LinearFlow,
+    weigh,
+)
 
 Array = NDArray[np.float64]
 
+# The contact force of a step is a polynomial in the share of the step, of this many powers.
+POWERS = 5
 # Weights of a step along x; those along y follow at OTHER. The shares of the six amplitudes at its beginning in
-# displacement and velocity in the middle and at the end; the free turn, four numbers a pair; the amplitudes per unit of
-# the contact force of stage 1, of stages 2 and 3, and of stage 4; what the force of one stage adds to displacement and
-# velocity in a later one and, from all of them, at the end.
+# displacement and velocity in the middle and at the end; the free turn, four numbers a pair; what a force of 1, s, s² …
+# adds to displacement and velocity in the middle and at the end, and to the six amplitudes.
 HALF, END = 0, 12
 TURN = 24
-FIRST, MIDDLE, LAST = 36, 42, 48
-TO_2, TO_3_FROM_1, TO_3_FROM_2, TO_4_FROM_1, TO_4_FROM_3 = 54, 56, 58, 60, 62
-END_FIRST, END_MIDDLE, END_LAST = 64, 66, 68
-OTHER = 70
+AT_HALF, AT_END, KICKS = 36, 44, 54
+HALF_POWERS = 4
+OTHER = 84
 STEP_WEIGHTS = 2 * OTHER
 # Weights of a sample inside a step along x; those along y follow at INSIDE_OTHER. The shares of the amplitudes at the
-# beginning of the step, and of the contact force at its beginning, in the middle and at its end, in the resonator's
-# acceleration; the free turn up to the sample, and the amplitudes that each of the three forces adds by then.
-INSIDE_READ, INSIDE_FIRST, INSIDE_MIDDLE, INSIDE_LAST = 0, 6, 7, 8
-INSIDE_TURN, INSIDE_KICKS = 9, 21
-INSIDE_OTHER = 39
+# beginning of the step, and of the powers of the contact force, in the resonator's acceleration; the free turn up to
+# the sample, and the amplitudes that each of the powers adds by then.
+INSIDE_READ, INSIDE_POWERS = 0, 6
+INSIDE_TURN, INSIDE_KICKS = 11, 23
+INSIDE_OTHER = 53
 INSIDE_WEIGHTS = 2 * INSIDE_OTHER
 SERIES_TOLERANCE = 1e-15
 MOST_TERMS = 60
 # Longer lengths are halved until the series of a fast decay loses no digits to its alternating terms.
 LARGEST_ARGUMENT = 4.0
-# 1/(j + 3) for j = 0 … 60: a division costs more than all else in a term of the series.
-SHARES = 1.0 / np.arange(3.0, MOST_TERMS + 4.0)
+# 1/(j + 5) for j = 0 … 60: a division costs more than all else in a term of the series.
+SHARES = 1.0 / np.arange(float(POWERS), POWERS + MOST_TERMS + 1.0)
+# 1/m! for m = 0 … 5.
+INVERSE_FACTORIALS = 1.0 / np.cumprod(np.array([1.0, 1.0, 2.0, 3.0, 4.0, 5.0]))
 
 
 @njit_inline
@@ -52,7 +63,7 @@ def product(twist: float, a: float, b: float, c: float, d: float) -> tuple[float
 
 @njit_lean
 def phi_functions(rate: Array, twist: Array, length: float, phi: Array) -> None:
-    """Fill `phi` (4, 12): φ0 to φ3 of every pair of amplitudes over `length` (s)."""
+    """Fill `phi` (6, 12): φ0 to φ5 of every pair of amplitudes over `length` (s)."""
     size, doublings = 0.0, 0
     for part in range(AMPLITUDES):
         size = max(size, 2.0 * length * abs(rate[part]))
@@ -64,7 +75,7 @@ def phi_functions(rate: Array, twist: Array, length: float, phi: Array) -> None:
     while term > SERIES_TOLERANCE and terms < MOST_TERMS:
         terms += 1
         term *= size * SHARES[terms]
-    top = phi[3]
+    top = phi[POWERS]
     for pair in range(2 * PAIRS):
         top[2 * pair], top[2 * pair + 1] = 1.0, 1.0 - twist[pair]
     # The pairs take turns, so that their chains of operations overlap.
@@ -76,12 +87,12 @@ def phi_functions(rate: Array, twist: Array, length: float, phi: Array) -> None:
             top[re], top[im] = 1.0 + a, 1.0 - swing + b
     for pair in range(2 * PAIRS):
         re, im, swing = 2 * pair, 2 * pair + 1, twist[pair]
-        a, b = top[re] / 6.0, top[im] / 6.0
+        a, b = top[re] * INVERSE_FACTORIALS[POWERS], top[im] * INVERSE_FACTORIALS[POWERS]
         top[re], top[im] = a, b
-        for order in range(2, -1, -1):
-            constant = 0.5 if order == 2 else 1.0
+        for order in range(POWERS - 1, -1, -1):
             a, b = product(swing, length * rate[re], length * rate[im], a, b)
-            a, b = a + constant, b + constant * (1.0 - swing)
+            a += INVERSE_FACTORIALS[order]
+            b += INVERSE_FACTORIALS[order] * (1.0 - swing)
             phi[order, re], phi[order, im] = a, b
         for _ in range(doublings):
             _double(swing, phi, phi, pair)
@@ -89,16 +100,17 @@ def phi_functions(rate: Array, twist: Array, length: float, phi: Array) -> None:
 
 @njit_inline
 def _double(twist: float, half: Array, whole: Array, pair: int) -> None:
-    """φ0 to φ3 of one pair over twice the length of `half` (4, 12), which may be `whole`."""
+    """φ0 to φ5 of one pair over twice the length of `half` (6, 12), which may be `whole`."""
     re, im = 2 * pair, 2 * pair + 1
     e, f = half[0, re], half[0, im]
-    a, b = product(twist, e, f, half[3, re], half[3, im])
-    whole[3, re] = 0.125 * (a + 0.5 * half[1, re] + half[2, re] + half[3, re])
-    whole[3, im] = 0.125 * (b + 0.5 * half[1, im] + half[2, im] + half[3, im])
-    a, b = product(twist, e, f, half[2, re], half[2, im])
-    whole[2, re], whole[2, im] = 0.25 * (a + half[1, re] + half[2, re]), 0.25 * (b + half[1, im] + half[2, im])
-    a, b = product(twist, e, f, half[1, re], half[1, im])
-    whole[1, re], whole[1, im] = 0.5 * (a + half[1, re]), 0.5 * (b + half[1, im])
+    scale = 0.5**POWERS
+    for order in range(POWERS, 0, -1):
+        a, b = product(twist, e, f, half[order, re], half[order, im])
+        for lower in range(1, order + 1):
+            a += INVERSE_FACTORIALS[order - lower] * half[lower, re]
+            b += INVERSE_FACTORIALS[order - lower] * half[lower, im]
+        whole[order, re], whole[order, im] = scale * a, scale * b
+        scale *= 2.0
     whole[0, re], whole[0, im] = product(twist, e, f, e, f)
 
 
@@ -111,48 +123,41 @@ def set_turn(weights: Array, place: int, twist: float, a: float, b: float) -> No
 
 @njit_lean
 def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
-    """Fill `weights` (140,) for a step of `step` (s); `phi` (2, 4, 12) is scratch."""
+    """Fill `weights` (168,) for a step of `step` (s); `phi` (2, 6, 12) is scratch."""
     half, whole = phi[0], phi[1]
     phi_functions(flow.rate, flow.twist, 0.5 * step, half)
     for axis in range(2):
-        for place in range(axis * OTHER + TO_2, (axis + 1) * OTHER):
+        for place in range(axis * OTHER + AT_HALF, axis * OTHER + KICKS):
             weights[place] = 0.0
     for pair in range(2 * PAIRS):
         axis, here = pair // PAIRS, 2 * (pair % PAIRS)
         base, re, im, twist = axis * OTHER, 2 * pair, 2 * pair + 1, flow.twist[pair]
         _double(twist, half, whole, pair)
         set_turn(weights, base + TURN + 2 * here, twist, whole[0, re], whole[0, im])
-        kr, ki = step * flow.kick[re], step * flow.kick[im]
-        kicks = (
-            product(twist, kr, ki, whole[1, re] - 3.0 * whole[2, re] + 4.0 * whole[3, re],
-                    whole[1, im] - 3.0 * whole[2, im] + 4.0 * whole[3, im]),
-            product(twist, kr, ki, 2.0 * whole[2, re] - 4.0 * whole[3, re], 2.0 * whole[2, im] - 4.0 * whole[3, im]),
-            product(twist, kr, ki, 4.0 * whole[3, re] - whole[2, re], 4.0 * whole[3, im] - whole[2, im]),
-        )  # fmt: skip
-        for stage in range(3):
-            weights[base + FIRST + 6 * stage + here] = kicks[stage][0]
-            weights[base + FIRST + 6 * stage + here + 1] = kicks[stage][1]
-        half_1, half_2 = (
-            product(twist, kr, ki, half[1, re], half[1, im]),
-            product(twist, kr, ki, half[2, re], half[2, im]),
-        )
-        whole_1 = product(twist, kr, ki, whole[1, re], whole[1, im])
-        whole_2 = product(twist, kr, ki, whole[2, re], whole[2, im])
         for read in range(2):
             a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
-            first, second = _read_turned(twist, a, b, half[0, re], half[0, im])
-            weights[base + HALF + AXIS * read + here], weights[base + HALF + AXIS * read + here + 1] = first, second
-            first, second = _read_turned(twist, a, b, whole[0, re], whole[0, im])
-            weights[base + END + AXIS * read + here], weights[base + END + AXIS * read + here + 1] = first, second
-            early, late = 0.5 * (a * half_1[0] + b * half_1[1]), a * half_2[0] + b * half_2[1]
-            weights[base + TO_2 + read] += early
-            weights[base + TO_3_FROM_1 + read] += early - late
-            weights[base + TO_3_FROM_2 + read] += late
-            early, late = a * whole_1[0] + b * whole_1[1], 2.0 * (a * whole_2[0] + b * whole_2[1])
-            weights[base + TO_4_FROM_1 + read] += early - late
-            weights[base + TO_4_FROM_3 + read] += late
-            for stage in range(3):
-                weights[base + END_FIRST + 2 * stage + read] += a * kicks[stage][0] + b * kicks[stage][1]
+            place = base + AXIS * read + here
+            weights[place + HALF], weights[place + HALF + 1] = _read_turned(twist, a, b, half[0, re], half[0, im])
+            weights[place + END], weights[place + END + 1] = _read_turned(twist, a, b, whole[0, re], whole[0, im])
+        scale, early = step, 0.5 * step
+        for power in range(POWERS):
+            real, imaginary = product(
+                twist, scale * flow.kick[re], scale * flow.kick[im], whole[power + 1, re], whole[power + 1, im]
+            )
+            place = base + KICKS + AXIS * power + here
+            weights[place], weights[place + 1] = real, imaginary
+            for read in range(2):
+                a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
+                weights[base + AT_END + 2 * power + read] += a * real + b * imaginary
+            if power < HALF_POWERS:
+                real, imaginary = product(
+                    twist, early * flow.kick[re], early * flow.kick[im], half[power + 1, re], half[power + 1, im]
+                )
+                for read in range(2):
+                    a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
+                    weights[base + AT_HALF + 2 * power + read] += a * real + b * imaginary
+            scale *= power + 1.0
+            early *= 0.5 * (power + 1.0)
 
 
 @njit_inline
@@ -163,10 +168,9 @@ def _read_turned(twist: float, a: float, b: float, c: float, d: float) -> tuple[
 
 @njit_lean
 def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None:
-    """Fill `inside` (S − 1, 78) for the samples that a step of S samples and `step` (s) passes over.
+    """Fill `inside` (S − 1, 106) for the samples that a step of S samples and `step` (s) passes over.
 
-    The contact force is the parabola through its values at the beginning, in the middle and at the end of the step.
-    `phi` (4, 12) is scratch.
+    The powers of the contact force are of the share of the whole step. `phi` (6, 12) is scratch.
     """
     count = inside.shape[0] + 1
     for k in range(1, count):
@@ -180,21 +184,15 @@ def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None
             first, second = _read_turned(twist, a, b, phi[0, re], phi[0, im])
             weights[base + INSIDE_READ + here], weights[base + INSIDE_READ + here + 1] = first, second
             set_turn(weights, base + INSIDE_TURN + 2 * here, twist, phi[0, re], phi[0, im])
-            for row in range(3):
-                # The parabola's part of this force: what it has of 1, of the share of the step, and of its square.
-                constant = share if row == 0 else 0.0
-                linear = share**2 * (-3.0 if row == 0 else 4.0 if row == 1 else -1.0)
-                square = share**3 * (4.0 if row != 1 else -8.0)
+            scale = share * step
+            for power in range(POWERS):
                 real, imaginary = product(
-                    twist,
-                    step * flow.kick[re],
-                    step * flow.kick[im],
-                    constant * phi[1, re] + linear * phi[2, re] + square * phi[3, re],
-                    constant * phi[1, im] + linear * phi[2, im] + square * phi[3, im],
+                    twist, scale * flow.kick[re], scale * flow.kick[im], phi[power + 1, re], phi[power + 1, im]
                 )
-                kick = base + INSIDE_KICKS + AXIS * row + here
+                kick = base + INSIDE_KICKS + AXIS * power + here
                 weights[kick], weights[kick + 1] = real, imaginary
-                weights[base + INSIDE_FIRST + row] += a * real + b * imaginary
+                weights[base + INSIDE_POWERS + power] += a * real + b * imaginary
+                scale *= share * (power + 1.0)
 
 
 @njit_inline
@@ -206,3 +204,24 @@ def turn(weights: Array, first: int, stride: int, start: Array, end: Array) -> N
             a, b = start[part], start[part + 1]
             end[part] = weights[place] * a + weights[place + 1] * b
             end[part + 1] = weights[place + 2] * a + weights[place + 3] * b
+
+
+@njit_inline
+def push(weights: Array, first: int, stride: int, course: Array, end: Array) -> None:
+    """Add to `end` (12,) what the contact force of `course` (2, 5) does, by the kicks from `first` on."""
+    for axis in range(2):
+        for power in range(POWERS):
+            force, kicks = course[axis, power], axis * stride + first + AXIS * power
+            for part in range(AXIS):
+                end[axis * AXIS + part] += weights[kicks + part] * force
+
+
+@njit_inline
+def free_motion(weights: Array, first: int, start: Array, rest: Array) -> tuple[float, float, float, float]:
+    """Relative displacement x, y (m) and velocity x, y (m/s) without contact force, by the shares from `first` on."""
+    return (
+        rest[0, DISPLACEMENT] + weigh(weights, first, start, 0),
+        rest[1, DISPLACEMENT] + weigh(weights, OTHER + first, start, 1),
+        rest[0, VELOCITY] + weigh(weights, first + AXIS, start, 0),
+        rest[1, VELOCITY] + weigh(weights, OTHER + first + AXIS, start, 1),
+    )

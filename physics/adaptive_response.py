@@ -38,7 +38,7 @@ LONGEST_LEVEL = 3
 USUAL_PUSHES = 0.3
 # Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
 # them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
-ERROR_FACTOR, SENSITIVE = 6.0, 2.5
+ERROR_FACTOR, SENSITIVE = 6.0, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.06, 0.75
 PILOT_SAMPLES = 2048
@@ -80,6 +80,11 @@ class _Case:
         """What a push of 1 N s leaves in the resonator's acceleration, m²/s³ per (N s)²."""
         return ringing(self.flow, self.scene.duration)
 
+    @cached_property
+    def amplitudes(self) -> Array:
+        """Amplitudes (12,) of the modes at t = 0."""
+        return amplitudes_of(self.flow, self.start)
+
     @property
     def push(self) -> float:
         """Momentum (N s) a step may be wrong by for an error of 1 m/s² (RMS), at the usual number of pushes."""
@@ -107,16 +112,18 @@ def respond_accurately(
     for _ in range(MOST_ATTEMPTS):
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame * aim)) ** 2
         grid = _grid(case, samples, aim * accuracy, aim * least, seen, UNCERTAIN, spending)
-        trace, output = _run(case, grid, kept)
-        size = rms(trace.acceleration)
+        output = _run(case, grid, kept)
+        size = rms(output.acceleration)
         before, error = error, ERROR_FACTOR * tame * case.pushed(output, samples)
         if error <= max(accuracy * size, least) or error > WORTHWHILE * before:
             break
         aim *= min(0.5, 0.7 * max(accuracy * size, least) / error)
         seen = size**2
+    trace = trace_of(scene, contact, Grid(samples, 1, grid.interval), output, MODAL)
+    step = (samples - 1) * grid.interval / max(1, int(output.tally[STEPS]))
     # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
     relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
-    return replace(trace, error_estimate=relative, sensitivity=sensitivity)
+    return replace(trace, step=step, error_estimate=relative, sensitivity=sensitivity)
 
 
 def mean_flow(scene: Scene, motion: MotionModel) -> LinearFlow:
@@ -153,19 +160,19 @@ def _pilots(case: _Case, samples: int, accuracy: float) -> tuple[float, float]:
     length = min(samples, PILOT_SAMPLES)
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
     for _ in range(SEED_ATTEMPTS):
-        coarse, output = _run(case, _grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN), Kept())
+        coarse = _run(case, _grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN), Kept())
         found = rms(coarse.acceleration[length // 2 :])
         if found > 0.1 * size:
             size = found
             break
         size = max(found, 1e-3 * size)
-    fine, _ = _run(case, _grid(case, length, AIM * min(accuracy, COARSE), 0.0, size**2, CERTAIN, 1.0), Kept())
-    pushed = case.pushed(output, length)
+    fine = _run(case, _grid(case, length, AIM * min(accuracy, COARSE), 0.0, size**2, CERTAIN, 1.0), Kept())
+    pushed = case.pushed(coarse, length)
     apart = rms(coarse.acceleration - fine.acceleration)
     return size**2, apart / pushed if pushed > 0.0 else 1.0
 
 
-def _run(case: _Case, grid: Stride, kept: Kept) -> tuple[Trace, Output]:
+def _run(case: _Case, grid: Stride, kept: Kept) -> Output:
     capacity, status, contact = FIRST_CHANGE_LOG, LOG_FULL, case.contact
     while status == LOG_FULL:
         if capacity > LARGEST_CHANGE_LOG:
@@ -173,8 +180,7 @@ def _run(case: _Case, grid: Stride, kept: Kept) -> tuple[Trace, Output]:
                 Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {case.scene.duration:g} s"
             )
         output = empty_output(contact, grid.samples, capacity, kept.state, kept.force, kept.outer)
-        start = amplitudes_of(case.flow, case.start)
-        memory = memory_for(case.flow, start, grid, contact.balls.shape[0], contact.balls.shape[2])
+        memory = memory_for(case.flow, case.amplitudes, grid, contact.balls.shape[0], contact.balls.shape[2])
         status = march_modal(
             contact.balls, contact.frames, contact.law, contact.track, case.flow, grid, case.stops, memory, output
         )
@@ -189,6 +195,4 @@ def _run(case: _Case, grid: Stride, kept: Kept) -> tuple[Trace, Output]:
         raise SimulationFailed(
             Outcome.NOT_FINITE, f"the response stopped being finite with steps down to {grid.interval / 16:.3g} s"
         )
-    trace = trace_of(case.scene, contact, Grid(grid.samples, 1, grid.interval), output, MODAL)
-    steps = max(1, int(output.tally[STEPS]))
-    return replace(trace, step=(grid.samples - 1) * grid.interval / steps), output
+    return output

@@ -39,8 +39,8 @@ METHODS: Mapping[str, Method] = {
             events="located as exactly as the jump of force asks, steps graded as far as the speed of contact asks; "
             "stops at every known kink",
             purpose="the default: steps of up to eight samples, as long as the accuracy allows",
-            source="Hochbruck and Ostermann 2010, Acta Numerica 19, 209, of multistep methods; after a change of contact "
-            "Krogstad 2005, J. Comput. Phys. 203, 72; step control and modes of our own",
+            source="multistep: Hochbruck and Ostermann 2010, Acta Numerica 19, 209; first steps: Krogstad 2005, "
+            "J. Comput. Phys. 203, 72; step control and modes of our own",
         ),
         Method(
             name="exponential_rk4",

@@ -113,9 +113,10 @@ def step_weights(flow, step):
     return weights
 
 
-def kicked(weights, first, stride):
-    """Amplitudes (12,) from the six places of each direction."""
-    return np.concatenate([weights[first : first + AXIS], weights[stride + first : stride + first + AXIS]])
+def kicked(weights, first, stride, power):
+    """Amplitudes (12,) that one power of the force adds."""
+    places = first + power + POWERS * np.arange(AXIS)
+    return np.concatenate([weights[places], weights[stride + places]])
 
 
 @pytest.mark.parametrize("change", [lambda rig: rig, overdamped])
@@ -152,7 +153,7 @@ def test_every_power_of_the_force_does_what_the_matrix_exponential_says(fan, bui
     rig, found = change(fan), np.empty(12)
     flow = linear_flow(motion_model(build_scene(rig, operation={"load": 0.0})), STIFFNESS, DAMPING)
     weights = step_weights(flow, step)
-    physical_state(flow, 0.0, kicked(weights, KICKS + AXIS * power, OTHER), found)
+    physical_state(flow, 0.0, kicked(weights, KICKS, OTHER, power), found)
     for axis in range(2):
         expected = pushed(rig, axis, step, power)
         scale = np.abs(expected).max()
@@ -170,7 +171,7 @@ def test_a_sample_inside_a_stride_is_the_exact_response_up_to_there(fan, quiet_f
     for k in range(1, 8):
         weights = step_weights(quiet_flow, k / RATE)
         for power in range(POWERS):
-            kicks = kicked(inside[k - 1], INSIDE_KICKS + AXIS * power, INSIDE_OTHER)
+            kicks = kicked(inside[k - 1], INSIDE_KICKS, INSIDE_OTHER, power)
             physical_state(quiet_flow, 0.0, kicks, found)
             for axis in range(2):
                 expected = pushed(fan, axis, 8.0 / RATE, power, k / 8)
@@ -209,14 +210,12 @@ def test_without_damping_a_push_rings_as_long_as_the_scene(fan, build_scene):
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 2.0, 37.0])
 def test_the_course_of_a_carried_step_runs_through_five_forces(ratio):
     force = np.polynomial.Polynomial([0.3, -1.2, 2.0, 0.7, -0.9])
-    course, past = np.full((2, POWERS), np.nan), np.full((2, 2), np.nan)
-    past[:, 1] = force(-ratio), force(-0.5 * ratio)
-    foretell(past, ratio, force(0.0), 1, course)
+    powers = foretell(force(-ratio), force(-0.5 * ratio), force(0.0), ratio)
     for share in (-ratio, -0.5 * ratio, 0.0):
-        assert np.polyval(course[1, ::-1], share) == pytest.approx(force(share), rel=1e-12)
-    through_middle(ratio, force(0.5), 1, course)
-    through_end(ratio, force(1.0), 1, course)
-    assert course[1] == pytest.approx(force.coef, rel=1e-9)  # a quartic through five points is the quartic
+        assert np.polyval([*powers[::-1], force(0.0)], share) == pytest.approx(force(share), rel=1e-12)
+    powers = through_middle(force(0.0), *powers, force(0.5), ratio)
+    powers = through_end(force(0.0), *powers, force(1.0), ratio)
+    assert powers == pytest.approx(force.coef[1:], rel=1e-9)  # a quartic through five points is the quartic
 
 
 def test_the_error_of_a_quartic_force_is_that_of_simpsons_rule():

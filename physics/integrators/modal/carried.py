@@ -29,34 +29,33 @@ Array = NDArray[np.float64]
 
 
 @njit_inline
-def foretell(past: Array, ratio: float, force: float, axis: int, course: Array) -> None:
-    """Fill `course` (2, 5) with the parabola through the `force` at the start and the two of the step before."""
-    first, middle = past[0, axis], past[1, axis]
-    late = (force - middle) * (2.0 / ratio)
-    bend = (late - (middle - first) * (2.0 / ratio)) / ratio
-    course[axis, 0], course[axis, 1], course[axis, 2] = force, late + 0.5 * ratio * bend, bend
-    course[axis, 3], course[axis, 4] = 0.0, 0.0
+def foretell(first: float, middle: float, force: float, ratio: float) -> tuple[float, float]:
+    """The first two powers of the parabola through the `force` (N) at the start and those at the beginning and in the
+    middle of the step before, `ratio` times as long."""
+    early, late = (middle - first) * (2.0 / ratio), (force - middle) * (2.0 / ratio)
+    bend = (late - early) * (1.0 / ratio)
+    return late + 0.5 * ratio * bend, bend
 
 
 @njit_inline
-def through_middle(ratio: float, middle: float, axis: int, course: Array) -> None:
-    """Let the `course` meet the force `middle` at half the step."""
-    told = course[axis, 0] + 0.5 * course[axis, 1] + 0.25 * course[axis, 2]
-    bend = (middle - told) * 2.0 / ((0.5 + 0.5 * ratio) * (0.5 + ratio))
-    course[axis, 1] += 0.5 * ratio * ratio * bend
-    course[axis, 2] += 1.5 * ratio * bend
-    course[axis, 3] = bend
+def through_middle(c0: float, c1: float, c2: float, middle: float, ratio: float) -> tuple[float, float, float]:
+    """The first three powers when the course also meets the force `middle` (N) at half the step."""
+    bend = (middle - (c0 + 0.5 * c1 + 0.25 * c2)) * (2.0 / ((0.5 + 0.5 * ratio) * (0.5 + ratio)))
+    return c1 + 0.5 * ratio * ratio * bend, c2 + 1.5 * ratio * bend, bend
 
 
 @njit_inline
-def through_end(ratio: float, last: float, axis: int, course: Array) -> None:
-    """Let the `course` meet the force `last` at the end of the step."""
-    told = course[axis, 0] + course[axis, 1] + course[axis, 2] + course[axis, 3]
-    bend = (last - told) * 2.0 / ((1.0 + 0.5 * ratio) * (1.0 + ratio))
-    course[axis, 1] -= 0.25 * ratio * ratio * bend
-    course[axis, 2] += (0.5 * ratio - 0.75) * ratio * bend
-    course[axis, 3] += (1.5 * ratio - 0.5) * bend
-    course[axis, 4] = bend
+def through_end(
+    c0: float, c1: float, c2: float, c3: float, last: float, ratio: float
+) -> tuple[float, float, float, float]:
+    """The first four powers when the course also meets the force `last` (N) at the end of the step."""
+    bend = (last - (c0 + c1 + c2 + c3)) * (2.0 / ((1.0 + 0.5 * ratio) * (1.0 + ratio)))
+    return (
+        c1 - 0.25 * ratio * ratio * bend,
+        c2 + (0.5 * ratio - 0.75) * ratio * bend,
+        c3 + (1.5 * ratio - 0.5) * bend,
+        bend,
+    )
 
 
 @njit_inline
@@ -70,48 +69,50 @@ def step_carried(
     time: float,
     step: float,
     start: Array,
-    force_x: float,
-    force_y: float,
+    x0: float,
+    y0: float,
     end: Array,
     rest: Array,
     past: Array,
     ratio: float,
     course: Array,
 ) -> tuple[int, float, float, float, float]:
-    """As `step_modal_rk4`, with the forces `past` (2, 2) of a step before that was `ratio` times as long."""
+    """As `step_modal_rk4`, with the forces `past` (2, 2) of a step before that was `ratio` times as long.
+
+    `x0`, `y0` (N) is the remaining contact force at the start. The force at the end is that of the foretold motion.
+    """
     w = weights
     kx, ky = flow.stiffness
     cx, cy = flow.damping
-    foretell(past, ratio, force_x, 0, course)
-    foretell(past, ratio, force_y, 1, course)
+    x1, x2 = foretell(past[0, 0], past[1, 0], x0, ratio)
+    y1, y2 = foretell(past[0, 1], past[1, 1], y0, ratio)
     move_to(balls, frames, track, time + 0.5 * step)
     set_rest(flow, time + 0.5 * step, rest)
     x, y, u, v = free_motion(w, HALF, start, rest)
-    for power in range(3):
-        place, other = AT_HALF + 2 * power, OTHER + AT_HALF + 2 * power
-        x += w[place] * course[0, power]
-        u += w[place + 1] * course[0, power]
-        y += w[other] * course[1, power]
-        v += w[other + 1] * course[1, power]
+    a, b = AT_HALF, OTHER + AT_HALF
+    x += w[a] * x0 + w[a + 2] * x1 + w[a + 4] * x2
+    u += w[a + 1] * x0 + w[a + 3] * x1 + w[a + 5] * x2
+    y += w[b] * y0 + w[b + 2] * y1 + w[b + 4] * y2
+    v += w[b + 1] * y0 + w[b + 3] * y1 + w[b + 5] * y2
     fx, fy = press(balls, frames, law, x, y, u, v)
     contradicted = count_changes(balls, law)
     mx, my = fx - kx * x - cx * u, fy - ky * y - cy * v
-    through_middle(ratio, mx, 0, course)
-    through_middle(ratio, my, 1, course)
+    x1, x2, x3 = through_middle(x0, x1, x2, mx, ratio)
+    y1, y2, y3 = through_middle(y0, y1, y2, my, ratio)
 
     move_to(balls, frames, track, time + step)
     set_rest(flow, time + step, rest)
-    turn(w, TURN, OTHER, start, end)
     x, y, u, v = free_motion(w, END, start, rest)
-    for power in range(4):
-        place, other = AT_END + 2 * power, OTHER + AT_END + 2 * power
-        x += w[place] * course[0, power]
-        u += w[place + 1] * course[0, power]
-        y += w[other] * course[1, power]
-        v += w[other + 1] * course[1, power]
+    a, b = AT_END, OTHER + AT_END
+    x += w[a] * x0 + w[a + 2] * x1 + w[a + 4] * x2 + w[a + 6] * x3
+    u += w[a + 1] * x0 + w[a + 3] * x1 + w[a + 5] * x2 + w[a + 7] * x3
+    y += w[b] * y0 + w[b + 2] * y1 + w[b + 4] * y2 + w[b + 6] * y3
+    v += w[b + 1] * y0 + w[b + 3] * y1 + w[b + 5] * y2 + w[b + 7] * y3
     fx, fy = press(balls, frames, law, x, y, u, v)
     lx, ly = fx - kx * x - cx * u, fy - ky * y - cy * v
-    through_end(ratio, lx, 0, course)
-    through_end(ratio, ly, 1, course)
+    course[0, 0], course[1, 0] = x0, y0
+    course[0, 1], course[0, 2], course[0, 3], course[0, 4] = through_end(x0, x1, x2, x3, lx, ratio)
+    course[1, 1], course[1, 2], course[1, 3], course[1, 4] = through_end(y0, y1, y2, y3, ly, ratio)
+    turn(w, TURN, OTHER, start, end)
     push(w, KICKS, OTHER, course, end)
     return contradicted, mx, my, lx, ly

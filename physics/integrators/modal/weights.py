@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 POWERS = 5
 # Weights of a step along x; those along y follow at OTHER. The shares of the six amplitudes at its beginning in
 # displacement and velocity in the middle and at the end; the free turn, four numbers a pair; what a force of 1, s, s² …
-# adds to displacement and velocity in the middle and at the end, and to the six amplitudes.
+# adds to displacement and velocity in the middle and at the end, and all powers to each of the six amplitudes.
 HALF, END = 0, 12
 TURN = 24
 AT_HALF, AT_END, KICKS = 36, 44, 54
@@ -144,8 +144,8 @@ def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
             real, imaginary = product(
                 twist, scale * flow.kick[re], scale * flow.kick[im], whole[power + 1, re], whole[power + 1, im]
             )
-            place = base + KICKS + AXIS * power + here
-            weights[place], weights[place + 1] = real, imaginary
+            place = base + KICKS + POWERS * here + power
+            weights[place], weights[place + POWERS] = real, imaginary
             for read in range(2):
                 a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
                 weights[base + AT_END + 2 * power + read] += a * real + b * imaginary
@@ -189,8 +189,8 @@ def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None
                 real, imaginary = product(
                     twist, scale * flow.kick[re], scale * flow.kick[im], phi[power + 1, re], phi[power + 1, im]
                 )
-                kick = base + INSIDE_KICKS + AXIS * power + here
-                weights[kick], weights[kick + 1] = real, imaginary
+                kick = base + INSIDE_KICKS + POWERS * here + power
+                weights[kick], weights[kick + POWERS] = real, imaginary
                 weights[base + INSIDE_POWERS + power] += a * real + b * imaginary
                 scale *= share * (power + 1.0)
 
@@ -210,10 +210,15 @@ def turn(weights: Array, first: int, stride: int, start: Array, end: Array) -> N
 def push(weights: Array, first: int, stride: int, course: Array, end: Array) -> None:
     """Add to `end` (12,) what the contact force of `course` (2, 5) does, by the kicks from `first` on."""
     for axis in range(2):
-        for power in range(POWERS):
-            force, kicks = course[axis, power], axis * stride + first + AXIS * power
-            for part in range(AXIS):
-                end[axis * AXIS + part] += weights[kicks + part] * force
+        kicks = axis * stride + first
+        c0, c1, c2, c3, c4 = course[axis, 0], course[axis, 1], course[axis, 2], course[axis, 3], course[axis, 4]
+        for part in range(AXIS):
+            place = kicks + POWERS * part
+            end[axis * AXIS + part] += (
+                (weights[place] * c0 + weights[place + 1] * c1)
+                + (weights[place + 2] * c2 + weights[place + 3] * c3)
+                + weights[place + 4] * c4
+            )
 
 
 @njit_inline

@@ -58,7 +58,8 @@ class Track(NamedTuple):
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
     Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness`
-    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N = 0 for smooth races.
+    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N a multiple of the balls of a
+    row, 0 for smooth races.
     """
 
     cage: Array
@@ -148,13 +149,22 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
 
 @njit_lean
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
+    """Both races' waves under every ball: those of one row lie whole cells apart, at the same place within theirs."""
+    cells = track.waviness.shape[1]
+    apart, size = cells // track.row_size, balls.shape[2]
     for race in range(2):
         race_speed = track.shaft_speed * race
-        ahead, pace = angle - race_speed * time, speed - race_speed
-        for j in range(balls.shape[2]):
-            depth, slope = _wave_at(track, race, ahead + balls[cage, PLACE, j])
-            balls[cage, FLOOR, j] += depth
-            balls[cage, FALL, j] += slope * pace
+        ahead, pace = angle - race_speed * time, (speed - race_speed) * (cells * TURNS_PER_RADIAN)
+        for first in range(0, size, track.row_size):
+            cell, x = _wave_cell(cells, ahead + balls[cage, PLACE, first])
+            x2 = x * x
+            for j in range(first, min(first + track.row_size, size)):
+                c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
+                c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
+                balls[cage, FLOOR, j] += (c3 * x + c2) * x2 + (c1 * x + c0)
+                balls[cage, FALL, j] += (3.0 * c3 * x2 + (2.0 * c2 * x + c1)) * pace
+                cell += apart
+                cell -= cells if cell >= cells else 0
 
 
 @njit_inline
@@ -169,13 +179,19 @@ def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[
 def _wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
     cells = track.waviness.shape[1]
-    turns = angle * TURNS_PER_RADIAN
-    position = (turns - math.floor(turns)) * cells
-    cell = min(int(position), cells - 1)
-    x = position - cell
+    cell, x = _wave_cell(cells, angle)
     c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
     c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
     return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * (cells * TURNS_PER_RADIAN)
+
+
+@njit_inline
+def _wave_cell(cells: int, angle: float) -> tuple[int, float]:
+    """The cell of the circle in which an angle (rad) lies, and its place there, 0 to 1."""
+    turns = angle * TURNS_PER_RADIAN
+    position = (turns - math.floor(turns)) * cells
+    cell = min(int(position), cells - 1)
+    return cell, position - cell
 
 
 @njit_lean

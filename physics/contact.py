@@ -150,21 +150,24 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
 @njit_lean
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
     """Both races' waves under every ball: those of one row lie whole cells apart, at the same place within theirs."""
-    cells = track.waviness.shape[1]
-    apart, size = cells // track.row_size, balls.shape[2]
-    for race in range(2):
-        race_speed = track.shaft_speed * race
-        ahead, pace = angle - race_speed * time, (speed - race_speed) * (cells * TURNS_PER_RADIAN)
-        for first in range(0, size, track.row_size):
-            cell, x = _wave_cell(cells, ahead + balls[cage, PLACE, first])
-            x2 = x * x
-            for j in range(first, min(first + track.row_size, size)):
-                c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
-                c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
-                balls[cage, FLOOR, j] += (c3 * x + c2) * x2 + (c1 * x + c0)
-                balls[cage, FALL, j] += (3.0 * c3 * x2 + (2.0 * c2 * x + c1)) * pace
-                cell += apart
-                cell -= cells if cell >= cells else 0
+    cells, size = track.waviness.shape[1], balls.shape[2]
+    apart, per_cell = cells // track.row_size, cells * TURNS_PER_RADIAN
+    pace, inner_pace = speed * per_cell, (speed - track.shaft_speed) * per_cell
+    for first in range(0, size, track.row_size):
+        outer, x = _wave_cell(cells, angle + balls[cage, PLACE, first])
+        inner, z = _wave_cell(cells, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        for j in range(first, min(first + track.row_size, size)):
+            a3, a2 = track.waviness[0, outer, 0], track.waviness[0, outer, 1]
+            a1, a0 = track.waviness[0, outer, 2], track.waviness[0, outer, 3]
+            b3, b2 = track.waviness[1, inner, 0], track.waviness[1, inner, 1]
+            b1, b0 = track.waviness[1, inner, 2], track.waviness[1, inner, 3]
+            balls[cage, FLOOR, j] += (((a3 * x + a2) * x + a1) * x + a0) + (((b3 * z + b2) * z + b1) * z + b0)
+            outer_slope, inner_slope = (3.0 * a3 * x + 2.0 * a2) * x + a1, (3.0 * b3 * z + 2.0 * b2) * z + b1
+            balls[cage, FALL, j] += outer_slope * pace + inner_slope * inner_pace
+            outer += apart
+            inner += apart
+            outer -= cells if outer >= cells else 0
+            inner -= cells if inner >= cells else 0
 
 
 @njit_inline

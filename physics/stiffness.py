@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,9 +18,10 @@ COMPONENTS = ("xx", "yy", "xy")
 # A shaft that moved by less than this share of its displacement is expected to move on as far.
 NEARBY = 0.05
 # An unbalanced force below this share of the load is one step of Newton's method, which squares it, away; from below
-# the larger share it needs no safeguards.
+# the larger share it needs no safeguards, if the stiffness is regular.
 CLOSE, NEAR = 1e-6, 1e-2
 MOST_STEPS = 4
+REGULAR = 1e-6
 
 
 def stiffness_trace(scene: Scene, time: Array) -> Array:
@@ -57,18 +56,18 @@ def settle(
 
     Where it is nearly there, few steps of Newton's method from there are its place.
     """
-    load = math.hypot(load_x, load_y)
+    load = load_x * load_x + load_y * load_y
     hold = elastic(balls, frames, law, x, y)
     for _ in range(MOST_STEPS):
         gx, gy = load_x - hold.force_x, load_y - hold.force_y
-        missing = math.hypot(gx, gy)
+        missing = gx * gx + gy * gy
         determinant = hold.xx * hold.yy - hold.xy * hold.xy
-        if not (missing <= NEAR * load and determinant > CLOSE * (hold.xx + hold.yy) ** 2):
+        if not (missing <= NEAR**2 * load and determinant > REGULAR * (hold.xx + hold.yy) ** 2):
             break
         x += (hold.yy * gx - hold.xy * gy) / determinant
         y += (hold.xx * gy - hold.xy * gx) / determinant
         hold = elastic(balls, frames, law, x, y)
-        if missing <= CLOSE * load:
+        if missing <= CLOSE**2 * load:
             return x, y, hold
     x, y, hold, _ = solve_at(balls, frames, law, load_x, load_y, x, y)
     return x, y, hold
@@ -84,7 +83,7 @@ def expected(place: Array, k: int, stride: int) -> tuple[float, float]:
     if k < 2 * stride:
         return x, y
     before_x, before_y = place[k - 2 * stride, 0], place[k - 2 * stride, 1]
-    if math.hypot(x - before_x, y - before_y) >= NEARBY * math.hypot(x, y):
+    if (x - before_x) ** 2 + (y - before_y) ** 2 >= NEARBY**2 * (x * x + y * y):
         return x, y
     if k < 3 * stride:
         return 2.0 * x - before_x, 2.0 * y - before_y

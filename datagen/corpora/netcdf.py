@@ -8,7 +8,7 @@ installed netCDF does it all: the arrays that readers see are the same.
 from __future__ import annotations
 
 import threading
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from importlib.util import find_spec
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -49,11 +49,10 @@ def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | memoryvie
     Signals are stored in checksummed chunks, one for each record and component.
     """
     check_compression(compression)
-    numbers = {str(name): var for name, var in dataset.variables.items() if var.size and not _is_text(var)}
-    direct = numbers if has_fast_chunks() else {}
+    fast = has_fast_chunks()
     with ONE_AT_A_TIME:
-        image = _laid_out(dataset, compression, direct)
-        return _filled(image, direct, compression) if direct else image
+        image = _laid_out(dataset, compression, with_values=not fast)
+        return _filled(image, dataset, compression) if fast else image
 
 
 def has_fast_chunks() -> bool:
@@ -65,8 +64,8 @@ def _is_text(variable: xarray.Variable) -> bool:
     return variable.dtype.kind in "OUT"
 
 
-def _laid_out(dataset: xarray.Dataset, compression: str, empty: Collection[str]) -> memoryview:
-    """A netCDF file of all dimensions, variables and attributes, without the values of the variables in `empty`."""
+def _laid_out(dataset: xarray.Dataset, compression: str, with_values: bool) -> memoryview:
+    """A netCDF file of all dimensions, variables and attributes, and perhaps the values."""
     import netCDF4
 
     file = netCDF4.Dataset("shard.nc", mode="w", format="NETCDF4", memory=IMAGE_BLOCK)
@@ -75,7 +74,7 @@ def _laid_out(dataset: xarray.Dataset, compression: str, empty: Collection[str])
         file.createDimension(str(name), size)
     for name, variable in dataset.variables.items():
         target = _create(file, str(name), variable, compression)
-        if name not in empty and variable.size:
+        if with_values and variable.size:
             target[...] = _plain(variable)
     image: memoryview = file.close()
     return image
@@ -115,13 +114,18 @@ def _chunk_shape(variable: xarray.Variable) -> tuple[int, ...]:
     return tuple(size if keep or not any(long) else 1 for size, keep in zip(variable.shape, long, strict=True))
 
 
-def _filled(image: memoryview, variables: dict[str, xarray.Variable], compression: str) -> bytes:
-    """The file `image` with the chunks of `variables` put in."""
+def _filled(image: memoryview, dataset: xarray.Dataset, compression: str) -> bytes:
+    """The file `image` with the texts and the chunks of `dataset` put in."""
     import h5py
 
     with h5py.File.in_memory(file_image=bytes(image), block_size=IMAGE_BLOCK) as file:
-        for name, variable in variables.items():
-            target = h5py.h5d.open(file.id, name.encode())
+        for name, variable in dataset.variables.items():
+            target = h5py.h5d.open(file.id, str(name).encode())
+            if not variable.size:
+                continue
+            if _is_text(variable):
+                h5py.Dataset(target)[...] = _plain(variable)
+                continue
             for start, chunk in _chunks(_plain(variable), _chunk_shape(variable)):
                 target.write_direct_chunk(start, chunk_bytes(chunk, compression == "zlib"))
         file.flush()

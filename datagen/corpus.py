@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import Manifest, read_manifest
-from datagen.corpora.shard import ONE_AT_A_TIME
+from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:

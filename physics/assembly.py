@@ -66,7 +66,7 @@ def assemble(scene: Scene) -> ContactModel:
         breaks=np.concatenate([np.zeros(0), *(path.breaks for path in paths)]),
         cells=np.concatenate([np.zeros(0, dtype=np.int64), *(path.cells for path in paths)]),
         cubics=np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *(path.cubics for path in paths)])),
-        waviness=_waviness_cubics(scene.imperfections.waviness),
+        waviness=_waviness_cubics(scene.imperfections.waviness, bearing.balls),
         row_size=bearing.balls,
         spacing=bearing.spacing,
         shaft_speed=scene.operation.shaft_speed,
@@ -136,11 +136,11 @@ def _cage_arrays(cages: list[CagePath]) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=TABLES_KEPT)
-def _waviness_cubics(waves: tuple[Waviness, ...]) -> Array:
-    """Cubics (2, N, 4) of the waves; the same waves give the same array, which is for reading only."""
+def _waviness_cubics(waves: tuple[Waviness, ...], balls: int) -> Array:
+    """Cubics (2, N, 4) of the waves, N a multiple of the `balls` of a row; cached, so for reading only."""
     if not waves:
         return np.zeros((2, 0, 4))
-    count = WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves))
+    count = balls * -(-WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves)) // balls)
     nodes = 2.0 * np.pi * np.arange(count + 1) / count
     width = 2.0 * np.pi / count
     cubics = np.zeros((2, count, 4))

@@ -58,7 +58,8 @@ class Track(NamedTuple):
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
     Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness`
-    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N = 0 for smooth races.
+    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N a multiple of the balls of a
+    row, 0 for smooth races.
     """
 
     cage: Array
@@ -148,13 +149,25 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
 
 @njit_lean
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
-    for race in range(2):
-        race_speed = track.shaft_speed * race
-        ahead, pace = angle - race_speed * time, speed - race_speed
-        for j in range(balls.shape[2]):
-            depth, slope = _wave_at(track, race, ahead + balls[cage, PLACE, j])
-            balls[cage, FLOOR, j] += depth
-            balls[cage, FALL, j] += slope * pace
+    """Both races' waves under every ball: those of one row lie whole cells apart, at the same place within theirs."""
+    cells, size = track.waviness.shape[1], balls.shape[2]
+    apart, per_cell = cells // track.row_size, cells * TURNS_PER_RADIAN
+    pace, inner_pace = speed * per_cell, (speed - track.shaft_speed) * per_cell
+    for first in range(0, size, track.row_size):
+        outer, x = _wave_cell(cells, angle + balls[cage, PLACE, first])
+        inner, z = _wave_cell(cells, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        for j in range(first, min(first + track.row_size, size)):
+            a3, a2 = track.waviness[0, outer, 0], track.waviness[0, outer, 1]
+            a1, a0 = track.waviness[0, outer, 2], track.waviness[0, outer, 3]
+            b3, b2 = track.waviness[1, inner, 0], track.waviness[1, inner, 1]
+            b1, b0 = track.waviness[1, inner, 2], track.waviness[1, inner, 3]
+            balls[cage, FLOOR, j] += (((a3 * x + a2) * x + a1) * x + a0) + (((b3 * z + b2) * z + b1) * z + b0)
+            outer_slope, inner_slope = (3.0 * a3 * x + 2.0 * a2) * x + a1, (3.0 * b3 * z + 2.0 * b2) * z + b1
+            balls[cage, FALL, j] += outer_slope * pace + inner_slope * inner_pace
+            outer += apart
+            inner += apart
+            outer -= cells if outer >= cells else 0
+            inner -= cells if inner >= cells else 0
 
 
 @njit_inline
@@ -169,13 +182,19 @@ def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[
 def _wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
     cells = track.waviness.shape[1]
-    turns = angle * TURNS_PER_RADIAN
-    position = (turns - math.floor(turns)) * cells
-    cell = min(int(position), cells - 1)
-    x = position - cell
+    cell, x = _wave_cell(cells, angle)
     c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
     c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
     return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * (cells * TURNS_PER_RADIAN)
+
+
+@njit_inline
+def _wave_cell(cells: int, angle: float) -> tuple[int, float]:
+    """The cell of the circle in which an angle (rad) lies, and its place there, 0 to 1."""
+    turns = angle * TURNS_PER_RADIAN
+    position = (turns - math.floor(turns)) * cells
+    cell = min(int(position), cells - 1)
+    return cell, position - cell
 
 
 @njit_lean

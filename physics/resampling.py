@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import firwin, upfirdn
 
 Array = NDArray[np.float64]
 
@@ -19,6 +18,8 @@ def decimate(signal: Array, factor: int) -> Array:
     The filter passes up to 0.9 of the new Nyquist frequency and has no delay; beyond its ends the signal is taken to go
     on with its first and last value.
     """
+    from scipy.signal import firwin, upfirdn
+
     if factor == 1:
         return signal
     half = HALF_LENGTH_SAMPLES * factor

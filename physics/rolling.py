@@ -8,13 +8,16 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
+from physics._jit import njit, njit_inline, njit_lean
 
 Array = NDArray[np.float64]
 Curve = Callable[[Array], Array]
 
 FEWEST_STEPS = 512
 SURFACE_STEPS_PER_PATH_STEP = 4
+BLOCK = 16
+# What rounding leaves of a height (m).
+ROUNDING = 1e-15
 
 
 def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Curve, Curve]:
@@ -79,25 +82,55 @@ def rolled_path(
 
 @njit
 def _roll(depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool) -> Array:
-    """Drop at the surface points of the path, by trying each of the `reach` neighbours on both sides as the contact."""
+    """Drop at the surface points of the path, by trying each of the `reach` neighbours on both sides as the contact.
+
+    Neighbours are taken block by block, and blocks whose highest point cannot touch first are passed over.
+    """
     count = (depth.size - 2 * reach - 1) // SURFACE_STEPS_PER_PATH_STEP + 1
     cosine = np.cos(step * np.arange(reach + 1))
     sine = np.sin(step * np.arange(reach + 1))
+    blocks = (depth.size - 1) // BLOCK + 1
+    highest, deepest = np.empty(blocks), depth.max()
+    for block in range(blocks):
+        highest[block] = depth[block * BLOCK : (block + 1) * BLOCK].min()
     drop = np.empty(count)
     for k in range(count):
-        least = math.inf
-        for offset in range(-reach, reach + 1):
-            away = abs(offset)
-            s = depth[k * SURFACE_STEPS_PER_PATH_STEP + reach + offset]
-            radius = race_radius + s if outer else race_radius - s
-            lever = radius * sine[away]
-            if lever >= ball_radius:
+        centre = k * SURFACE_STEPS_PER_PATH_STEP + reach
+        least = _drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer)
+        for block in range((centre - reach) // BLOCK, (centre + reach) // BLOCK + 1):
+            first, last = max(block * BLOCK, centre - reach), min(block * BLOCK + BLOCK - 1, centre + reach)
+            near = max(first - centre, centre - last, 0)
+            if _least_drop(highest[block], deepest, cosine[near], sine[near], race_radius, ball_radius, outer) > least:
                 continue
-            hanging = math.sqrt(ball_radius * ball_radius - lever * lever)
-            if outer:
-                candidate = radius * cosine[away] - hanging - race_radius + ball_radius
-            else:
-                candidate = race_radius + ball_radius - radius * cosine[away] - hanging
-            least = min(least, candidate)
+            for place in range(first, last + 1):
+                away = abs(place - centre)
+                least = min(least, _drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer))
         drop[k] = least
     return drop
+
+
+@njit_inline
+def _drop_on(s: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool) -> float:
+    """Drop (m) of a ball that touches the surface at the depth `s` (m), so far away; infinite if it cannot."""
+    radius = race_radius + s if outer else race_radius - s
+    lever = radius * sine
+    if lever >= ball_radius:
+        return math.inf
+    hanging = math.sqrt(ball_radius * ball_radius - lever * lever)
+    if outer:
+        return radius * cosine - hanging - race_radius + ball_radius
+    return race_radius + ball_radius - radius * cosine - hanging
+
+
+@njit_lean
+def _least_drop(
+    highest: float, deepest: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool
+) -> float:
+    """A drop (m) below which no surface between these depths (m) holds the ball, so far away."""
+    lever = (race_radius + highest if outer else race_radius - deepest) * sine
+    if lever >= ball_radius:
+        return math.inf
+    hanging = math.sqrt(ball_radius * ball_radius - lever * lever)
+    if outer:
+        return (race_radius + highest) * cosine - hanging - race_radius + ball_radius - ROUNDING
+    return race_radius + ball_radius - (race_radius - highest) * cosine - hanging - ROUNDING

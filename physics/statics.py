@@ -67,11 +67,13 @@ def load_vector(scene: Scene, time: Array) -> Array:
     """Outer load on the shaft (T, 2), N: the static load with its fluctuation along −y, and the unbalance."""
     run = scene.operation
     turn = run.shaft_speed * np.asarray(time)
-    unbalance = run.unbalance_force * np.column_stack(
-        [np.cos(turn + run.unbalance_phase), np.sin(turn + run.unbalance_phase)]
-    )
-    unbalance[:, 1] -= run.load * (1.0 + run.load_fluctuation * np.cos(turn + run.fluctuation_phase))
-    return unbalance
+    load = np.zeros((turn.size, 2))
+    if run.unbalance_force:
+        load[:, 0] = run.unbalance_force * np.cos(turn + run.unbalance_phase)
+        load[:, 1] = run.unbalance_force * np.sin(turn + run.unbalance_phase)
+    share = 1.0 + run.load_fluctuation * np.cos(turn + run.fluctuation_phase) if run.load_fluctuation else 1.0
+    load[:, 1] -= run.load * share
+    return load
 
 
 @njit_lean

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
 from physics.assembly import assemble
 from physics.contact import Law, Track, set_time
-from physics.rest import elastic, solve_at
+from physics.rest import Hold, elastic, solve_at
 from physics.scene import Scene
 from physics.statics import load_vector
 
@@ -19,8 +17,11 @@ Array = NDArray[np.float64]
 COMPONENTS = ("xx", "yy", "xy")
 # A shaft that moved by less than this share of its displacement is expected to move on as far.
 NEARBY = 0.05
-# An unbalanced force below this share of the load is one step of Newton's method, which squares it, away.
-CLOSE = 1e-6
+# An unbalanced force below this share of the load is one step of Newton's method, which squares it, away; from below
+# the larger share it needs no safeguards, if the stiffness is regular.
+CLOSE, NEAR = 1e-6, 1e-2
+MOST_STEPS = 4
+REGULAR = 1e-6
 
 
 def stiffness_trace(scene: Scene, time: Array) -> Array:
@@ -39,38 +40,54 @@ def stiffness_trace(scene: Scene, time: Array) -> Array:
 def _follow(
     balls: Array, frames: Array, law: Law, track: Track, time: Array, loads: Array, place: Array, stiffness: Array
 ) -> None:
-    """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m.
-
-    Where the shaft is nearly where it was expected, one step of Newton's method from there is its place.
-    """
+    """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m."""
     for k in range(time.size):
         set_time(balls, frames, track, time[k])
-        dx, dy = _expected(place, k)
-        hold = elastic(balls, frames, law, dx, dy)
-        gx, gy = loads[k, 0] - hold.force_x, loads[k, 1] - hold.force_y
-        determinant = hold.xx * hold.yy - hold.xy * hold.xy
-        near = math.hypot(gx, gy) <= CLOSE * math.hypot(loads[k, 0], loads[k, 1])
-        if near and determinant > CLOSE * (hold.xx + hold.yy) ** 2:
-            dx += (hold.yy * gx - hold.xy * gy) / determinant
-            dy += (hold.xx * gy - hold.xy * gx) / determinant
-            hold = elastic(balls, frames, law, dx, dy)
-        else:
-            dx, dy, hold, _ = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
-        place[k, 0], place[k, 1] = dx, dy
+        x, y = expected(place, k, 1)
+        place[k, 0], place[k, 1], hold = settle(balls, frames, law, loads[k, 0], loads[k, 1], x, y)
         stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
 
 
 @njit_lean
-def _expected(place: Array, k: int) -> tuple[float, float]:
-    """Where the shaft will be at instant `k`, going on as at the last three instants, unless it moved far."""
-    if k == 0:
+def settle(
+    balls: Array, frames: Array, law: Law, load_x: float, load_y: float, x: float, y: float
+) -> tuple[float, float, Hold]:
+    """Where the shaft rests (m, m) under the load (N, N), looked for from the place expected, and what holds there.
+
+    Where it is nearly there, few steps of Newton's method from there are its place.
+    """
+    load = load_x * load_x + load_y * load_y
+    hold = elastic(balls, frames, law, x, y)
+    for _ in range(MOST_STEPS):
+        gx, gy = load_x - hold.force_x, load_y - hold.force_y
+        missing = gx * gx + gy * gy
+        determinant = hold.xx * hold.yy - hold.xy * hold.xy
+        if not (missing <= NEAR**2 * load and determinant > REGULAR * (hold.xx + hold.yy) ** 2):
+            break
+        x += (hold.yy * gx - hold.xy * gy) / determinant
+        y += (hold.xx * gy - hold.xy * gx) / determinant
+        hold = elastic(balls, frames, law, x, y)
+        if missing <= CLOSE**2 * load:
+            return x, y, hold
+    x, y, hold, _ = solve_at(balls, frames, law, load_x, load_y, x, y)
+    return x, y, hold
+
+
+@njit_lean
+def expected(place: Array, k: int, stride: int) -> tuple[float, float]:
+    """Where the shaft (m, m) will be at instant `k`, going on as at the last three of `place` (T, 2 or more) a `stride`
+    apart, unless it moved far."""
+    if k < stride:
         return 0.0, 0.0
-    x, y = place[k - 1, 0], place[k - 1, 1]
-    if k > 1 and math.hypot(x - place[k - 2, 0], y - place[k - 2, 1]) < NEARBY * math.hypot(x, y):
-        if k == 2:
-            return 2.0 * x - place[0, 0], 2.0 * y - place[0, 1]
-        return 3.0 * (x - place[k - 2, 0]) + place[k - 3, 0], 3.0 * (y - place[k - 2, 1]) + place[k - 3, 1]
-    return x, y
+    x, y = place[k - stride, 0], place[k - stride, 1]
+    if k < 2 * stride:
+        return x, y
+    before_x, before_y = place[k - 2 * stride, 0], place[k - 2 * stride, 1]
+    if (x - before_x) ** 2 + (y - before_y) ** 2 >= NEARBY**2 * (x * x + y * y):
+        return x, y
+    if k < 3 * stride:
+        return 2.0 * x - before_x, 2.0 * y - before_y
+    return 3.0 * (x - before_x) + place[k - 3 * stride, 0], 3.0 * (y - before_y) + place[k - 3 * stride, 1]
 
 
 def stiffness_at(scene: Scene, time: Array, displacement: Array) -> Array:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.errors import BadInput
 from datagen.records.versions import program_versions
 from labels.schema import BAND_EDGES, LABELS, LAYERS, Label
 from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
@@ -22,9 +21,7 @@ if TYPE_CHECKING:
 
 FORMAT = "spallgen corpus 1"
 SIMULATED, IMPORTED = "simulated", "imported"
-COMPRESSIONS = ("zlib", "none")
 COMPONENT_DIMENSIONS = {BAND_EDGES: ("band_edge",), LAYERS: ("layer",)}
-LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
 SIMULATED_ATTRIBUTES = {
     "summary": "Simulated vibration of rolling bearings, healthy or with a raceway spall, with exact labels.",
     "keywords": "rolling bearing, raceway spall, vibration, condition monitoring, simulation",
@@ -179,39 +176,6 @@ def global_attributes(labels: Mapping[str, Any]) -> dict[str, str]:
     }
 
 
-def check_compression(compression: str) -> None:
-    """Raise BadInput for a compression that is not offered."""
-    if compression not in COMPRESSIONS:
-        raise BadInput(
-            "netCDF's own lz4 filter fails on signals that do not compress and ends the process"
-            if compression == "lz4"
-            else "",
-            field="store.compression",
-            value=compression,
-            allowed=", ".join(COMPRESSIONS),
-        )
-
-
-def encoding(dataset: xarray.Dataset, compression: str) -> dict[str, dict[str, Any]]:
-    """How netCDF4 stores each variable: checksummed chunks, one for each record and component of a signal.
-
-    Raises BadInput for a compression that is not offered.
-    """
-    check_compression(compression)
-    return {str(name): _variable_encoding(variable, compression) for name, variable in dataset.variables.items()}
-
-
-def _variable_encoding(variable: xarray.Variable, compression: str) -> dict[str, Any]:
-    if variable.dtype.kind in "OUT":
-        return {}
-    if not variable.size:
-        return {"_FillValue": None}
-    long = [dim in LONG_DIMENSIONS for dim in variable.dims]
-    chunks = tuple(size if keep or not any(long) else 1 for size, keep in zip(variable.shape, long, strict=True))
-    settings = {"_FillValue": None, "chunksizes": chunks, "fletcher32": True}
-    return settings | ({"zlib": True, "complevel": 1, "shuffle": True} if compression == "zlib" else {})
-
-
 def content_hash(dataset: xarray.Dataset) -> str:
     """SHA-256 of names, dimensions, types and values of all variables: the same for equal arrays, however stored."""
     digest = hashlib.sha256()
@@ -224,5 +188,5 @@ def content_hash(dataset: xarray.Dataset) -> str:
         if text:
             digest.update(json.dumps([str(value) for value in values.ravel()]).encode())
         else:
-            digest.update(np.ascontiguousarray(values.astype(kind, copy=False)).tobytes())
+            digest.update(np.ascontiguousarray(values.astype(kind, copy=False)).reshape(-1).view(np.uint8).data)
     return digest.hexdigest()

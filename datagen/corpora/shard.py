@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
-import threading
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from datagen.corpora.atomic import write_atomically
-from datagen.corpora.format import Identity, content_hash, encoding
+from datagen.corpora.format import Identity, content_hash
+from datagen.corpora.netcdf import netcdf_bytes
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     import xarray
 
 READ_BLOCK = 1 << 20
-# The netCDF library crashes when two threads use it. Closing may happen inside writing, when memory is collected.
-ONE_AT_A_TIME = threading.RLock()
 
 
 @dataclass(frozen=True)
@@ -82,7 +80,7 @@ def write_shard(
     if dataset is None:
         sidecar = Sidecar(shard, identity, (), failed, 0, "", "", seconds, {}, refused or {})
     else:
-        content = serialise(dataset, compression)
+        content = memoryview(netcdf_bytes(dataset, compression))
         sidecar = Sidecar(
             shard=shard,
             identity=identity,
@@ -98,15 +96,6 @@ def write_shard(
         write_atomically(shard_path(folder, shard), content)
     write_atomically(sidecar_path(folder, shard), json.dumps(asdict(sidecar), allow_nan=False).encode())
     return sidecar
-
-
-def serialise(dataset: xarray.Dataset, compression: str) -> memoryview:
-    """The bytes of a netCDF file of `dataset`.
-
-    They are made in memory: a file that netCDF fills in place and that is cut short opens cleanly and holds NaN.
-    """
-    with ONE_AT_A_TIME:
-        return dataset.to_netcdf(engine="netcdf4", format="NETCDF4", encoding=encoding(dataset, compression))
 
 
 def label_columns(dataset: xarray.Dataset) -> dict[str, list[Any]]:

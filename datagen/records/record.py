@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.corpora.format import profile_grid
 from datagen.records.layers import Layers, background_layers
-from datagen.records.stiffness_axis import interpolation_error, stiffness_axis
+from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.scenario import Scenario
 from labels.description import label_values
@@ -26,7 +26,7 @@ from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.recorder import recorded
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.stiffness import stiffness_trace
+from physics.stiffness_series import stiffness_series
 from physics.trace import Trace
 
 Rounded = NDArray[np.float32]
@@ -81,8 +81,8 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     layers = background_layers(scenario, signal)
     acceleration, clipped = _recorded(chain, sum(layers.values(), signal))
     stiffness_time = stiffness_axis(scenario)
-    stiffness = stiffness_trace(scene, stiffness_time).T
-    labels = _labels(scenario, trace, interpolation_error(scenario, stiffness))
+    stiffness, solved_error = _stiffness(scenario, stiffness_time)
+    labels = _labels(scenario, trace, math.hypot(solved_error, interpolation_error(scenario, stiffness)))
     labels |= sensor_labels(scenario, signal, layers, clipped)
     optional: dict[str, Callable[[], NDArray[Any]]] = {
         "acceleration_clean": lambda: trace.acceleration.astype(np.float32),
@@ -105,6 +105,13 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
         scenario=scenario.to_json(),
         **{name: optional[name]() for name in stored},
     )
+
+
+def _stiffness(scenario: Scenario, time: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """The stiffness (3, S) at its own equally spaced times (S,), and the share of kyy that interpolation misses."""
+    step = stiffness_divisor(scenario) / scenario.rate
+    series = stiffness_series(scenario.scene, step, time.size)
+    return series.stiffness.T, series.error
 
 
 def _recorded(chain: SensorChain, signal: NDArray[np.float64]) -> tuple[Rounded, float]:

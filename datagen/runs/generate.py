@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from datagen.corpora.atomic import locked
-from datagen.corpora.format import Identity, check_compression, format_hash
+from datagen.corpora.format import Identity, format_hash
 from datagen.corpora.manifest import manifest_path, read_manifest
+from datagen.corpora.netcdf import check_compression
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
 from datagen.records.versions import program_hash

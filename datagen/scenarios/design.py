@@ -18,7 +18,6 @@ from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from datagen.scenarios.streams import stream
 
@@ -78,6 +77,8 @@ def dimension_of(purpose: str, item: int, position: int) -> int | None:
 @lru_cache(maxsize=16)
 def _sobol_block(seed: int, part: int, block: int) -> NDArray[np.float64]:
     """Points (BLOCK, TOTAL) of the part's sequence, from point `block` · BLOCK on."""
+    from scipy.stats import qmc
+
     engine = qmc.Sobol(TOTAL, scramble=True, rng=stream(seed, "part", part, "design"))
     if block:
         engine.fast_forward(block * BLOCK)
@@ -87,6 +88,8 @@ def _sobol_block(seed: int, part: int, block: int) -> NDArray[np.float64]:
 @lru_cache(maxsize=2 * TOTAL)
 def _latin_cells(seed: int, part: int, points: int, dimension: int) -> NDArray[np.int32]:
     """The stratum (points,) of each point along one dimension."""
+    from scipy.stats import qmc
+
     generator = stream(seed, "part", part, "design", item=1 + dimension)
     centres = qmc.LatinHypercube(1, scramble=False, rng=generator).random(points)[:, 0]
     return np.floor(centres * points).astype(np.int32)

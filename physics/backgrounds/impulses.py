@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from physics.checks import require, require_between, require_not_negative, require_positive
 
@@ -72,6 +71,8 @@ def impulses(generator: np.random.Generator, layer: Impulses, samples: int, rate
 
 def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int, rate: float) -> Array:
     """Decaying sines (T, 2) that start at `instant` (N,) s with `strength` (N, 2), exact at the samples."""
+    from scipy.signal import lfilter
+
     require_between("impulse resonance", resonance.frequency, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
     turn = 2.0 * math.pi * resonance.frequency / rate
     decay = math.exp(-resonance.damping * turn)

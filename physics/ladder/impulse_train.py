@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
-from scipy.signal import lfilter
 
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
@@ -101,6 +100,8 @@ def _blunted(frequency: float, ramp: Array) -> Array:
 
 def _ring(time: Array, size: Array, frequency: float, damping: float, samples: int, rate: float) -> Array:
     """Acceleration (T,) of a modal coordinate of unit mass after steps of force `size` (E,), N, at `time` (E,), s."""
+    from scipy.signal import lfilter
+
     decay = frequency * complex(-damping, math.sqrt(max(1.0 - damping**2, 0.0)))
     sample = np.ceil(time * rate - 1e-9).astype(np.int64)
     kept = sample < samples

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
-from scipy.signal import lfilter
 
 from physics.checks import require_between, require_finite, require_positive
 
@@ -53,6 +52,8 @@ def mode_accelerations(
 
 def _driven(mode: SensorMode, push: Array, rate: float) -> Array:
     """Acceleration (T, 2) of one mode under the cubics (4, T − 1, 2) of the outer ring's acceleration."""
+    from scipy.signal import lfilter
+
     require_below_nyquist(mode.frequency, rate)
     transition, response = _discretised(mode, 1.0 / rate)
     omega = 2.0 * math.pi * mode.frequency

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfilt
 
 from physics.checks import require_between, require_count, require_positive
 
@@ -34,6 +33,8 @@ def mounted(mounting: Mounting, signal: Array, rate: float) -> Array:
     1 / (2 rate tan(π cutoff / rate) sin(π / 2n)): 51 µs for order 6 at 11 kHz and 65 536 Hz. The analogue filter in its
     bilinear form, exact at the cutoff. InvalidParameter if the cutoff does not lie below half the rate.
     """
+    from scipy.signal import butter, sosfilt
+
     require_between("mounting cutoff", mounting.cutoff, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
     sections = butter(mounting.order, mounting.cutoff, fs=rate, output="sos")
     return np.asarray(sosfilt(sections, signal, axis=0))

@@ -11,7 +11,8 @@ import xarray
 from datagen.corpora.atomic import write_atomically
 from datagen.corpora.check import check_corpus
 from datagen.corpora.format import content_hash
-from datagen.corpora.shard import file_hash, label_columns, serialise, shard_path, sidecar_path
+from datagen.corpora.netcdf import netcdf_bytes
+from datagen.corpora.shard import file_hash, label_columns, shard_path, sidecar_path
 from datagen.errors import BadInput
 
 Change = Callable[[xarray.Dataset], xarray.Dataset]
@@ -22,7 +23,7 @@ def forge(folder: Path, shard: int, change: Change) -> None:
     path = shard_path(folder, shard)
     with xarray.open_dataset(path) as opened:
         dataset = change(opened.load())
-    path.write_bytes(serialise(dataset, "zlib"))
+    path.write_bytes(netcdf_bytes(dataset, "zlib"))
     sidecar = json.loads(sidecar_path(folder, shard).read_text())
     manifest = json.loads((folder / "manifest.json").read_text())
     entry = next(entry for entry in manifest["shards"] if entry["file"].endswith(path.name))

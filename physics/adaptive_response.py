@@ -33,14 +33,14 @@ from physics.trace import CHAOTIC, Trace
 
 Array = NDArray[np.float64]
 
-LONGEST_LEVEL = 3
+LONGEST_LEVEL = 4
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
 # Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
 # them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
-ERROR_FACTOR, SENSITIVE = 6.0, 6.0
+ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
-AIM, MARGIN = 0.06, 0.75
+AIM, MARGIN = 0.1, 0.75
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.

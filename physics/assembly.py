@@ -48,18 +48,26 @@ def assemble(scene: Scene) -> ContactModel:
     """The contact model of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
     bearing, rig = scene.rig.bearing, scene.rig
     alpha = math.cos(bearing.contact_angle)
-    cages = [scene.cage] if scene.second_cage is None else [scene.cage, scene.second_cage]
-    balls, row, ball = _lay_out_balls(scene, len(cages))
-    frames = np.zeros((len(cages), FRAME_COLUMNS))
+    cages = 1 if scene.second_cage is None else 2
+    balls, row, ball = _lay_out_balls(scene, cages)
+    frames = np.zeros((cages, FRAME_COLUMNS))
     law = Law(
         stiffness=bearing.load_deflection * alpha ** (bearing.exponent + 1.0),
         exponent=bearing.exponent,
         damping=rig.film_damping * alpha**2,
         no_tension=scene.contact_law == "no_tension",
     )
+    return ContactModel(balls, frames, law, _track(scene), row, ball)
+
+
+@lru_cache(maxsize=TABLES_KEPT)
+def _track(scene: Scene) -> Track:
+    """What the balls of `scene` run on; the same scene gives the same arrays, which are for reading only."""
+    bearing = scene.rig.bearing
     paths = [build_path(spall, bearing) for spall in scene.spalls]
+    cages = [scene.cage] if scene.second_cage is None else [scene.cage, scene.second_cage]
     cage, clock = _cage_arrays(cages)
-    track = Track(
+    return Track(
         cage=cage,
         clock=clock,
         spalls=_spall_table(scene, paths, len(cages)),
@@ -71,7 +79,6 @@ def assemble(scene: Scene) -> ContactModel:
         spacing=bearing.spacing,
         shaft_speed=scene.operation.shaft_speed,
     )
-    return ContactModel(balls, frames, law, track, row, ball)
 
 
 def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:

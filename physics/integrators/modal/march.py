@@ -1,9 +1,9 @@
 """Marching on the modes with steps as long as the scene allows, every contact change located and every kink a stop.
 
-Steps are whole numbers of units, a sixteenth of a sample, or two, four, eight samples, and shorter than a unit where an
-error asks for it; the samples inside a stride are exact responses of the modes to the force of the step's stages.
+Steps are whole numbers of units, a sixteenth of a sample, or two, four, eight, sixteen samples, and shorter than a unit
+where an error asks for it; the samples inside a stride are exact responses of the modes to the step's contact force.
 Everything is measured by one tolerance, the momentum (N s) by which a step or a contact change may be wrong: the length
-of steps from how well the past of the contact force foretells it, how exactly a change is located from the jump of
+of steps from the fourth power in the course of the contact force, how exactly a change is located from the jump of
 force it makes, how finely steps are graded next to it from how fast contact begins or ends.
 """
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline
+from physics._jit import njit_inline, njit_lean
 from physics.contact import Law, Track, count_changes, note_motion, press, set_time
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import AT_END, AT_HALF, END, HALF, KICKS, OTHER, TURN, free_motion, push, turn
@@ -20,7 +20,7 @@ from physics.integrators.modal.weights import AT_END, AT_HALF, END, HALF, KICKS,
 Array = NDArray[np.float64]
 
 
-@njit_inline
+@njit_lean
 def step_modal_rk4(
     balls: Array,
     frames: Array,

@@ -1,7 +1,7 @@
 """Writes the tables of docs/transfer.md from reports of `spallgen classify`: python docs/make_transfer.py REPORT.json …
 
 A report is named by the folder that it lies in; the first is the main run, the others are those of make_ablation.py and
-of make_recorded_background.py.
+of make_recorded_background.py, whose tables stay as they are without them. A file draws.json is that of make_draws.py.
 """
 
 from __future__ import annotations
@@ -10,6 +10,9 @@ import json
 import sys
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from scipy.stats import binomtest
 
 PAGE = Path(__file__).with_name("transfer.md")
 BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"
@@ -22,6 +25,14 @@ def interval(found: dict[str, Any]) -> str:
     if found["value"] is None:
         return "–"
     return f"{found['value']:.3f} [{found['low']:.3f}, {found['high']:.3f}]"
+
+
+def counted(some: int, all_: int) -> str:
+    """A count with the 95 % interval of its share [Clopper & Pearson 1934]; a dash if nothing was counted."""
+    if all_ == 0:
+        return "–"
+    share = binomtest(some, all_).proportion_ci()
+    return f"{some} of {all_} [{share.low:.3f}, {share.high:.3f}]"
 
 
 def without_odd(test: dict[str, Any], model: str) -> str:
@@ -60,7 +71,7 @@ def main_table(report: dict[str, Any]) -> list[str]:
                 interval(scores["race_accuracy"]),
                 interval(scores["detection_auc"]),
                 interval(minus) if minus else "",
-                f"{scores['false_alarms']} of {scores['healthy']}",
+                counted(scores["false_alarms"], scores["healthy"]),
                 str(scores["rejected"]),
                 odd_ones(test, name),
             )
@@ -69,23 +80,36 @@ def main_table(report: dict[str, Any]) -> list[str]:
 
 
 def noise_table(report: dict[str, Any]) -> list[str]:
-    """Race accuracy and AUC under added white noise, with the difference to the rule."""
-    lines = ["| corpus | SNR, dB | model | race | minus rule | AUC | minus rule |", "|---|---|---|---|---|---|---|"]
+    """Faults found at the alarm, race accuracy and AUC under added white noise, with the difference to the rule."""
+    names = ("faults_balanced_accuracy", "race_accuracy", "detection_auc")
+    head = ["corpus", "SNR, dB", "model", "outer and inner, at the alarm", "minus rule", "race", "minus rule"]
+    head += ["AUC", "minus rule"]
+    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
     for test in report["tests"]:
         for noisy in test["noise"]:
             for name, scores in noisy["models"].items():
                 minus = scores.get("minus_rule", {})
-                cells = (
-                    Path(test["corpus"]).name,
-                    f"{noisy['snr_db']:g}",
-                    name,
-                    interval(scores["race_accuracy"]),
-                    interval(minus["race_accuracy"]) if minus else "",
-                    interval(scores["detection_auc"]),
-                    interval(minus["detection_auc"]) if minus else "",
-                )
+                cells = [Path(test["corpus"]).name, f"{noisy['snr_db']:g}", name]
+                for score in names:
+                    cells += [interval(scores[score]), interval(minus[score]) if minus else ""]
                 lines.append("| " + " | ".join(cells) + " |")
     return lines if len(lines) > 2 else ["Not run."]
+
+
+def draws_table(draws: dict[str, list[dict[str, dict[str, float | None]]]]) -> list[str]:
+    """Mean and range over draws of the training set: faults where there are any, then false alarms."""
+    lines = ["| corpus | model | outer and inner, without odd ones | false alarms |", "|---|---|---|---|"]
+    for corpus, found in draws.items():
+        for model in found[0]:
+            cells = [ranged([draw[model][name] for draw in found]) for name in ("faults", "false_alarms")]
+            lines.append(f"| {corpus} | {model} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def ranged(values: list[float | None]) -> str:
+    """Mean and range of numbers; a dash where they are not defined."""
+    known = [value for value in values if value is not None]
+    return f"{np.mean(known):.3f} ({min(known):.3f} to {max(known):.3f})" if known else "–"
 
 
 def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
@@ -144,16 +168,21 @@ def replaced(page: str, name: str, lines: list[str]) -> str:
 
 def main(paths: list[str]) -> None:
     """Write the tables."""
-    reports = {Path(path).absolute().parent.name: json.loads(Path(path).read_text()) for path in paths}
+    draws = [path for path in paths if Path(path).name == "draws.json"]
+    others = [path for path in paths if path not in draws]
+    reports = {Path(path).absolute().parent.name: json.loads(Path(path).read_text()) for path in others}
     first = next(iter(reports.values()))
     page = PAGE.read_text(encoding="utf-8")
     learned = f"Learned from {first['training_records']} simulated records; no real one."
     page = replaced(page, "scores", [learned, "", *main_table(first)])
     page = replaced(page, "noise", noise_table(first))
-    others = dict(list(reports.items())[1:])
-    backgrounds = {name: others.pop(name) for name in BACKGROUNDS if name in others}
-    page = replaced(page, "ablation", ablation_table(others))
-    page = replaced(page, "background", ablation_table(backgrounds))
+    for path in draws:
+        page = replaced(page, "draws", draws_table(json.loads(Path(path).read_text())))
+    ablations = dict(list(reports.items())[1:])
+    backgrounds = {name: ablations.pop(name) for name in BACKGROUNDS if name in ablations}
+    for name, found in (("ablation", ablations), ("background", backgrounds)):
+        if found:
+            page = replaced(page, name, ablation_table(found))
     PAGE.write_text(page, encoding="utf-8")
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassifierMixin
 
+from labels.alarm import fit_alarm
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
 from labels.learners import SEED, learner
@@ -20,7 +21,8 @@ FALSE_ALARMS = 0.05
 RACES = ("outer", "inner")
 STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
 IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")
-RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS)
+LEADS = ("inner_lead_evidence", "inner_lead_spread", "inner_lead_strength", "inner_lead_others")
+RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS, *LEADS)
 """More of these never makes a spall less likely."""
 DIFFERENCES = ("race_evidence", "race_spread", "race_strength", "race_depth", "race_others")
 SPALL_NAMES = (*RISING, *DIFFERENCES, "turns")
@@ -38,8 +40,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
     Spall or none, from the two races' line families in the envelopes, from impulsiveness, and from how long was looked;
     outer or inner race, from the families alone; line or extended, from all features. What belongs to the machine as
     much as to a spall (lines of the shaft, lines of the vibration itself) tells neither of the first two.
-    `alarm_` is the probability of a spall that `false_alarms` of the healthy records exceed, on bearings not learned
-    from.
+    `alarm_` (labels/alarm.py) is what `false_alarms` of the healthy records pass, on bearings not learned from.
     """
 
     def __init__(self, kind: str = "forest", seed: int = SEED, false_alarms: float = FALSE_ALARMS) -> None:
@@ -47,14 +48,29 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         self.seed = seed
         self.false_alarms = false_alarms
 
-    def fit(self, X: Array, y: NDArray[Any], groups: NDArray[Any] | None = None) -> SpallClassifier:
-        """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) are virtual bearings."""
+    def fit(
+        self,
+        X: Array,
+        y: NDArray[Any],
+        groups: NDArray[Any] | None = None,
+        records: NDArray[np.int64] | None = None,
+        noisy: NDArray[np.bool_] | None = None,
+    ) -> SpallClassifier:
+        """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) are virtual bearings.
+
+        `records` (N,) are the records that the rows are of, each its own if None; `noisy` (N,) marks rows of a record
+        to which noise was added.
+        """
         X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
+        records = np.arange(len(y)) if records is None else np.asarray(records)
+        noisy = np.zeros(len(y), dtype=bool) if noisy is None else np.asarray(noisy)
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
         self.spall_ = self._stage(SIGNS).fit(_spall_columns(X), faulty, groups)
-        self.alarm_ = float(np.quantile(self.spall_.held_out[~faulty], 1.0 - self.false_alarms))
+        self.alarm_ = fit_alarm(
+            self.spall_.held_out[~faulty], X[~faulty], records[~faulty], noisy[~faulty], self.false_alarms
+        )
         faults, fault_groups = X[faulty], groups[faulty]
         self.race_ = self._stage().fit(_race_columns(faults), _ends_with(y[faulty], "inner"), fault_groups)
         extended = np.char.startswith(y[faulty].astype(str), "extended")
@@ -75,14 +91,17 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
 
     def predict(self, X: Array) -> NDArray[np.str_]:
         """The likeliest class (N,) of the rows whose probability of a spall passes the alarm; "healthy" for others."""
-        return decide(self.predict_proba(X), self.alarm_)
+        return decide(self.predict_proba(X), self.alarm_.at(X))
 
     def _stage(self, signs: tuple[int, ...] | None = None) -> Stage:
         return Stage(learner(self.kind, self.seed, signs), self.seed)
 
 
-def decide(probability: Array, alarm: float = EVEN) -> NDArray[np.str_]:
-    """The class (N,) that follows from probabilities (N, 5): the likeliest spall if that of any passes `alarm`."""
+def decide(probability: Array, alarm: float | Array = EVEN) -> NDArray[np.str_]:
+    """The class (N,) that follows from probabilities (N, 5): the likeliest spall if that of any passes `alarm`.
+
+    `alarm` is one probability for all, or one for each (N,).
+    """
     spall = 1.0 - probability[:, 0]
     likeliest = np.asarray(CLASSES[1:])[probability[:, 1:].argmax(axis=1)]
     return np.where(spall > alarm, likeliest, HEALTHY)

@@ -16,21 +16,26 @@ STILL_BAND = (10.0, 1000.0)
 MAINS = (50.0, 60.0)
 TURNING_EVIDENCE = 30.0
 """Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes."""
+FEWEST_TURNS = 15.0
+"""In fewer turns the lines of a machine that runs quietly do not stand out, so that they lack says nothing."""
 FEWEST_LEVELS = 4
 STOPPED, DEAD = "machine stopped", "no signal"
 
 
 @dataclass(frozen=True)
 class Liveness:
-    """RMS velocity (m/s) from 10 Hz to 1 kHz and the evidence (nats) of a turning shaft or of passing balls."""
+    """RMS velocity (m/s) from 10 Hz to 1 kHz, evidence (nats) of a turning shaft or of passing balls, and the turns
+    that the shaft would have made."""
 
     velocity: float
     evidence: float
+    turns: float
 
     @property
     def reason(self) -> str:
         """Why the record must not be classified; empty if it shows a running machine."""
-        return STOPPED if self.velocity < STILL_VELOCITY and self.evidence < TURNING_EVIDENCE else ""
+        silent = self.velocity < STILL_VELOCITY and self.evidence < TURNING_EVIDENCE
+        return STOPPED if silent and self.turns >= FEWEST_TURNS else ""
 
 
 def liveness(analysis: Analysis, samples: int) -> Liveness:
@@ -39,7 +44,8 @@ def liveness(analysis: Analysis, samples: int) -> Liveness:
     frequency = np.arange(spectrum.size) * step
     inside = (frequency >= STILL_BAND[0]) & (frequency <= STILL_BAND[1])
     amplitude = np.abs(spectrum[inside]) * (2.0 / samples) / (2.0 * np.pi * frequency[inside])
-    return Liveness(float(np.sqrt(0.5 * np.sum(amplitude**2))), _turning(analysis))
+    turns = analysis.given.shaft_hz * analysis.record.duration
+    return Liveness(float(np.sqrt(0.5 * np.sum(amplitude**2))), _turning(analysis), turns)
 
 
 def _turning(analysis: Analysis) -> float:

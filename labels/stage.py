@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.alarm import logit
 from labels.features.conditioning import Array
 
 FOLDS = 5
-EDGE = 1e-4
 
 
 class Stage:
@@ -33,7 +33,7 @@ class Stage:
             raise ValueError("each answer must be given by two virtual bearings or more")
         raw = self._held_out(table, answer, groups, folds)
         weight = np.where(answer, 1.0 / max(answer.mean(), 1e-9), 1.0 / max(1.0 - answer.mean(), 1e-9))
-        self.calibration = LogisticRegression(C=10.0).fit(_logit(raw)[:, None], answer, sample_weight=weight)
+        self.calibration = LogisticRegression(C=10.0).fit(logit(raw)[:, None], answer, sample_weight=weight)
         self.held_out = self._calibrated(raw)
         self.estimator = clone(self.estimator).fit(table, answer)
         return self
@@ -54,9 +54,4 @@ class Stage:
         return raw
 
     def _calibrated(self, raw: Array) -> Array:
-        return np.asarray(self.calibration.predict_proba(_logit(raw)[:, None])[:, 1])
-
-
-def _logit(probability: Array) -> Array:
-    inside = np.clip(probability, EDGE, 1.0 - EDGE)
-    return np.asarray(np.log(inside / (1.0 - inside)))
+        return np.asarray(self.calibration.predict_proba(logit(raw)[:, None])[:, 1])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,6 +34,7 @@ from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from labels.alarm import Alarm
 from labels.rule import Rule
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
         "options": benchmark.options,
         "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
         "rule_threshold": rule.threshold,
-        "alarms": {model.name: model.alarm for model in models},
+        "alarms": {model.name: _plain(model.alarm) for model in models},
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
     }
     if benchmark.curve:
@@ -101,6 +102,10 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
         results["tests"].append(summary)
     results["seconds"] = time.monotonic() - began
     return results, tested
+
+
+def _plain(alarm: Alarm | float) -> dict[str, float] | float:
+    return asdict(alarm) if isinstance(alarm, Alarm) else alarm
 
 
 def _learned_from(benchmark: Benchmark, say: Say) -> tuple[TrainingSet, pandas.DataFrame | None]:

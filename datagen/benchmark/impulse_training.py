@@ -50,16 +50,19 @@ def impulse_training(
         np.concatenate([part.classes for part in found]),
         np.concatenate([part.bearings for part in found]),
         np.concatenate([part.records for part in found]),
+        np.concatenate([part.noisy for part in found]),
     )
 
 
 def _machine(machine: int, ingredients: Ingredients, reading: Reading) -> TrainingSet:
-    table, classes = [], []
+    made, classes, records = [], [], []
     for record, location in enumerate(LOCATIONS):
         drawn = draw_train(SEED, machine, record, ingredients)
         seed = [SEED, machine, record]
-        rows, _ = signal_rows(drawn.signal, drawn.rate, drawn.kinematics, reading, seed)
-        table += rows
+        rows = signal_rows(drawn.signal, drawn.rate, drawn.kinematics, reading, seed)
+        made += rows
+        records += [machine * len(LOCATIONS) + record] * len(rows)
         classes += [HEALTHY if location == "none" else f"line {location}"] * len(rows)
-    bearings = np.full(len(table), f"machine_{machine:04}")
-    return TrainingSet(np.array(table), np.array(classes), bearings, np.full(len(table), machine))
+    bearings = np.full(len(made), f"machine_{machine:04}")
+    table, noisy = np.array([row.values for row in made]), np.array([row.noisy for row in made])
+    return TrainingSet(table, np.array(classes), bearings, np.array(records), noisy)

@@ -28,7 +28,7 @@ def learning_curve(training: TrainingSet, learner: str) -> dict[str, list[dict[s
         chosen = np.isin(training.bearings, others[: max(10, round(share * others.size))])
         part = _part(training, chosen)
         for model in train_models(part, learner):
-            said = decide(model.probability(training.table[held_out]), model.alarm)
+            said = decide(model.probability(training.table[held_out]), model.alarms(training.table[held_out]))
             truth, found = _locations(training.classes[held_out]), _locations(said)
             score = bootstrap(balanced_accuracy, truth, found, draws=300)
             point = {"bearings": int(np.unique(part.bearings).size), "value": score.value}
@@ -38,7 +38,11 @@ def learning_curve(training: TrainingSet, learner: str) -> dict[str, list[dict[s
 
 def _part(training: TrainingSet, chosen: NDArray[np.bool_]) -> TrainingSet:
     return TrainingSet(
-        training.table[chosen], training.classes[chosen], training.bearings[chosen], training.records[chosen]
+        training.table[chosen],
+        training.classes[chosen],
+        training.bearings[chosen],
+        training.records[chosen],
+        training.noisy[chosen],
     )
 
 

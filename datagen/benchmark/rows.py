@@ -52,12 +52,23 @@ class Reading:
 
 
 @dataclass(frozen=True)
+class Row:
+    """Values (F,) of the feature table of one axis and window, whether noise was added, and why not to classify it."""
+
+    values: Array
+    noisy: bool
+    reason: str
+
+
+@dataclass(frozen=True)
 class Rows:
-    """Rows (N, F) of the feature table, the record (N,) of each, and per record why it must not be classified."""
+    """Rows (N, F) of the feature table, the record (N,) of each, per record why it must not be classified, and which
+    rows (N,) had noise added (None: none)."""
 
     table: NDArray[Any]
     record: NDArray[np.int64]
     rejected: dict[int, str] = field(default_factory=dict)
+    noisy: NDArray[np.bool_] | None = None
 
 
 def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2) -> Rows:
@@ -74,50 +85,50 @@ def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, worker
             )
     tables = [rows.table for rows in found] or [np.empty((0, len(FEATURE_NAMES)))]
     owners = [rows.record for rows in found] or [np.empty(0, dtype=np.int64)]
+    noisy = [rows.noisy for rows in found if rows.noisy is not None] or [np.empty(0, dtype=bool)]
     rejected: dict[int, str] = {}
     for rows in found:
         rejected |= rows.rejected
-    return Rows(np.concatenate(tables), np.concatenate(owners), rejected)
+    return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy))
 
 
 def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
     corpus = Corpus(folder)
     labels = corpus.labels.set_index("record", drop=False)
-    table: list[Array] = []
+    found: list[Row] = []
     owners: list[int] = []
     rejected: dict[int, str] = {}
     for record in records.tolist():
         rows, reason = record_rows(corpus.waveform(record), labels.loc[record], reading)
-        table += rows
+        found += rows
         owners += [record] * len(rows)
         if reason:
             rejected[record] = reason
     corpus.close()
-    stacked = np.array(table) if table else np.empty((0, len(FEATURE_NAMES)))
-    return Rows(stacked, np.array(owners, dtype=np.int64), rejected)
+    stacked = np.array([row.values for row in found]) if found else np.empty((0, len(FEATURE_NAMES)))
+    noisy = np.array([row.noisy for row in found], dtype=bool)
+    return Rows(stacked, np.array(owners, dtype=np.int64), rejected, noisy)
 
 
-def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> tuple[list[Array], str]:
+def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> tuple[list[Row], str]:
     """Rows of one record (T, A), one an axis and window, and why it must not be classified ("" if it may)."""
     kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
     if kinematics is None:
         return [], UNKNOWN_MACHINE
-    rows: list[Array] = []
+    rows: list[Row] = []
     reasons: list[str] = []
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
-        found, why = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis])
+        found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis])
         rows += found
-        reasons += why
+        reasons += [row.reason for row in found] or [DEAD]
     return rows, reasons[0] if reasons and all(reasons) else ""
 
 
-def signal_rows(
-    signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]
-) -> tuple[list[Array], list[str]]:
-    """Rows of one axis (T,) and for each why it must not be classified; `seed` sets the random numbers."""
+def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]) -> list[Row]:
+    """Rows of one axis (T,), none if no sensor was connected; `seed` sets the random numbers."""
     if is_dead(signal):
-        return [], [DEAD]
-    rows, reasons = [], []
+        return []
+    rows = []
     for copy in range(1 if reading.copies_db is None else 1 + NOISY_COPIES):
         level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
         stream = np.random.default_rng([*seed, reading.noise_draw, level, copy])
@@ -125,9 +136,8 @@ def signal_rows(
         for piece in windows(_stretch(heard, rate, stream) if copy > 1 else heard, rate, reading.window):
             given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
             analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
-            rows.append(feature_values(analysis))
-            reasons.append(liveness(analysis, piece.size).reason)
-    return rows, reasons
+            rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece.size).reason))
+    return rows
 
 
 def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:

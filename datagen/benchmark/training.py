@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from datagen.benchmark.known import true_class
 from datagen.benchmark.rows import Reading, Rows, read_rows
+from datagen.benchmark.votes import averaged
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from labels.alarm import Alarm
 from labels.classifier import CLASSES, EVEN, HEALTHY, SpallClassifier
 from labels.features.conditioning import Array
 from labels.learners import LEARNERS
@@ -31,25 +33,32 @@ ROWS_AT_A_TIME = 2048
 
 @dataclass(frozen=True)
 class TrainingSet:
-    """Rows (N, F) to learn from, their classes (N,) and virtual bearings (N,), and the records that they came from."""
+    """Rows (N, F) to learn from, their classes (N,) and virtual bearings (N,), the records (N,) that they came from,
+    and which (N,) had noise added."""
 
     table: Array
     classes: NDArray[np.str_]
     bearings: NDArray[np.str_]
     records: NDArray[np.int64]
+    noisy: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class Model:
-    """Anything that gives probabilities (N, 5) of CLASSES, with the probability of a spall at which it is called.
+    """Anything that gives probabilities (N, 5) of CLASSES, with the alarm at which a spall is called: one probability,
+    or one that depends on the row.
 
     `takes_windows` if it wants raw windows instead of features.
     """
 
     name: str
     estimator: Any
-    alarm: float
+    alarm: Alarm | float
     takes_windows: bool = False
+
+    def alarms(self, table: Array) -> Array:
+        """Probability (N,) of a spall at which each row is called."""
+        return self.alarm.at(table) if isinstance(self.alarm, Alarm) else np.full(len(table), self.alarm)
 
     def probability(self, table: Array) -> Array:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
@@ -107,27 +116,33 @@ def joined_labels(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
     owners = rows.record.tolist()
     classes = np.array([class_of[record] for record in owners], dtype=np.str_)
     bearings = np.array([bearing_of[record] for record in owners], dtype=np.str_)
-    return TrainingSet(rows.table, classes, bearings, rows.record)
+    noisy = np.zeros(len(owners), dtype=bool) if rows.noisy is None else rows.noisy
+    return TrainingSet(rows.table, classes, bearings, rows.record, noisy)
 
 
 def train_rule(training: TrainingSet) -> Rule:
-    """The rule, its threshold set on the healthy ones; raises BadInput if there are none."""
-    healthy = training.table[training.classes == HEALTHY]
-    if len(healthy) == 0:
+    """The rule, its threshold set on the healthy records as they are; raises BadInput if there are none."""
+    healthy = (training.classes == HEALTHY) & ~training.noisy
+    if not healthy.any():
         raise BadInput("no healthy record to set the rule's threshold on", field="--train")
-    return fit_rule(healthy)
+    records = training.records[healthy]
+    return fit_rule(averaged(training.table[healthy], records, np.unique(records)))
 
 
 def train_models(training: TrainingSet, learner: str) -> list[Model]:
     """One model a learner ("all": every one); raises BadInput if it cannot learn from this."""
     try:
         names = LEARNERS if learner == "all" else (learner,)
-        fitted = [
-            (name, SpallClassifier(name).fit(training.table, training.classes, training.bearings)) for name in names
-        ]
+        fitted = [(name, _fitted(name, training)) for name in names]
         return [Model(name, classifier, classifier.alarm_) for name, classifier in fitted]
     except ValueError as problem:
         raise BadInput(f"cannot learn from this corpus: {problem}", field="--train") from None
+
+
+def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
+    return SpallClassifier(name).fit(
+        training.table, training.classes, training.bearings, training.records, training.noisy
+    )
 
 
 def train_own(training: TrainingSet, own: Any, takes_windows: bool) -> Model:

@@ -13,6 +13,7 @@ from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.benchmark.votes import averaged, joined
+from labels.alarm import logit
 from labels.classifier import decide, location_probability
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
@@ -93,9 +94,10 @@ def _of_model(
 ) -> Verdicts:
     own = model.probability(rows.table) if len(rows.table) else np.empty((0, 5))
     votes = joined(own, rows.record, records)
+    margin = averaged(logit(1.0 - own[:, 0]) - logit(model.alarms(rows.table)), rows.record, records)
     missing = ~np.isfinite(votes[:, 0])
     votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
-    said = np.char.split(decide(votes, model.alarm).astype(str))
+    said = np.char.split(decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str))
     where = location_probability(votes)
     rejected = missing | (reasons != "") | (where.max(axis=1) < doubt)
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))

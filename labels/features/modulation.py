@@ -11,6 +11,7 @@ from labels.features.feature import Feature
 
 SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope spectrum)"
 RACES = ("outer", "inner")
+LEADS = ("evidence", "spread", "strength", "others")
 STRENGTH_HARMONICS = 3
 
 
@@ -40,6 +41,15 @@ ROWS = (
     Feature("race_strength", "ln", "outer_strength minus inner_strength.", SES),
     Feature("race_depth", "ln", "outer_depth minus inner_depth.", SES),
     Feature("race_others", "ln nat", "outer_others minus inner_others.", SES),
+    *(
+        Feature(
+            f"inner_lead_{name}",
+            "ln" if name == "strength" else "ln nat",
+            f"How far inner_{name} exceeds outer_{name}, or 0: the stiffness of a healthy bearing varies at BPFO only.",
+            SES,
+        )
+        for name in LEADS
+    ),
     Feature("ball_evidence", "ln nat", "ln(1 + evidence of twice the ball's spin frequency), best band.", SES),
     Feature("cage_evidence", "ln nat", "ln(1 + evidence of the cage frequency), best band.", SES),
     Feature(
@@ -58,6 +68,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
         found |= {f"{race}_{name}": value for name, value in _race(analysis, race, order).items()}
     for name in ("evidence", "spread", "strength", "depth", "others"):
         found[f"race_{name}"] = found[f"outer_{name}"] - found[f"inner_{name}"]
+    found |= {f"inner_lead_{name}": max(-found[f"race_{name}"], 0.0) for name in LEADS}
     turning = find_family(analysis.all_envelope_lines, shaft, 0.002, shaft)
     decoys = analysis.decoys
     return found | {

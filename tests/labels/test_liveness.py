@@ -28,6 +28,13 @@ def test_a_quiet_shaft_that_turns_is_not_stopped():
     assert found(noise + turning).reason == ""
 
 
+def test_in_a_few_turns_nothing_says_that_a_machine_stands_still():
+    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
+    slow = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 7.0)
+    assert found(noise).reason == STOPPED
+    assert liveness(analyse(noise, RATE, slow), noise.size).reason == ""
+
+
 def test_a_machine_that_shakes_is_not_stopped_whatever_its_lines():
     noise = np.random.default_rng(2).standard_normal(TIME.size)
     assert found(noise).reason == ""

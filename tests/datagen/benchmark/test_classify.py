@@ -13,7 +13,13 @@ from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, windows
 from datagen.benchmark.score_log import log_path, write_line
-from datagen.benchmark.training import class_probability, load_estimator, training_records
+from datagen.benchmark.training import (
+    TrainingSet,
+    class_probability,
+    load_estimator,
+    train_rule,
+    training_records,
+)
 from datagen.benchmark.votes import averaged, joined
 from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.cli import app
@@ -95,10 +101,22 @@ def test_noisy_copies_are_whole_and_a_stretch_from_anywhere(tiny_corpus):
     labels, signal = Corpus(tiny_corpus).labels.iloc[0].copy(), np.random.default_rng(1).standard_normal((40_000, 1))
     labels["rate_hz"] = 20_000.0
     rows, _ = record_rows(signal, labels, Reading(copies_db=(-18.0, 12.0)))
-    turns = np.exp([row[FEATURE_NAMES.index("turns")] for row in rows])
-    assert len(rows) == 3
+    turns = np.exp([row.values[FEATURE_NAMES.index("turns")] for row in rows])
+    assert [row.noisy for row in rows] == [False, True, True]
     assert turns[1] == pytest.approx(turns[0], rel=0.03)  # the speed is refined by up to 2.2 %
     assert 0.14 * turns[0] < turns[2] < 1.03 * turns[0]  # 0.3 s of 2 s is the least
+
+
+def test_the_rule_is_set_on_healthy_records_as_they_are():
+    column, size = FEATURE_NAMES.index("outer_strength"), 80
+    table = np.zeros((2 * size, len(FEATURE_NAMES)))
+    table[:size, column] = np.repeat(np.linspace(0.0, 1.0, size // 2), 2)  # two axes a record
+    table[size:, column] = 5.0
+    noisy = np.arange(2 * size) >= size
+    records = np.tile(np.repeat(np.arange(size // 2), 2), 2)
+    training = TrainingSet(table, np.full(2 * size, "healthy"), np.full(2 * size, "a"), records, noisy)
+    # The 95 % quantile of records evenly spread from 0 to 1, in logarithms as the table has it.
+    assert np.log(train_rule(training).threshold) == pytest.approx(0.95, abs=0.005)
 
 
 def test_plain_impulse_trains_are_as_many_as_asked():
@@ -179,7 +197,7 @@ def test_noise_is_added_at_the_level_asked_and_another_in_each_draw(tiny_corpus)
     corpus = Corpus(tiny_corpus)
     labels, signal = corpus.labels.iloc[0], corpus.waveform(0)[:, :1]
     clean, one, again, other = (
-        record_rows(signal, labels, reading)[0][0]
+        record_rows(signal, labels, reading)[0][0].values
         for reading in (
             Reading(),
             Reading(noise_db=-10.0),

@@ -1,0 +1,73 @@
+"""What another draw of the training set changes: python docs/make_draws.py TRAIN OUT TEST…
+
+Learns five times from four fifths of the virtual machines of TRAIN, drawn anew each time, and scores on every TEST. OUT
+gets the scores, from which `docs/make_transfer.py` makes its table.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from datagen.benchmark.classify import Benchmark, tested_records
+from datagen.benchmark.rows import read_rows
+from datagen.benchmark.score_log import write_line
+from datagen.benchmark.summary import RACES, race_balance
+from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
+from datagen.benchmark.verdicts import Tested, judge
+from datagen.corpus import Corpus
+
+DRAWS, SHARE, SEED = 5, 0.8, 100
+ODD = ("197", "198", "199", "174", "201")
+
+
+def drawn(training: TrainingSet, draw: int) -> TrainingSet:
+    """The rows of four fifths of the virtual machines."""
+    machines = np.random.default_rng(SEED + draw).permutation(np.unique(training.bearings))
+    chosen = np.isin(training.bearings, machines[: int(SHARE * machines.size)])
+    names = ("table", "classes", "bearings", "records", "noisy")
+    return TrainingSet(*(getattr(training, name)[chosen] for name in names))
+
+
+def scores(tested: Tested) -> dict[str, dict[str, float | None]]:
+    """By model: balanced accuracy over outer and inner without the odd records, and the share of false alarms."""
+    faulty = np.isin(tested.truth, RACES) & ~np.isin(tested.labels["recording"].astype(str), ODD)
+    healthy = tested.truth == "none"
+    return {
+        said.name: {
+            "faults": race_balance(tested.truth[faulty], said.location[faulty]) if faulty.any() else None,
+            "false_alarms": float(np.isin(said.location[healthy], RACES).mean()) if healthy.any() else None,
+        }
+        for said in tested.verdicts
+    }
+
+
+def main(train: Path, out: Path, tests: list[Path]) -> None:
+    """Write the scores of all draws."""
+    benchmark = Benchmark(train, tuple(tests))
+    labels = training_records(train, False)
+    training = training_set(train, labels, benchmark.training_reading(), 1)
+    chosen = {folder: tested_records(Corpus(folder), False) for folder in tests}
+    rows = {
+        folder: read_rows(folder, own["record"].to_numpy(np.int64), benchmark.reading(), 1)
+        for folder, own in chosen.items()
+    }
+    found: dict[str, Any] = {folder.name: [] for folder in tests}
+    for draw in range(DRAWS):
+        part = drawn(training, draw)
+        rule, models = train_rule(part), train_models(part, "all")
+        for folder in tests:
+            imported = bool(Corpus(folder).manifest.imported)
+            own = scores(judge(folder, chosen[folder], rows[folder], rule, models, 0.0, imported))
+            found[folder.name].append(own)
+            if imported:
+                write_line(folder, {"draw": draw, "train": str(train), "scores": own})
+        out.write_text(json.dumps(found, indent=1))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]), [Path(folder) for folder in sys.argv[3:]])

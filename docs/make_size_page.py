@@ -7,6 +7,7 @@ of the fresh ladder.
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -58,8 +59,13 @@ def targets(summaries: list[dict[str, Any]]) -> list[str]:
                 for own in (test, fresh)
             ]
             blind = [cell(own[name]) for own in (test_blind, fresh_blind)]
-            lines.append(f"| {name} | {figure['target']} | {' | '.join(verdicts)} | {' | '.join(blind)} |")
+            lines.append(f"| {name} | {in_per_cent(figure['target'])} | {' | '.join(verdicts)} | {' | '.join(blind)} |")
     return lines
+
+
+def in_per_cent(target: str) -> str:
+    """A target with its shares in per cent."""
+    return re.sub(r"\d+\.?\d*", lambda share: f"{100 * float(share[0]):g}", target)
 
 
 def dependences(known: dict[str, Any]) -> list[str]:

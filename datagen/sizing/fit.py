@@ -8,7 +8,7 @@ first corpus alone, for whose mixture of spalls the intervals are to hold.
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -76,15 +76,34 @@ def _judgement(
     made: list[Trial], typical: NDArray[np.bool_], scores: list[Array], groups: NDArray[np.str_], *, load_known: bool
 ) -> Judgement:
     rank, measured = ranked(made, scores, groups, load_known=load_known)
-    rows = np.array([one.row for one in measured])
+    rows = np.array([one.row for one in measured], dtype=np.float32).astype(np.float64)  # trees compare in single
+    return judged(made, typical, measured, rows, groups, rank)
+
+
+def judged(
+    made: list[Trial],
+    typical: NDArray[np.bool_],
+    measured: list[Measurement],
+    rows: Array,
+    groups: NDArray[np.str_],
+    rank: Trees,
+) -> Judgement:
+    """The judgement of the pairs `measured` (N,), whose `rows` are (N, F), by a `rank` that was fitted before.
+
+    Intervals hold for the `typical` (N,) trials of which a size is told.
+    """
     stored = np.array([trial.stored for trial in made])
+    true_lag = np.array([trial.true_lag for trial in made])
     lag_error = np.log(np.array([trial.lag for trial in made]) / np.array([one.lag for one in measured]))
     arc = np.array([trial.arc for trial in made])
     arc_error = np.log(np.where(arc > 0.0, arc, np.nan) / np.array([one.lag_arc for one in measured]))
-    lag, told = _guess(rows, lag_error, groups, typical & stored)
-    true_lag = np.array([trial.true_lag for trial in made])
-    doubt, most = _doubt(rows, _cost(made, measured, told), true_lag, groups, stored)
-    return Judgement(rank, lag, _guess(rows, arc_error, groups, typical & stored)[0], doubt, most)
+    lag, told = _guess(rows, lag_error, groups)
+    doubt, expected = _doubt(rows, _cost(made, measured, told.centre), true_lag, groups)
+    most = float(np.quantile(expected[stored & ~(true_lag >= SHORTEST_TOLD)], 1.0 - ABSTENTION))
+    usual = typical & stored & (expected <= most)
+    arc_guess, arc_told = _guess(rows, arc_error, groups)
+    lag, arc_guess = replace(lag, reach=told.reach(usual)), replace(arc_guess, reach=arc_told.reach(usual))
+    return Judgement(rank, lag, arc_guess, doubt, most)
 
 
 def _cost(made: list[Trial], measured: list[Measurement], told: Array) -> Array:
@@ -117,8 +136,20 @@ def _leading(trial: Trial, score: Array, load_known: bool) -> LeadingPairs:
     return leading_pairs(trial.evidence, score, situation if load_known else replace(situation, load=None))
 
 
-def _guess(rows: Array, error: Array, groups: NDArray[np.str_], typical: NDArray[np.bool_]) -> tuple[Guess, Array]:
-    """The guess of `error` (N,) from `rows` (N, F), and what it says (N,) of bearings it was not fitted to."""
+@dataclass(frozen=True)
+class OutOfFold:
+    """What a guess says of bearings it was not fitted to: `centre` (N,), and the error left over that expected (N,)."""
+
+    centre: Array
+    missed: Array
+
+    def reach(self, usual: NDArray[np.bool_]) -> float:
+        """How many expected errors hold 90 % of the `usual` (N,) ones."""
+        return float(np.quantile(self.missed[usual & np.isfinite(self.missed)], COVERAGE))
+
+
+def _guess(rows: Array, error: Array, groups: NDArray[np.str_]) -> tuple[Guess, OutOfFold]:
+    """The guess of `error` (N,) from `rows` (N, F), its reach still 1, and what it says of bearings not fitted to."""
     from sklearn.ensemble import HistGradientBoostingRegressor
 
     known = np.isfinite(error)
@@ -129,23 +160,18 @@ def _guess(rows: Array, error: Array, groups: NDArray[np.str_], typical: NDArray
     told = _out_of_fold(centre, rows, aim, known, groups, weight)
     missed = np.abs(aim - told)
     width = np.maximum(_out_of_fold(spread, rows, missed, known, groups), 0.0) + SMALLEST_SPREAD
-    reach = float(np.quantile((missed / width)[known & typical], COVERAGE))
     fitted = centre.fit(rows[known], aim[known], weight[known]), spread.fit(rows[known], missed[known])
-    return Guess(to_trees(fitted[0]), to_trees(fitted[1]), reach), told
+    return Guess(to_trees(fitted[0]), to_trees(fitted[1]), 1.0), OutOfFold(told, missed / width)
 
 
-def _doubt(
-    rows: Array, cost: Array, true_lag: Array, groups: NDArray[np.str_], stored: NDArray[np.bool_]
-) -> tuple[Trees, float]:
-    """The expected `cost` (N,), and the most of it at which records without events are told nothing of."""
+def _doubt(rows: Array, cost: Array, true_lag: Array, groups: NDArray[np.str_]) -> tuple[Trees, Array]:
+    """The expected `cost` (N,), and what it is (N,) in bearings it was not fitted to."""
     from sklearn.ensemble import HistGradientBoostingRegressor
 
     model = HistGradientBoostingRegressor(**GUESSES, random_state=0)
     scored = ~((true_lag >= SHORTEST_TOLD) & (true_lag < SURELY_TOLD))
-    single = rows.astype(np.float32).astype(np.float64)  # in which trees compare
-    expected = _out_of_fold(model, single, cost, scored, groups)
-    nothing = stored & ~(true_lag >= SHORTEST_TOLD)
-    return to_trees(model.fit(single[scored], cost[scored])), float(np.quantile(expected[nothing], 1.0 - ABSTENTION))
+    expected = _out_of_fold(model, rows, cost, scored, groups)
+    return to_trees(model.fit(rows[scored], cost[scored])), expected
 
 
 def _out_of_fold(

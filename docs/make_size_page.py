@@ -1,11 +1,13 @@
-"""Writes the numbers of docs/size.md: `python docs/make_size_page.py LOAD_KNOWN.json BLIND.json`.
+"""Writes the numbers of docs/size.md: `python docs/make_size_page.py TEST TEST_BLIND FRESH FRESH_BLIND`.
 
-Both files are `size_report.json` of `spallgen size CORPUS --out DIR`, with and without `--blind`.
+Each is a folder that `spallgen size CORPUS --out DIR` wrote, with and without `--blind`: of the ladder's test split and
+of the fresh ladder.
 """
 
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -39,23 +41,31 @@ def by_noise(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
         ("no estimate, load given", told, "no estimate"),
         ("no estimate, blind", untold, "no estimate"),
     ]
-    lines = [f"| per cent (90 % interval) | {' | '.join(LEVELS)} |", "|---|" + "---|" * len(LEVELS)]
+    lines = [f"| | {' | '.join(LEVELS)} |", "|---|" + "---|" * len(LEVELS)]
     for title, source, name in rows:
         lines.append(f"| {title} | " + " | ".join(cell(source.get(f"{name}, {level}")) for level in LEVELS) + " |")
     return lines
 
 
-def targets(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
-    """Every target with its figure."""
-    lines = ["| target | asked | load given | blind |", "|---|---|---|---|"]
-    other = figures(blind)
-    for name, figure in figures(known).items():
+def targets(summaries: list[dict[str, Any]]) -> list[str]:
+    """Every target with its figures: test split with load and blind, fresh ladder with load and blind."""
+    lines = ["| target | asked | test split | fresh ladder | test split, blind | fresh ladder, blind |",
+             "|---|---|---|---|---|---|"]  # fmt: skip
+    test, test_blind, fresh, fresh_blind = (figures(summary) for summary in summaries)
+    for name, figure in test.items():
         if figure["target"]:
-            verdict = "met" if figure["met"] else "**missed**"
-            lines.append(
-                f"| {name} | {figure['target']} | {figure['value']:.3f}, {verdict} | {other[name]['value']:.3f} |"
-            )
+            verdicts = [
+                f"{cell(own[name])}, n = {own[name]['count']}: {'met' if own[name]['met'] else '**missed**'}"
+                for own in (test, fresh)
+            ]
+            blind = [cell(own[name]) for own in (test_blind, fresh_blind)]
+            lines.append(f"| {name} | {in_per_cent(figure['target'])} | {' | '.join(verdicts)} | {' | '.join(blind)} |")
     return lines
+
+
+def in_per_cent(target: str) -> str:
+    """A target with its shares in per cent."""
+    return re.sub(r"\d+\.?\d*", lambda share: f"{100 * float(share[0]):g}", target)
 
 
 def dependences(known: dict[str, Any]) -> list[str]:
@@ -98,19 +108,29 @@ def sentences(known: dict[str, Any]) -> list[str]:
     return lines
 
 
+def extent(summary: dict[str, Any]) -> str:
+    """How many records were scored, and for what."""
+    return (
+        f"{summary['records']} records, {summary['scorable']} of them to be told a size, "
+        f"{summary['without_event']} with no event or a lag below two samples"
+    )
+
+
 def percent(share: float | None) -> str:
     """A share in per cent."""
     return "–" if share is None else f"{100 * share:.1f} %"
 
 
-def main(known_file: str, blind_file: str) -> None:
+def main(folders: list[str]) -> None:
     """Replace what stands between the marks."""
-    known, blind = (json.loads(Path(file).read_text())["summary"] for file in (known_file, blind_file))
+    summaries = [json.loads((Path(folder) / "size_report.json").read_text())["summary"] for folder in folders]
+    test, test_blind, fresh, fresh_blind = summaries
     text = [
-        f"{known['records']} records of the test split, {known['scorable']} of them to be told a size, "
-        f"{known['without_event']} with no event or a lag below two samples. Errors are |error| / true where told.",
-        "", *by_noise(known, blind), "", *targets(known, blind), "", *sentences(known), "",
-        "With load and Hertz factor, errors in per cent:", "", *dependences(known),
+        "Errors are |error| / true where told, in per cent with 90 % intervals.", "", *targets(summaries), "",
+        f"Test split: {extent(test)}.", "", *by_noise(test, test_blind), "",
+        f"Fresh ladder: {extent(fresh)}.", "", *by_noise(fresh, fresh_blind), "", *sentences(fresh), "",
+        "The fresh ladder by what errors depend on, with load and Hertz factor, in per cent:", "",
+        *dependences(fresh),
     ]  # fmt: skip
     page = PAGE.read_text()
     before, after = page.split(BEGIN)[0], page.split(END)[1]
@@ -118,4 +138,4 @@ def main(known_file: str, blind_file: str) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2])
+    main(sys.argv[1:])

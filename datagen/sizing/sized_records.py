@@ -51,7 +51,7 @@ def sized_records(
 
     table = read_index(folder)
     chosen = table if splits is None else table[table["split"].isin(splits)]
-    chosen = chosen[[_geometry_known(labels) for labels in chosen.to_dict("records")]]
+    chosen = chosen[np.array([_geometry_known(labels) for labels in chosen.to_dict("records")], dtype=np.bool_)]
     for shard, rows in chosen.groupby("shard", sort=True):
         with netCDF4.Dataset(folder / str(shard)) as file:
             file.set_auto_mask(False)

@@ -58,8 +58,14 @@ def _of_record(sized: SizedRecord) -> list[Trial]:
     for stored, signal in ((True, sized.acceleration[:, 1]), (False, _otherwise(sized))):
         evidence = gather_evidence(signal, sized.rate, sized.situation.pass_periods())
         if evidence is not None:
-            made.append(trial(sized, replace(evidence, whitened=np.zeros(0)), stored))  # the fit needs no signals
+            made.append(trial(sized, _slim(evidence), stored))
     return made
+
+
+def _slim(evidence: Evidence) -> Evidence:
+    """What the fit needs: no signals, and numbers in the single precision in which trees compare them."""
+    pairs = replace(evidence.pairs, features=evidence.pairs.features.astype(np.float32))
+    return replace(evidence, whitened=np.zeros(0), pairs=pairs)
 
 
 def _otherwise(sized: SizedRecord) -> Array:

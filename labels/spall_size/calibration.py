@@ -45,27 +45,27 @@ class Guess:
 
 @dataclass(frozen=True)
 class Judgement:
-    """`rank` of a leading pair (0 to 1); `lag` and `arc` guesses from the pair of the best rank; `trust`: log odds that
-    there are two events and the lag is right within 15 %; below `least` no size is told."""
+    """`rank` of a leading pair (0 to 1); `lag` and `arc` guesses from the pair of the best rank; `doubt`: the relative
+    error to be expected of its lag, 3 standing for no events at all; above `most` no size is told."""
 
     rank: Trees
     lag: Guess
     arc: Guess
-    trust: Trees
-    least: float
+    doubt: Trees
+    most: float
 
     def to_arrays(self, name: str) -> Arrays:
         """Everything by keys that begin with `name`, for a file of arrays."""
-        arrays = self.rank.to_arrays(f"{name}.rank") | self.trust.to_arrays(f"{name}.trust")
+        arrays = self.rank.to_arrays(f"{name}.rank") | self.doubt.to_arrays(f"{name}.doubt")
         arrays |= self.lag.to_arrays(f"{name}.lag") | self.arc.to_arrays(f"{name}.arc")
-        return arrays | {f"{name}.least": np.array(self.least)}
+        return arrays | {f"{name}.most": np.array(self.most)}
 
     @classmethod
     def from_arrays(cls, arrays: Arrays, name: str) -> Judgement:
         """The judgement that gave these arrays; KeyError if they are not there."""
-        rank, trust = (Trees.from_arrays(arrays, f"{name}.{part}") for part in ("rank", "trust"))
+        rank, doubt = (Trees.from_arrays(arrays, f"{name}.{part}") for part in ("rank", "doubt"))
         lag, arc = (Guess.from_arrays(arrays, f"{name}.{part}") for part in ("lag", "arc"))
-        return cls(rank, lag, arc, trust, float(arrays[f"{name}.least"]))
+        return cls(rank, lag, arc, doubt, float(arrays[f"{name}.most"]))
 
 
 @dataclass(frozen=True)

@@ -53,10 +53,11 @@ class SizeEstimator:
         judgement = self.calibration.with_load if situation.load_known else self.calibration.blind
         leading = leading_pairs(evidence, score, situation)
         measured = measure(leading, judgement.rank.predict(leading.rows))
-        odds = float(judgement.trust.predict(measured.row[None])[0])
-        if odds < judgement.least:
-            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, _method(situation), evidence.race, trust=_probability(odds))
-        return _told(evidence, measured, judgement, situation, _probability(odds))
+        doubt = float(judgement.doubt.predict(measured.row[None])[0])
+        trust = min(max(1.0 - doubt, 0.0), 1.0)
+        if doubt > judgement.most:
+            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, _method(situation), evidence.race, trust=trust)
+        return _told(evidence, measured, judgement, situation, trust)
 
 
 def _trust(estimate: SizeEstimate) -> float:
@@ -103,7 +104,3 @@ def _event_times(evidence: Evidence, measured: Measurement, lag: float) -> Array
         return np.column_stack([first, first + lag])
     last = (heard + measured.exit - ONSET) / evidence.rate
     return np.column_stack([last - lag, last])
-
-
-def _probability(log_odds: float) -> float:
-    return 1.0 / (1.0 + math.exp(-max(min(log_odds, 50.0), -50.0)))

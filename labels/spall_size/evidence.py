@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
 from labels.spall_size.mean_pass import MeanPass, mean_pass
+from labels.spall_size.noise_floor import log_noise_share
 from labels.spall_size.pair_features import Pairs, RecordFacts, candidate_pairs
 from labels.spall_size.pass_track import PassTrack, track_passes
 from labels.spall_size.prewhitening import prewhitened
@@ -22,12 +23,14 @@ Array = NDArray[np.float64]
 class Evidence:
     """What a record shows if its spall is on `race`: the passes, their mean and all pairs of candidates.
 
-    `rate` Hz; `deviation` is the standard deviation of the signal in its own unit.
+    `rate` Hz; `deviation` is the standard deviation of the signal, `unit` the size of the numbers in `whitened`, both
+    in the unit of the signal.
     """
 
     race: str
     rate: float
     deviation: float
+    unit: float
     whitened: Array
     track: PassTrack
     alignment: Alignment
@@ -37,7 +40,8 @@ class Evidence:
 
 def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -> Evidence | None:
     """Evidence of `signal` (T,) for the race whose `pass_period` (s) shows most clearly; None without passes."""
-    whitened = prewhitened(signal)
+    found_free = prewhitened(signal)
+    whitened = found_free.residual
     energy = whitened**2
     tracks = {race: track_passes(energy, rate, period) for race, period in pass_period.items()}
     found = {race: track for race, track in tracks.items() if track is not None}
@@ -55,12 +59,13 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
         found[race].score,
         race == "inner",
         math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
-        _predictability(signal, whitened),
+        _predictability(signal),
+        log_noise_share(signal),
     )
     pairs = candidate_pairs(mean, places, facts)
-    return Evidence(race, rate, float(np.std(signal)), whitened, found[race], alignment, mean, pairs)
+    return Evidence(race, rate, float(np.std(signal)), found_free.unit, whitened, found[race], alignment, mean, pairs)
 
 
-def _predictability(signal: Array, whitened: Array) -> float:
+def _predictability(signal: Array) -> float:
     """Log of how much more low-passed than white the signal is: variance over that of its differences."""
     return math.log(float(np.var(signal)) / max(float(np.var(np.diff(signal))), 1e-300))

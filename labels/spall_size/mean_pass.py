@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,7 @@ Array = NDArray[np.float64]
 BAND_EDGES = (0.03, 0.12)
 CHANNELS = ("all", "low", "middle", "high")
 SWAY_BLUR = 4.0
+GIVE_POINTS = 4096
 
 
 @dataclass(frozen=True)
@@ -24,13 +26,18 @@ class MeanPass:
 
     `energy` (4, S): of the prewhitened signal, whole and in three bands, each over its own median in the record;
     `waveform` (S,): the prewhitened signal itself; `sway` (S,): the signal before it was prewhitened, blurred by four
-    samples, in standard deviations; `passes`: how many passes there are in effect; `period` samples.
+    samples, in units of `sway_unit`; `give` (S,): the displacement that goes with the sway, in units of `give_unit`;
+    both units are standard deviations, the latter in the signal's unit times samples². `passes`: how many passes there
+    are in effect; `period` samples.
     """
 
     offset: NDArray[np.int64]
     energy: Array
     waveform: Array
     sway: Array
+    sway_unit: float
+    give: Array
+    give_unit: float
     passes: float
     period: float
 
@@ -49,12 +56,25 @@ def mean_pass(signal: Array, whitened: Array, alignment: Alignment, period: floa
     energy = [(weight * channel[place]).sum(axis=0) / total / _floor(channel) for channel in channels]
     waveform, sway = ((weight * source[place]).sum(axis=0) / total for source in (whitened, signal))
     effective = float(alignment.weight.sum() ** 2 / max((alignment.weight**2).sum(), 1e-12))
-    return MeanPass(offset, np.array(energy), waveform, _standardised(sway), effective, period)
+    sway = gaussian_filter1d(sway, SWAY_BLUR)
+    give = _give(sway, offset, period)
+    return MeanPass(offset, np.array(energy), waveform, *_standardised(sway), *_standardised(give), effective, period)
 
 
-def _standardised(sway: Array) -> Array:
-    smooth = gaussian_filter1d(sway, SWAY_BLUR)
-    return np.asarray((smooth - smooth.mean()) / max(float(smooth.std()), 1e-300))
+def _standardised(curve: Array) -> tuple[Array, float]:
+    unit = max(float(curve.std()), 1e-300)
+    return np.asarray((curve - curve.mean()) / unit), unit
+
+
+def _give(sway: Array, offset: NDArray[np.int64], period: float) -> Array:
+    """The periodic displacement (S,), in samples² times the unit of `sway` (S,), one period of which accelerates it."""
+    phase = np.arange(GIVE_POINTS) / GIVE_POINTS
+    one = np.interp((phase - 0.5) * period, offset, sway)
+    spectrum = np.fft.rfft(one)
+    turn = 2.0 * math.pi * np.arange(spectrum.size) / period
+    spectrum[1:] /= -(turn[1:] ** 2)
+    spectrum[0] = 0.0
+    return np.interp(offset / period + 0.5, phase, np.fft.irfft(spectrum, GIVE_POINTS), period=1.0)
 
 
 def _bands(whitened: Array) -> list[Array]:

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 
 from labels.spall_size.event_profiles import profile_columns, rival_columns
 from labels.spall_size.evidence import Evidence
+from labels.spall_size.pair_features import NAMES
 from labels.spall_size.situation import Situation
 from labels.spall_size.static_release import release_arc, static_compression
 
 Array = NDArray[np.float64]
 
 LEADING = 10
+CORES = [NAMES.index(f"{event}_core_all") for event in ("entry", "exit")]
 NEAR = 0.3  # logarithm of a lag's ratio
 
 
@@ -59,7 +61,7 @@ def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> Lea
             float(k),
             *_length_columns(float(arc[k]), evidence.race, situation),
         ]
-        rows.append(row + _load_columns(float(arc[k]), evidence, situation) if situation.load_known else row)
+        rows.append(row + _load_columns(int(own), float(arc[k]), evidence, situation) if situation.load_known else row)
     return LeadingPairs(entry, leave, lag, arc, np.array(rows))
 
 
@@ -83,10 +85,16 @@ def measure(leading: LeadingPairs, rank: Array) -> Measurement:
         middle,
         math.sqrt(float((weight * (apart - middle) ** 2).sum() / weight.sum())),
     ]
-    row = np.concatenate([leading.rows[best], standing])
+    row = np.concatenate([leading.rows[best], standing, _field(rank), _field(rank, apart)])
     entry, leave, lag, arc = (float(column[best]) for column in (leading.entry, leading.exit, leading.lag,
                                                                  leading.lag_arc))  # fmt: skip
     return Measurement(entry, leave, lag, arc, row)
+
+
+def _field(rank: Array, told: Array | None = None) -> Array:
+    """What is `told` (L,) of the leading pairs, or else their `rank` (L,), from the best rank down to the tenth."""
+    values = (rank if told is None else told)[np.argsort(-rank, kind="stable")]
+    return np.pad(values, (0, LEADING - values.size))
 
 
 def _length_columns(lag_arc: float, race: str, situation: Situation) -> list[float]:
@@ -96,14 +104,20 @@ def _length_columns(lag_arc: float, race: str, situation: Situation) -> list[flo
     return [math.log(length / bearing.ball_diameter), math.log(lag_arc)]
 
 
-def _load_columns(lag_arc: float, evidence: Evidence, situation: Situation) -> list[float]:
-    """Static compression over the ball's radius, twice the static release arc over the lag's, vibration over load."""
+def _load_columns(own: int, lag_arc: float, evidence: Evidence, situation: Situation) -> list[float]:
+    """What a load lets expect: static compression over the ball's radius, twice the static release arc over the lag's;
+    vibration, sway and the jumps at entry, at exit and at their largest over the load; displacement over compression.
+    """
     bearing, load = situation.bearing(), situation.load or 0.0
     pressed = static_compression(bearing, load) / bearing.ball_radius
     arc = 2.0 * release_arc(bearing, evidence.race, load)
+    give = evidence.mean.give_unit / evidence.rate**2
+    levels = [*evidence.pairs.features[own, CORES], math.log(float(evidence.mean.energy[0].max()))]
+    jumps = [evidence.unit * math.exp(0.5 * float(level)) for level in levels]
     return [
         math.log(max(pressed, 1e-9)),
         math.log(max(arc, 1e-9) / lag_arc),
         math.log1p(arc / lag_arc),
-        math.log(max(evidence.deviation, 1e-12) / load),
+        *(math.log(max(size, 1e-12) / load) for size in (evidence.deviation, evidence.mean.sway_unit, *jumps)),
+        math.log(max(give, 1e-15) / max(pressed * bearing.ball_radius, 1e-9)),
     ]

@@ -20,7 +20,18 @@ SMALLEST_CORE = 1.0
 WAVE_REACH = 8
 WAVE_SHIFT = 2
 SIDES = ("core", "before", "after", "just_before", "just_after")
-GLOBALS = ("period", "lag", "lag_share", "passes", "score", "inner", "peakedness", "predictability", "candidates")
+GLOBALS = (
+    "period",
+    "lag",
+    "lag_share",
+    "passes",
+    "score",
+    "inner",
+    "peakedness",
+    "predictability",
+    "noise",
+    "candidates",
+)
 PAIRS = ("entry_is_anchor", "exit_is_anchor", "inside", "outside", "alike", "entry_coherence", "exit_coherence")
 NAMES = (
     *GLOBALS,
@@ -30,6 +41,9 @@ NAMES = (
     *PAIRS,
     "sway_inside",
     "sway_after",
+    "give_at_entry",
+    "give_inside",
+    "give_at_exit",
     *(f"{event}_{shape}" for event in ("entry", "exit") for shape in SHAPES),
 )
 
@@ -37,12 +51,14 @@ NAMES = (
 @dataclass(frozen=True)
 class RecordFacts:
     """What pairs of one record share: `score` of the pass track, `inner` race or not, `peakedness` log mean over
-    median energy of the prewhitened signal, `predictability` log variance of the signal over that of its residual."""
+    median energy of the prewhitened signal, `predictability` log variance of the signal over that of its differences,
+    `noise` log share of white noise in it."""
 
     score: float
     inner: bool
     peakedness: float
     predictability: float
+    noise: float
 
 
 @dataclass(frozen=True)
@@ -79,7 +95,7 @@ def _features(
     columns = [
         math.log(mean.period) * ones, np.log(lag), lag / mean.period, math.log(max(mean.passes, 1.0)) * ones,
         facts.score * ones, float(facts.inner) * ones, facts.peakedness * ones, facts.predictability * ones,
-        count * ones,
+        facts.noise * ones, count * ones,
     ]  # fmt: skip
     levels = [_levels(summed, place, lag, core) for place in (entry, leave)]
     for level in levels:
@@ -95,6 +111,7 @@ def _features(
         *(_coherence(mean, place) for place in (entry, leave)),
         _mean_sway(mean, entry, entry + lag),
         _mean_sway(mean, entry + lag, entry + np.minimum(1.5 * lag, mean.period)),
+        *(_give(mean, entry + share * lag) for share in (0.0, 0.5, 1.0)),
     ]
     return np.column_stack(columns)
 
@@ -149,6 +166,11 @@ def _coherence(mean: MeanPass, place: Array) -> Array:
     centre = np.round(place).astype(np.int64) - mean.offset[0]
     near = np.clip(centre[:, None] + np.arange(-3, 4), 0, mean.waveform.size - 1)
     return np.log((mean.waveform[near] ** 2).mean(axis=1) + 1e-9) - np.log(mean.energy[0][near].mean(axis=1) + 1e-9)
+
+
+def _give(mean: MeanPass, place: Array) -> Array:
+    shift = np.where(place > mean.offset[-1], mean.period, 0.0)
+    return np.interp(place - shift, mean.offset, mean.give)
 
 
 def _mean_sway(mean: MeanPass, start: Array, stop: Array) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve, solve_toeplitz
@@ -15,8 +17,16 @@ RIDGE = 1e-9
 BLOCK = 1 << 15
 
 
-def prewhitened(signal: Array, order: int = ORDER) -> Array:
-    """Residual (T,) of a linear prediction of `signal` (T,) from its past, in units of its median magnitude.
+@dataclass(frozen=True)
+class Prewhitened:
+    """`residual` (T,) of a linear prediction, in units of its median magnitude; `unit`: that in the signal's own."""
+
+    residual: Array
+    unit: float
+
+
+def prewhitened(signal: Array, order: int = ORDER) -> Prewhitened:
+    """The residual of a linear prediction of `signal` (T,) from its past.
 
     A predictor by least squares would also learn the echo of a spall's exit after its entry; weights that fall with
     the size of the residual make it learn the free ringing between events instead. Prediction looks back only, so an
@@ -25,13 +35,14 @@ def prewhitened(signal: Array, order: int = ORDER) -> Array:
     x = np.asarray(signal, dtype=np.float64) - np.mean(signal)
     scale = float(x.std())
     if scale == 0.0:
-        return np.zeros_like(x)
+        return Prewhitened(np.zeros_like(x), 0.0)
     x = x / scale
     coefficients = _least_squares_start(x, order)
     for _ in range(REWEIGHTINGS):
         coefficients = _reweighted(x, coefficients, order)
     residual = _residual(x, coefficients)
-    return residual / max(float(np.median(np.abs(residual))), 1e-300)
+    unit = max(float(np.median(np.abs(residual))), 1e-300)
+    return Prewhitened(residual / unit, unit * scale)
 
 
 def _least_squares_start(x: Array, order: int) -> Array:

@@ -31,8 +31,8 @@ class SizeEstimate:
     `lag` between the events in s, `lag_arc` the arc of the race that a ball covers in it, `extent` of the spall (rad)
     and `extent_mm` along its race, each with an interval that holds the truth in 90 % of cases. `candidates` (rad):
     the extents that give the same timing, `extent` the first, the others whole ball spacings longer. `event_times`
-    (K, 2), s: both events of each pass that was heard. `trust` is the probability given to the pair of events.
-    Without an estimate the numbers are NaN and `reason` says why.
+    (K, 2), s: both events of each pass that was heard. `trust` is 1 less the relative
+    error to be expected of the lag, between 0 and 1. Without an estimate the numbers are NaN and `reason` says why.
     """
 
     outcome: SizeOutcome

@@ -10,7 +10,7 @@ import pytest
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.sizing.fit import main
+from datagen.sizing.fit import OutOfFold, main
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.training_rows import trials
 from labels.spall_size.calibration import Calibration
@@ -42,6 +42,12 @@ def small_ladder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     assert generate(recipe, folder, engine=Engine(workers=1)).complete
     return folder
+
+
+def test_the_reach_holds_ninety_per_cent_of_the_usual_errors_that_are_known() -> None:
+    missed = np.concatenate([np.arange(101.0), [np.nan, 1e6]])  # the 90 % quantile of 0 to 100 is 90
+    usual = np.append(np.ones(102, dtype=np.bool_), False)
+    assert OutOfFold(np.zeros(103), missed).reach(usual) == pytest.approx(90.0)
 
 
 @pytest.mark.slow

@@ -196,7 +196,7 @@ def test_the_calibration_comes_back_from_its_arrays() -> None:
     again = Calibration.from_arrays(learned.to_arrays())
     rows = np.zeros((1, int(learned.pair_score.feature.max()) + 1))
     assert again.pair_score.predict(rows) == learned.pair_score.predict(rows)
-    assert again.with_load.least == learned.with_load.least
+    assert again.with_load.most == learned.with_load.most
 
 
 def test_noise_alone_is_told_no_size() -> None:

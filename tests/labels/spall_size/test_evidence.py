@@ -32,7 +32,7 @@ def test_prewhitening_takes_the_ringing_away_and_leaves_the_pulses():
     pulses[places] = np.resize([1.0, -1.0], places.size)  # so that the mean, which is taken off, is nothing
     signal = lfilter([1.0], [1.0, -1.6, 0.95], pulses)
     # The resonator is a predictor of two terms, so all that is left of the ringing is rounding.
-    residual = np.abs(prewhitened(signal + 1e-9 * np.random.default_rng(0).standard_normal(20000)))
+    residual = np.abs(prewhitened(signal + 1e-9 * np.random.default_rng(0).standard_normal(20000)).residual)
     quiet = np.delete(residual, places)
     assert residual[places].min() > 1e3 * np.percentile(quiet, 99.0)
     assert residual[places].min() > 10.0 * quiet.max()  # what is left near a pulse, where weights are small
@@ -41,7 +41,7 @@ def test_prewhitening_takes_the_ringing_away_and_leaves_the_pulses():
 @pytest.mark.parametrize("wrong", [0.97, 1.0, 1.03])
 def test_passes_of_a_slipping_cage_are_tracked_though_the_stated_period_is_wrong(pulse_train, wrong):
     train = pulse_train(LAG, PERIOD)
-    track = track_passes(prewhitened(train.signal) ** 2, RATE, PERIOD * wrong)
+    track = track_passes(prewhitened(train.signal).residual ** 2, RATE, PERIOD * wrong)
     assert track is not None
     assert track.period == pytest.approx(np.diff(train.entry).mean(), rel=2e-3)  # 90 steps of 0.9 % scatter
     away = offset_from(track.time, train.entry)
@@ -55,7 +55,7 @@ def test_too_short_a_record_has_no_track():
 
 def test_anchors_lie_on_one_event_to_a_fraction_of_a_sample(pulse_train):
     train = pulse_train(LAG, PERIOD)
-    energy = prewhitened(train.signal) ** 2
+    energy = prewhitened(train.signal).residual ** 2
     found = aligned(energy, RATE, track_passes(energy, RATE, PERIOD))
     away = offset_from(found.place / RATE, np.concatenate([train.entry, train.exit])) * RATE
     # Pulses are placed to the nearest sample: ±0.5, quartiles ±0.25.
@@ -84,7 +84,7 @@ def test_every_pair_has_every_feature_and_all_are_finite(pulse_train):
 
 def test_the_mean_pass_repeats_after_one_period(pulse_train):
     train = pulse_train(LAG, PERIOD, slip=0.0)
-    whitened = prewhitened(train.signal)
+    whitened = prewhitened(train.signal).residual
     track = track_passes(whitened**2, RATE, PERIOD)
     mean = mean_pass(train.signal, whitened, aligned(whitened**2, RATE, track), track.period * RATE)
     places = candidate_places(mean)
@@ -101,7 +101,8 @@ def mean_of_steps(first, last, period=400.0):
     offset = np.arange(-440, 441)
     phase = (offset + 0.5 * period) % period - 0.5 * period
     rumble = np.where((phase >= first) & (phase <= last), 100.0, 1.0)
-    return MeanPass(offset, np.tile(rumble, (4, 1)), np.zeros(offset.size), np.zeros(offset.size), 50.0, period)
+    flat = np.zeros(offset.size)
+    return MeanPass(offset, np.tile(rumble, (4, 1)), flat, flat, 1.0, flat, 1.0, 50.0, period)
 
 
 def test_both_ends_of_a_rumble_are_candidates():
@@ -124,13 +125,27 @@ def test_levels_beside_a_candidate_tell_on_which_side_it_is_quiet():
     assert end["low_step_12"] == pytest.approx(-math.log(100.0), abs=0.1)
 
 
-def test_a_signal_upside_down_turns_the_sway_and_nothing_else(pulse_train):
+def test_a_signal_upside_down_turns_sway_and_displacement_and_nothing_else(pulse_train):
     train = pulse_train(LAG, PERIOD, noise=0.1)
     one, other = (gather_evidence(sign * train.signal, RATE, {"outer": PERIOD}) for sign in (1.0, -1.0))
     assert np.allclose(one.mean.energy, other.mean.energy, rtol=1e-9)
     assert np.allclose(one.mean.sway, -other.mean.sway, atol=1e-9)
-    same = [k for k, name in enumerate(NAMES) if "sway" not in name and "wave_sign" not in name]
+    assert np.allclose(one.mean.give, -other.mean.give, atol=1e-9)
+    turned = ("sway", "give", "wave_sign")
+    same = [k for k, name in enumerate(NAMES) if not any(word in name for word in turned)]
     assert np.allclose(one.pairs.features[:, same], other.pairs.features[:, same], atol=1e-6)
+
+
+def test_the_displacement_of_a_sine_is_the_sine_over_its_frequency_squared():
+    samples = 800
+    turn = 2.0 * math.pi * 3.0 / samples  # three waves a pass
+    time = np.arange(40 * samples)
+    signal = np.cos(turn * time)
+    places = np.arange(2.0, 38.0) * samples
+    mean = mean_pass(signal, signal, Alignment(places, np.ones(places.size)), float(samples))
+    # A blur of four samples leaves exp(-(4 turn)²/2) = 0.996 of the wave, and interpolation a thousandth.
+    assert 0.5 * np.ptp(mean.give) * mean.give_unit == pytest.approx(1.0 / turn**2, rel=6e-3)
+    assert np.corrcoef(mean.give, mean.sway)[0, 1] < -0.999
 
 
 def test_bands_of_the_mean_pass_do_not_ring(pulse_train):

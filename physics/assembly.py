@@ -9,32 +9,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.cage import CagePath
-from physics.contact import (
+from physics.contact import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, PLACE, SINE, ContactModel, Law
+from physics.imperfections import Waviness
+from physics.profile import DepthPath, build_path, hermite_cubics
+from physics.scene import Scene
+from physics.track import (
     ANGLE,
-    BALL_ROWS,
     CAGE,
     CELL,
-    COSINE,
     FIRST_BALL,
     FIRST_BREAK,
     FIRST_CUBIC,
     FIRST_PIECE,
-    FRAME_COLUMNS,
-    GAP,
     PIECES,
-    PLACE,
     RELIEF,
     SIGN,
-    SINE,
     SPALL_COLUMNS,
     SPEED,
-    ContactModel,
-    Law,
     Track,
 )
-from physics.imperfections import Waviness
-from physics.profile import DepthPath, build_path, hermite_cubics
-from physics.scene import Scene
 
 Array = NDArray[np.float64]
 

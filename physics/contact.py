@@ -20,7 +20,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.profile import RELIEF_LEVELS, path_at
+from physics.profile import path_at
+from physics.track import (
+    ANGLE,
+    CAGE,
+    FIRST_BALL,
+    FIRST_BREAK,
+    FIRST_CUBIC,
+    FIRST_PIECE,
+    PIECES,
+    SIGN,
+    SPEED,
+    TURNS_PER_RADIAN,
+    Track,
+    cage_at,
+    spall_under,
+    wave_cell,
+    waviness_at,
+)
 from physics.turning import cosine_sine
 
 Array = NDArray[np.float64]
@@ -35,13 +52,6 @@ BALL_ROWS = 11
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
 FRAME_COLUMNS = 3
-# Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
-# zero cage angle and time (rad), speed of its race (rad/s), first piece, number of pieces, first break, first cubic;
-# width of its finest cell (rad), and how far the path strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
-FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, FIRST_PIECE, PIECES, FIRST_BREAK, FIRST_CUBIC, CELL, RELIEF = range(11)
-SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
-
-TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
 
 
 class Law(NamedTuple):
@@ -51,27 +61,6 @@ class Law(NamedTuple):
     exponent: float
     damping: float
     no_tension: bool
-
-
-class Track(NamedTuple):
-    """What the balls run on, as a function of time.
-
-    Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
-    Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness`
-    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N a multiple of the balls of a
-    row, 0 for smooth races.
-    """
-
-    cage: Array
-    clock: Array
-    spalls: Array
-    breaks: Array
-    cells: Index
-    cubics: Array
-    waviness: Array
-    row_size: int
-    spacing: float
-    shaft_speed: float
 
 
 class ContactModel(NamedTuple):
@@ -86,21 +75,6 @@ class ContactModel(NamedTuple):
     track: Track
     row: Index
     ball: Index
-
-
-@njit_inline
-def cage_at(track: Track, cage: int, time: float) -> tuple[float, float]:
-    """Cage angle (rad) and speed (rad/s) of one cage at `time` (s)."""
-    since = time - track.clock[cage, 0]
-    interval = min(max(int(since * track.clock[cage, 1]), 0), track.cage.shape[1] - 1)
-    if interval > 0:
-        since -= interval / track.clock[cage, 1]
-    c4 = track.cage[cage, interval, 0]
-    c3 = track.cage[cage, interval, 1]
-    c2 = track.cage[cage, interval, 2]
-    c1 = track.cage[cage, interval, 3]
-    angle = (((c4 * since + c3) * since + c2) * since + c1) * since + track.cage[cage, interval, 4]
-    return angle, ((4.0 * c4 * since + 3.0 * c3) * since + 2.0 * c2) * since + c1
 
 
 @njit_lean
@@ -154,8 +128,8 @@ def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: fl
     apart, per_cell = cells // track.row_size, cells * TURNS_PER_RADIAN
     pace, inner_pace = speed * per_cell, (speed - track.shaft_speed) * per_cell
     for first in range(0, size, track.row_size):
-        outer, x = _wave_cell(cells, angle + balls[cage, PLACE, first])
-        inner, z = _wave_cell(cells, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        outer, x = wave_cell(cells, angle + balls[cage, PLACE, first])
+        inner, z = wave_cell(cells, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
         for j in range(first, min(first + track.row_size, size)):
             a3, a2 = track.waviness[0, outer, 0], track.waviness[0, outer, 1]
             a1, a0 = track.waviness[0, outer, 2], track.waviness[0, outer, 3]
@@ -168,33 +142,6 @@ def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: fl
             inner += apart
             outer -= cells if outer >= cells else 0
             inner -= cells if inner >= cells else 0
-
-
-@njit_inline
-def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[float, float]:
-    """Depth (m) of both races' waves under a ball at the angle `place`, and its rate (m/s)."""
-    outer, outer_slope = _wave_at(track, 0, place)
-    inner, inner_slope = _wave_at(track, 1, place - track.shaft_speed * time)
-    return outer + inner, outer_slope * speed + inner_slope * (speed - track.shaft_speed)
-
-
-@njit_inline
-def _wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
-    """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
-    cells = track.waviness.shape[1]
-    cell, x = _wave_cell(cells, angle)
-    c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
-    c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
-    return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * (cells * TURNS_PER_RADIAN)
-
-
-@njit_inline
-def _wave_cell(cells: int, angle: float) -> tuple[int, float]:
-    """The cell of the circle in which an angle (rad) lies, and its place there, 0 to 1."""
-    turns = angle * TURNS_PER_RADIAN
-    position = (turns - math.floor(turns)) * cells
-    cell = min(int(position), cells - 1)
-    return cell, position - cell
 
 
 @njit_lean
@@ -216,29 +163,11 @@ def compression_of(
     for spall in range(track.spalls.shape[0]):
         number = place - int(track.spalls[spall, FIRST_BALL])
         if track.spalls[spall, CAGE] == cage and 0 <= number < track.row_size:
-            depth, rate = _spall_under(track, spall, number, angle, speed, time)
+            depth, rate = spall_under(track, spall, number, angle, speed, time)
             floor += depth
             fall += rate
     compression = x * c + y * s - floor
     return compression, u * c + v * s + speed * (y * c - x * s) - fall
-
-
-@njit_inline
-def _spall_under(track: Track, spall: int, number: int, angle: float, speed: float, time: float) -> tuple[float, float]:
-    """Depth (m) under ball `number` of the spall's row and its rate (m/s)."""
-    sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
-    first_break, pieces = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, PIECES])
-    entry, leave = track.breaks[first_break], track.breaks[first_break + pieces]
-    arc = sign * (angle - track.spalls[spall, ANGLE] - race_speed * time + number * track.spacing)
-    circle = track.row_size * track.spacing
-    arc += math.ceil((entry - arc) / circle) * circle
-    if arc > leave:
-        return 0.0, 0.0
-    depth, slope = path_at(
-        track.breaks, track.cells, track.cubics, first_break, int(track.spalls[spall, FIRST_PIECE]), pieces,
-        int(track.spalls[spall, FIRST_CUBIC]), arc,
-    )  # fmt: skip
-    return depth, slope * sign * (speed - race_speed)
 
 
 @njit_inline

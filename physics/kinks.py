@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from physics.contact import CAGE, FIRST_BALL, FIRST_BREAK, PIECES, ContactModel
+from physics.contact import ContactModel
 from physics.integrators.march import Stops
 from physics.passages import crossings
 from physics.scene import Scene
+from physics.track import CAGE, FIRST_BALL, FIRST_BREAK, PIECES
 
 
 def known_kinks(scene: Scene, contact: ContactModel) -> Stops:

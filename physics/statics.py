@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_lean
 from physics.assembly import assemble
-from physics.contact import COMPRESSION, FORCE, Law, Track, of_ball, set_time
+from physics.contact import COMPRESSION, FORCE, Law, of_ball, set_time
 from physics.outcome import StaticOutcome
 from physics.rest import LOADED, NO_EQUILIBRIUM, NOT_LOADED, NOT_UNIQUE, direction, solve_at
 from physics.scene import Scene
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

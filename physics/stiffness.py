@@ -7,10 +7,11 @@ from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
 from physics.assembly import assemble
-from physics.contact import Law, Track, set_time
+from physics.contact import Law, set_time
 from physics.rest import Hold, elastic, solve_at
 from physics.scene import Scene
 from physics.statics import load_vector
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

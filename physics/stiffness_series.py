@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_lean
 from physics.assembly import assemble
-from physics.contact import ANGLE, CAGE, FIRST_BREAK, FORCE, PIECES, RELIEF, SIGN, SPEED, Law, Track, cage_at, set_time
+from physics.contact import FORCE, Law, set_time
 from physics.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics import load_vector
 from physics.stiffness import expected, settle, stiffness_trace
+from physics.track import ANGLE, CAGE, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, Track, cage_at
 
 Array = NDArray[np.float64]
 

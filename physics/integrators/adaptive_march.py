@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import ACTIVE, Law, Track, count_changes, of_ball, reset_contact, set_time
+from physics.contact import ACTIVE, Law, count_changes, of_ball, reset_contact, set_time
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
 from physics.integrators.march import (
     DONE,
@@ -36,6 +36,7 @@ from physics.integrators.march import (
 )
 from physics.integrators.propagator import PowerSeries
 from physics.motion import MotionModel
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import Law, Track, count_changes, set_time
+from physics.contact import Law, count_changes, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import press_state
 from physics.motion import MotionModel
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

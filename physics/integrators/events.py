@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import ACTIVE, Law, Track, compression_of, law_power, of_ball, touches
+from physics.contact import ACTIVE, Law, compression_of, law_power, of_ball, touches
 from physics.motion import MotionModel, outer_load, relative_acceleration
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -16,13 +16,14 @@ from scipy.integrate import DOP853, RK45
 
 from physics._jit import njit, specialise
 from physics.assembly import assemble
-from physics.contact import Law, Track, count_changes, reset_contact, set_time
+from physics.contact import Law, count_changes, reset_contact, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.ball_by_ball import ball_by_ball_slopes
 from physics.integrators.march import press_state
 from physics.integrators.reference_equations import Equations, write_equations
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -17,12 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import Law, Track, count_changes, press, set_time
+from physics.contact import Law, count_changes, press, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.march import Grid, Output, Stops, bind_method, press_state
 from physics.integrators.propagator import PowerSeries
 from physics.motion import MotionModel, outer_load
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean, specialise
-from physics.contact import ACTIVE, FORCE, Law, Track, count_changes, of_ball, press, reset_contact, set_time
+from physics.contact import ACTIVE, FORCE, Law, count_changes, of_ball, press, reset_contact, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.contact import Law, Track, count_changes, move_to, press
+from physics.contact import Law, count_changes, move_to, press
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import bind_method
 from physics.motion import MotionModel
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

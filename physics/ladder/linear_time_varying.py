@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from physics._jit import njit, njit_inline, specialise, uncompiled
 from physics.assembly import assemble
 from physics.cage import CagePath
-from physics.contact import ACTIVE, ContactModel, Law, Track, cage_at, press, reset_contact, set_time
+from physics.contact import ACTIVE, ContactModel, Law, press, reset_contact, set_time
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.exponential_rk4 import step_exponential_rk4
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, power_series, set_step
@@ -30,6 +30,7 @@ from physics.rest import NO_EQUILIBRIUM, solve_at
 from physics.scene import Scene
 from physics.statics import load_vector
 from physics.trace import Trace
+from physics.track import Track, cage_at
 
 Array = NDArray[np.float64]
 

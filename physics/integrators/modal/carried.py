@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.contact import Law, Track, count_changes, move_to, press
+from physics.contact import Law, count_changes, move_to, press
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import (
     AT_END,
@@ -24,6 +24,7 @@ from physics.integrators.modal.weights import (
     push,
     turn,
 )
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

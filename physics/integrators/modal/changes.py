@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import ACTIVE, Law, Track, count_changes, of_ball, reset_contact, set_time
+from physics.contact import ACTIVE, Law, count_changes, of_ball, reset_contact, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, UNLOCATED, Output, toggle
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.judgement import meet_change
@@ -24,6 +24,7 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -12,24 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import (
-    ACTIVE,
-    ANGLE,
-    CAGE,
-    CELL,
-    COMPRESSION,
-    FIRST_BALL,
-    FIRST_BREAK,
-    PIECES,
-    RELIEF,
-    SIGN,
-    SPEED,
-    Law,
-    Track,
-    cage_at,
-)
+from physics.contact import ACTIVE, COMPRESSION, Law
 from physics.integrators.events import contact_condition
 from physics.profile import RELIEF_LEVELS
+from physics.track import ANGLE, CAGE, CELL, FIRST_BALL, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, Track, cage_at
 
 Array = NDArray[np.float64]
 

@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import Law, Track, press, set_time
+from physics.contact import Law, press, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic
 from physics.integrators.modal.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
 from physics.integrators.modal.grazing import follow_grazing
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

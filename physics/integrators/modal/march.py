@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.contact import ACTIVE, Law, Track, count_changes, note_motion, of_ball, reset_contact, set_time
+from physics.contact import ACTIVE, Law, count_changes, note_motion, of_ball, reset_contact, set_time
 from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import (
     DONE,
@@ -53,6 +53,7 @@ from physics.integrators.modal.memory import (
 from physics.integrators.modal.output import keep, record, remaining_force, write_inside
 from physics.integrators.modal.rk4 import step_modal_rk4
 from physics.integrators.modal.weights import set_inside, set_step
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

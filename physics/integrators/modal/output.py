@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.contact import ACTIVE, FORCE, Law, Track, of_ball, press, set_time
+from physics.contact import ACTIVE, FORCE, Law, of_ball, press, set_time
 from physics.integrators.march import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
 from physics.integrators.modal.flow import (
     OUTER,
@@ -30,6 +30,7 @@ from physics.integrators.modal.weights import (
     push,
     turn,
 )
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.contact import Law, Track, count_changes, note_motion, press, set_time
+from physics.contact import Law, count_changes, note_motion, press, set_time
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import AT_END, AT_HALF, END, HALF, KICKS, OTHER, TURN, free_motion, push, turn
+from physics.track import Track
 
 Array = NDArray[np.float64]
 

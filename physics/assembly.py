@@ -65,7 +65,7 @@ def _track(scene: Scene) -> Track:
         clock=clock,
         spalls=_spall_table(scene, paths, len(cages)),
         breaks=np.concatenate([np.zeros(0), *(path.breaks for path in paths)]),
-        cells=np.concatenate([np.zeros(0, dtype=np.int64), *(path.cells for path in paths)]),
+        cells=np.concatenate([np.zeros((0, 2), dtype=np.int64), *(path.pieces for path in paths)]),
         cubics=np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *(path.cubics for path in paths)])),
         waviness=_waviness_cubics(scene.imperfections.waviness, bearing.balls),
         row_size=bearing.balls,
@@ -86,7 +86,7 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         table[index, SPEED] = race_speed(scene, spall.race)
         table[index, FIRST_PIECE], table[index, PIECES] = piece, path.cells.size
         table[index, FIRST_BREAK], table[index, FIRST_CUBIC] = first_break, cubic
-        table[index, CELL], table[index, RELIEF:] = path.finest_cell, path.relief
+        table[index, CELL], table[index, RELIEF:] = path.cell, path.relief
         piece += path.cells.size
         first_break += path.breaks.size
         cubic += path.cubics.shape[0]

@@ -10,11 +10,11 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.interpolate import CubicSpline
 
 from physics._jit import njit, njit_lean
 from physics.bearing import Bearing
-from physics.rolling import deep_gap_drop, hanging_reach, rolled_path
+from physics.rolling import Branches, branches, deep_gap_drop, hanging_reach, rolled_path
 from physics.scene import Scene
 from physics.spall import Spall
 
@@ -23,8 +23,8 @@ Curve = Callable[[Array], Array]
 
 CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4
-# Cells of 5 µm round the corners of a path over a rough surface and move the acceleration by 1.2 %, these by 0.3 %.
-ROLLED_STEP = 2e-6
+# Steps of a rolled path (m), and how many of them make a cell.
+ROLLED_STEP, CELL_STEPS = 2e-6, 2
 TOUCHING_SHARE = 0.02
 # A record asks for the path of each of its spalls about eight times.
 PATHS_KEPT = 64
@@ -38,7 +38,7 @@ class DepthPath:
     Between neighbouring `breaks` (P + 1,) the path is smooth: `cells` (P,) equal cells, each a cubic in the position
     within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
 
-    `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … finest cells; zero for smooth surfaces.
+    `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … mean cells; zero for smooth surfaces.
     """
 
     breaks: Array
@@ -50,9 +50,14 @@ class DepthPath:
     relief: Array
 
     @property
-    def finest_cell(self) -> float:
-        """Width of the narrowest cell, rad."""
-        return float(np.min(np.diff(self.breaks) / self.cells))
+    def cell(self) -> float:
+        """Mean width of the cells, rad."""
+        return float((self.breaks[-1] - self.breaks[0]) / self.cells.sum())
+
+    @property
+    def pieces(self) -> NDArray[np.int64]:
+        """Number of cells, and of those before, of every piece (P, 2): what `path_at` reads."""
+        return np.column_stack([self.cells, np.cumsum(self.cells) - self.cells])
 
     @property
     def kinks(self) -> Array:
@@ -61,11 +66,11 @@ class DepthPath:
 
     def depth(self, arc: Array) -> Array:
         """Drop (N,) at the arcs (N,), m."""
-        return sample_path(self.breaks, self.cells, self.cubics, np.asarray(arc, dtype=np.float64))[0]
+        return sample_path(self.breaks, self.pieces, self.cubics, np.asarray(arc, dtype=np.float64))[0]
 
     def slope(self, arc: Array) -> Array:
         """Derivative (N,) of the drop at the arcs (N,), m/rad."""
-        return sample_path(self.breaks, self.cells, self.cubics, np.asarray(arc, dtype=np.float64))[1]
+        return sample_path(self.breaks, self.pieces, self.cubics, np.asarray(arc, dtype=np.float64))[1]
 
 
 @njit_lean
@@ -79,18 +84,24 @@ def path_at(
     first_cubic: int,
     arc: float,
 ) -> tuple[float, float]:
-    """Drop (m) and slope (m/rad) at `arc` of one path among several stored end to end."""
-    cubic, piece = first_cubic, 0
-    while piece < pieces - 1 and arc > breaks[first_break + piece + 1]:
-        cubic += cells[first_piece + piece]
-        piece += 1
-    count = cells[first_piece + piece]
+    """Drop (m) and slope (m/rad) at `arc` of one path among several stored end to end.
+
+    `cells` (P, 2): the `pieces` of every path.
+    """
+    piece, beyond = 0, pieces
+    while beyond - piece > 1:
+        middle = (piece + beyond) // 2
+        if arc > breaks[first_break + middle]:
+            piece = middle
+        else:
+            beyond = middle
+    count = cells[first_piece + piece, 0]
     left = breaks[first_break + piece]
     width = (breaks[first_break + piece + 1] - left) / count
     position = (arc - left) / width
     inside = min(max(int(position), 0), count - 1)
     x = position - inside
-    cubic += inside
+    cubic = first_cubic + cells[first_piece + piece, 1] + inside
     c3, c2, c1 = cubics[cubic, 0], cubics[cubic, 1], cubics[cubic, 2]
     return ((c3 * x + c2) * x + c1) * x + cubics[cubic, 3], ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width
 
@@ -102,7 +113,7 @@ def sample_path(breaks: Array, cells: NDArray[np.int64], cubics: Array, arcs: Ar
     slope = np.zeros(arcs.size)
     for k in range(arcs.size):
         if breaks[0] <= arcs[k] <= breaks[-1]:
-            depth[k], slope[k] = path_at(breaks, cells, cubics, 0, 0, cells.size, 0, arcs[k])
+            depth[k], slope[k] = path_at(breaks, cells, cubics, 0, 0, cells.shape[0], 0, arcs[k])
     return depth, slope
 
 
@@ -222,18 +233,30 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     surface = _table_surface(spall) if spall.profile == "table" else _gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    arcs, drop = rolled_path(
-        surface, spall.extent / 2.0, spall.race, race_radius, ball_radius, ROLLED_STEP / race_radius
-    )
-    slopes = PchipInterpolator(arcs, drop).derivative()
+    rolled = rolled_path(surface, spall.extent / 2.0, spall.race, race_radius, ball_radius, ROLLED_STEP / race_radius)
+    smooth = branches(rolled)
+    width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
+    # Rounding must not make a cell of what is left of a whole number of them.
+    cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)
     return _hermite_pieces(
-        arcs[[0, -1]],
-        [arcs.size - 1],
-        lambda arc: np.interp(arc, arcs, drop),
-        slopes,
-        bridged=not _reaches_floor(spall, arcs, surface(arcs) - drop),
+        smooth.edges,
+        cells.tolist(),
+        lambda arc: _on_branches(smooth, arc)[0],
+        lambda arc: _on_branches(smooth, arc)[1],
+        bridged=not _reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
         rough=bool(spall.roughness_values) or spall.profile == "table",
     )
+
+
+def _on_branches(smooth: Branches, arc: Array) -> tuple[Array, Array]:
+    """Drop (N,), m, and slope (N,), m/rad, at arcs (N,), rad, which must not be corners themselves."""
+    k = np.clip(np.searchsorted(smooth.arc, arc, side="right") - 1, 0, smooth.arc.size - 2)
+    width = smooth.arc[k + 1] - smooth.arc[k]
+    x, rise = (arc - smooth.arc[k]) / width, smooth.drop[k + 1] - smooth.drop[k]
+    first, last = width * smooth.slope[k] - rise, width * smooth.slope[k + 1] - rise
+    value = smooth.drop[k] + x * (rise + (1.0 - x) * ((1.0 - x) * first - x * last))
+    slope = rise + (1.0 - x) * (1.0 - 3.0 * x) * first - x * (2.0 - 3.0 * x) * last
+    return value, slope / width
 
 
 def _gap_surface(spall: Spall) -> Curve:
@@ -313,11 +336,11 @@ def _hermite_pieces(
 
 
 def _relief(path: DepthPath) -> Array:
-    """How far (m) the path strays from its chord over 1, 2, 4 … finest cells at most; the last one over any length.
+    """How far (m) the path strays from its chord over 1, 2, 4 … mean cells at most; the last one over any length.
 
     Over twice as many cells it is what it is over half of them, and what the middle strays.
     """
-    half_cells = 2 * math.ceil((path.breaks[-1] - path.breaks[0]) / path.finest_cell)
+    half_cells = 2 * math.ceil((path.breaks[-1] - path.breaks[0]) / path.cell)
     depth = path.depth(np.linspace(path.breaks[0], path.breaks[-1], half_cells + 1))
     strayed = np.zeros(RELIEF_LEVELS)
     for level in range(RELIEF_LEVELS - 1):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,35 @@ SURFACE_STEPS_PER_PATH_STEP = 4
 BLOCK = 16
 # What rounding leaves of a height (m).
 ROUNDING = 1e-15
+# A contact point between points of the surface is looked for where their curvatures agree to this share, that is not
+# on an edge.
+SMOOTH = 0.02
+# Where the contact point leaps by more than this many points the ball has changed from one bump to another.
+LEAP = 12.0
+# Both sides of a corner are nearly parabolas; no corner is nearer to a node than this share of a step.
+NEWTON_STEPS, NEAREST = 4, 1e-6
+
+
+class RolledPath(NamedTuple):
+    """`drop` (N,), m, of the ball's centre and its `slope` (N,), m/rad, at the arcs `arc` (N,), rad, and the `contact`
+    (N,) that holds the ball there, in points of the surface."""
+
+    arc: Array
+    drop: Array
+    slope: Array
+    contact: Array
+
+
+class Branches(NamedTuple):
+    """A rolled path as smooth branches: nodes `arc`, `drop`, `slope` (N,) as above, with two nodes at every corner.
+
+    `edges` (B + 1,), rad, are both ends and the corners.
+    """
+
+    arc: Array
+    drop: Array
+    slope: Array
+    edges: Array
 
 
 def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Curve, Curve]:
@@ -55,8 +85,8 @@ def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float
 
 def rolled_path(
     surface: Curve, half: float, race: str, race_radius: float, ball_radius: float, step: float
-) -> tuple[Array, Array]:
-    """Arcs (N,), rad, and drop of the ball's centre (N,) there, m.
+) -> RolledPath:
+    """The path of the ball's centre over a surface.
 
     `surface(arc)` is the depth of the surface (m, positive where material is missing) against the arc (rad) from the
     spall's centre, of half width `half`; `step` is the wanted distance between the returned arcs (rad). The arcs go
@@ -76,27 +106,65 @@ def rolled_path(
     points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
     # The corner itself belongs to the good race: a ball can hang on it.
     depth = np.where(np.abs(points) < half * (1.0 - 1e-12), surface(points), 0.0)
-    drop = _roll(depth, reach, fine, race_radius, ball_radius, outer)
-    return points[reach : points.size - reach : SURFACE_STEPS_PER_PATH_STEP], drop
+    drop, slope, contact = _roll(depth, reach, fine, race_radius, ball_radius, outer)
+    return RolledPath(points[reach : points.size - reach : SURFACE_STEPS_PER_PATH_STEP], drop, slope, contact)
+
+
+def branches(path: RolledPath) -> Branches:
+    """The smooth branches between the corners at which the ball changes from one bump to another.
+
+    A corner lies where the parabolas of both sides, each from its own slope and curvature, meet.
+    """
+    arc, drop, slope, contact = path
+    step = (arc[-1] - arc[0]) / (arc.size - 1)
+    leaps = np.abs(np.diff(contact)) > LEAP
+    cells = np.flatnonzero(leaps)
+    bend = np.diff(slope) / step
+    before, after = np.maximum(cells - 1, 0), np.minimum(cells + 1, arc.size - 2)
+    left_bend, right_bend = np.where(leaps[before], 0.0, bend[before]), np.where(leaps[after], 0.0, bend[after])
+    share = np.full(cells.size, 0.5)
+    for _ in range(NEWTON_STEPS):
+        x, y = share * step, (share - 1.0) * step
+        left = drop[cells] + x * (slope[cells] + 0.5 * x * left_bend)
+        right = drop[cells + 1] + y * (slope[cells + 1] + 0.5 * y * right_bend)
+        turn = slope[cells + 1] + y * right_bend - slope[cells] - x * left_bend
+        share = np.clip(share + (left - right) / np.where(turn < 0.0, turn, -math.inf) / step, NEAREST, 1.0 - NEAREST)
+    x, y = share * step, (share - 1.0) * step
+    # The higher branch holds the ball: a corner turns the path upwards, and what does not is none.
+    real = turn < 0.0
+    cells, x, y = cells[real], x[real], y[real]
+    corner = drop[cells] + x * (slope[cells] + 0.5 * x * left_bend[real])
+    places = np.repeat(cells + 1, 2)
+    both = np.column_stack([slope[cells] + x * left_bend[real], slope[cells + 1] + y * right_bend[real]])
+    edges = arc[cells] + x
+    return Branches(
+        np.insert(arc, places, np.repeat(edges, 2)),
+        np.insert(drop, places, np.repeat(corner, 2)),
+        np.insert(slope, places, both.ravel()),
+        np.concatenate([arc[:1], edges, arc[-1:]]),
+    )
 
 
 @njit
-def _roll(depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool) -> Array:
-    """Drop at the surface points of the path, by trying each of the `reach` neighbours on both sides as the contact.
+def _roll(
+    depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool
+) -> tuple[Array, Array, Array]:
+    """Drop, slope and contact at the surface points of the path, by trying each of the `reach` neighbours on both sides
+    as the contact.
 
     Neighbours are taken block by block, and blocks whose highest point cannot touch first are passed over.
     """
     count = (depth.size - 2 * reach - 1) // SURFACE_STEPS_PER_PATH_STEP + 1
-    cosine = np.cos(step * np.arange(reach + 1))
-    sine = np.sin(step * np.arange(reach + 1))
+    cosine = np.cos(step * np.arange(reach + 3))
+    sine = np.sin(step * np.arange(reach + 3))
     blocks = (depth.size - 1) // BLOCK + 1
     highest, deepest = np.empty(blocks), depth.max()
     for block in range(blocks):
         highest[block] = depth[block * BLOCK : (block + 1) * BLOCK].min()
-    drop = np.empty(count)
+    drop, slope, contact = np.empty(count), np.empty(count), np.empty(count)
     for k in range(count):
         centre = k * SURFACE_STEPS_PER_PATH_STEP + reach
-        least = _drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer)
+        least, best = _drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer), centre
         for block in range((centre - reach) // BLOCK, (centre + reach) // BLOCK + 1):
             first, last = max(block * BLOCK, centre - reach), min(block * BLOCK + BLOCK - 1, centre + reach)
             near = max(first - centre, centre - last, 0)
@@ -104,9 +172,56 @@ def _roll(depth: Array, reach: int, step: float, race_radius: float, ball_radius
                 continue
             for place in range(first, last + 1):
                 away = abs(place - centre)
-                least = min(least, _drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer))
-        drop[k] = least
-    return drop
+                found = _drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer)
+                if found < least:
+                    least, best = found, place
+        shift, gain = 0.0, 0.0
+        if 2 <= best < depth.size - 2:
+            shift, gain = _between_points(depth, best, centre, least, cosine, sine, race_radius, ball_radius, outer)
+        drop[k], contact[k] = least - gain, best + shift
+        height = depth[best] + shift * 0.5 * (depth[min(best + 1, depth.size - 1)] - depth[max(best - 1, 0)])
+        slope[k] = _slope_on(height, (best + shift - centre) * step, race_radius, ball_radius, outer)
+    return drop, slope, contact
+
+
+@njit_inline
+def _between_points(
+    depth: Array,
+    best: int,
+    centre: int,
+    least: float,
+    cosine: Array,
+    sine: Array,
+    race_radius: float,
+    ball_radius: float,
+    outer: bool,
+) -> tuple[float, float]:
+    """How far from the point `best` the ball touches, in points, and by how much (m) it is held higher there; both 0 on
+    an edge, where the drops on the neighbours lie on no parabola."""
+    a, b = abs(best - 1 - centre), abs(best + 1 - centre)
+    before = _drop_on(depth[best - 1], cosine[a], sine[a], race_radius, ball_radius, outer) - least
+    after = _drop_on(depth[best + 1], cosine[b], sine[b], race_radius, ball_radius, outer) - least
+    a, b = abs(best - 2 - centre), abs(best + 2 - centre)
+    wide = (
+        _drop_on(depth[best - 2], cosine[a], sine[a], race_radius, ball_radius, outer)
+        + _drop_on(depth[best + 2], cosine[b], sine[b], race_radius, ball_radius, outer)
+        - 2.0 * least
+    )
+    bend = before + after
+    if not (bend > ROUNDING and abs(0.25 * wide - bend) < SMOOTH * bend):
+        return 0.0, 0.0
+    shift = 0.5 * (before - after) / bend
+    return shift, 0.5 * bend * shift * shift
+
+
+@njit_inline
+def _slope_on(s: float, away: float, race_radius: float, ball_radius: float, outer: bool) -> float:
+    """Slope (m/rad) of the path of a ball that touches the surface at the depth `s` (m), `away` (rad) ahead of it."""
+    radius = race_radius + s if outer else race_radius - s
+    sine, cosine = math.sin(away), math.cos(away)
+    lever = min(abs(radius * sine), ball_radius * (1.0 - 1e-12))
+    hanging = radius * radius * sine * cosine / math.sqrt(ball_radius * ball_radius - lever * lever)
+    return radius * sine - hanging if outer else -radius * sine - hanging
 
 
 @njit_inline

@@ -187,10 +187,12 @@ def _mark(balls: Array, track: Track, time: float) -> float:
         first, pieces = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, PIECES])
         entered = math.floor((ahead - track.breaks[first]) / track.spacing)
         left = math.floor((ahead - track.breaks[first + pieces]) / track.spacing)
-        if entered > left and track.spalls[spall, RELIEF] > 0.0:
-            return math.nan
         crossed = entered + left
-        for edge in range(first + 1, first + pieces):
-            crossed += math.floor((ahead - track.breaks[edge]) / track.spacing)
+        if track.spalls[spall, RELIEF] > 0.0:
+            if entered > left:
+                return math.nan
+        else:
+            for edge in range(first + 1, first + pieces):
+                crossed += math.floor((ahead - track.breaks[edge]) / track.spacing)
         mark += 100003.0 * (spall + 1) * crossed
     return mark

@@ -16,7 +16,7 @@ Index = NDArray[np.int64]
 
 # Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
 # zero cage angle and time (rad), speed of its race (rad/s), first piece, number of pieces, first break, first cubic;
-# width of its finest cell (rad), and how far the path strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
+# mean width of its cells (rad), and how far the path strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
 FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, FIRST_PIECE, PIECES, FIRST_BREAK, FIRST_CUBIC, CELL, RELIEF = range(11)
 SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
 

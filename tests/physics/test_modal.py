@@ -353,7 +353,7 @@ def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_
     path = build_path(scene.spalls[0], scene.rig.bearing)
     generator = np.random.default_rng(8)
     for level in range(path.relief.size - 1):
-        width = path.finest_cell * 2**level
+        width = path.cell * 2**level
         left = generator.uniform(path.breaks[0], path.breaks[-1] - width, 200)
         share = np.linspace(0.0, 1.0, 33)
         depth = path.depth((left[:, None] + share * width).ravel()).reshape(200, 33)

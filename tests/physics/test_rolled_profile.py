@@ -13,7 +13,7 @@ from physics.spall import Spall
 RACES = pytest.mark.parametrize("race", ["outer", "inner"])
 EXTENT = math.radians(2.0)
 BOTTOM = math.radians(270.0)
-BETWEEN_NODES = 0.2e-6  # m: where the ball changes edges its path has a corner, which cells of 5 µm round off
+BETWEEN_NODES = 1e-9  # m: what cells of 4 µm leave between the corners, which are edges of cells
 
 
 def gap(race="outer", extent=EXTENT, depth=1e-3, **other):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from physics.rolling import deep_gap_drop, hanging_reach, rolled_path
+from physics.rolling import branches, deep_gap_drop, hanging_reach, rolled_path
 
 BALL = 3.56e-3
 RACE = {"outer": 22.935e-3, "inner": 15.815e-3}
@@ -18,7 +18,7 @@ ROUNDING = 1e-15  # m: a few units in the last place of a race's radius
 
 
 def roll(surface, race, half=HALF, step=STEP):
-    return rolled_path(surface, half, race, RACE[race], BALL, step)
+    return rolled_path(surface, half, race, RACE[race], BALL, step)[:2]
 
 
 def gap(depth):
@@ -72,6 +72,33 @@ def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
 
 
 @RACES
+@pytest.mark.parametrize("steps", [800, 801])  # the corner lies on a node, or in the middle between two
+def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slope(race, steps):
+    path = rolled_path(gap(1e-3), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5))
+    assert path.arc.size == steps + 1
+    found = branches(path)
+    assert found.edges[1:-1] == pytest.approx([0.0], abs=1e-9)
+    _, slope = deep_gap_drop(race, RACE[race], BALL)
+    here, steep = np.flatnonzero(found.arc == found.edges[1]), float(slope(np.array(HALF)))
+    assert found.slope[here] == pytest.approx([steep, -steep], rel=1e-6)
+    assert found.drop[here] == pytest.approx(float(hanging(race, HALF)), abs=1e-13)
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(3))
+def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
+    path = rolled_path(bumpy(seed, 8e-6), HALF, race, RACE[race], BALL, STEP)
+    found = branches(path)
+    assert 2 < found.edges.size < 20
+    width, rise = np.diff(found.arc), np.diff(found.drop)
+    inside = width > 0.0
+    mean = 0.5 * (found.slope[1:] + found.slope[:-1])[inside]
+    assert np.allclose(mean * width[inside], rise[inside], rtol=0, atol=1e-10)  # trapezia of 5 µm: h³/12 times a bend
+    corners = ~inside
+    assert np.all(found.slope[1:][corners] < found.slope[:-1][corners])  # the ball falls from one bump onto the other
+
+
+@RACES
 def test_the_closed_form_s_slope_is_its_derivative(race):
     drop, slope = deep_gap_drop(race, RACE[race], BALL)
     psi, h = np.linspace(0.001, 0.15, 50), 1e-6
@@ -99,7 +126,7 @@ def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
 def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(race, ball_share):
     ball = ball_share * RACE[race]
     half = 0.98 * math.asin(ball_share)
-    arcs, drop = rolled_path(gap(5e-3), half, race, RACE[race], ball, STEP)
+    arcs, drop, _, _ = rolled_path(gap(5e-3), half, race, RACE[race], ball, STEP)
     exact, _ = deep_gap_drop(race, RACE[race], ball)
     assert np.max(np.abs(drop - np.minimum(exact(half - np.abs(arcs)), 5e-3))) < ROUNDING * 10  # steep: more rounding
 

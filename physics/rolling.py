@@ -24,8 +24,8 @@ ROUNDING = 1e-15
 SMOOTH = 0.02
 # Where the contact point leaps by more than this many points the ball has changed from one bump to another.
 LEAP = 12.0
-# Both sides of a corner are nearly parabolas; no corner is nearer to a node than this share of a step.
-NEWTON_STEPS, NEAREST = 4, 1e-6
+# Both sides of a corner are nearly parabolas; one nearer to a node than this share of a step is put onto it.
+NEWTON_STEPS, NEAREST = 4, 1e-3
 
 
 class RolledPath(NamedTuple):
@@ -128,20 +128,24 @@ def branches(path: RolledPath) -> Branches:
         left = drop[cells] + x * (slope[cells] + 0.5 * x * left_bend)
         right = drop[cells + 1] + y * (slope[cells + 1] + 0.5 * y * right_bend)
         turn = slope[cells + 1] + y * right_bend - slope[cells] - x * left_bend
-        share = np.clip(share + (left - right) / np.where(turn < 0.0, turn, -math.inf) / step, NEAREST, 1.0 - NEAREST)
-    x, y = share * step, (share - 1.0) * step
+        share = np.clip(share + (left - right) / np.where(turn < 0.0, turn, -math.inf) / step, 0.0, 1.0)
     # The higher branch holds the ball: a corner turns the path upwards, and what does not is none.
     real = turn < 0.0
-    cells, x, y = cells[real], x[real], y[real]
-    corner = drop[cells] + x * (slope[cells] + 0.5 * x * left_bend[real])
-    places = np.repeat(cells + 1, 2)
-    both = np.column_stack([slope[cells] + x * left_bend[real], slope[cells + 1] + y * right_bend[real]])
-    edges = arc[cells] + x
+    cells, share, left_bend, right_bend = cells[real], share[real], left_bend[real], right_bend[real]
+    on_left, on_right = share < NEAREST, share > 1.0 - NEAREST
+    share = np.where(on_left, 0.0, np.where(on_right, 1.0, share))
+    x, y = share * step, (share - 1.0) * step
+    corner = np.where(on_right, drop[cells + 1], drop[cells] + x * (slope[cells] + 0.5 * x * left_bend))
+    edges = np.where(on_right, arc[cells + 1], arc[cells] + x)
+    # Two nodes a corner, one of them there already where the corner lies on a node.
+    new = np.column_stack([~on_left, ~on_right]).ravel()
+    places = np.repeat(cells + 1, 2)[new]
+    both = np.column_stack([slope[cells] + x * left_bend, slope[cells + 1] + y * right_bend]).ravel()
     return Branches(
-        np.insert(arc, places, np.repeat(edges, 2)),
-        np.insert(drop, places, np.repeat(corner, 2)),
-        np.insert(slope, places, both.ravel()),
-        np.concatenate([arc[:1], edges, arc[-1:]]),
+        np.insert(arc, places, np.repeat(edges, 2)[new]),
+        np.insert(drop, places, np.repeat(corner, 2)[new]),
+        np.insert(slope, places, both[new]),
+        np.unique(np.concatenate([arc[:1], edges, arc[-1:]])),
     )
 
 

@@ -95,6 +95,7 @@ def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
     mean = 0.5 * (found.slope[1:] + found.slope[:-1])[inside]
     assert np.allclose(mean * width[inside], rise[inside], rtol=0, atol=1e-10)  # trapezia of 5 µm: h³/12 times a bend
     corners = ~inside
+    assert np.all(found.drop[1:][corners] == found.drop[:-1][corners])
     assert np.all(found.slope[1:][corners] < found.slope[:-1][corners])  # the ball falls from one bump onto the other
 
 

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
+from physics.adaptive_response import Kept, respond_accurately
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
 from physics.integrators.march import Grid
 from physics.integrators.method import NO_MODES
-from physics.integrators.methods import MARCHES, METHODS
+from physics.integrators.methods import MARCHES, METHODS, MODAL
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.response import respond
@@ -31,6 +32,9 @@ RATE, DURATION = 65536.0, 0.04
 SAMPLES_A_STEP = (8, 4, 2)
 STEPS_A_SAMPLE = (1, 2, 4, 8, 16)
 STEPS = tuple(float(n) for n in SAMPLES_A_STEP) + tuple(1.0 / n for n in STEPS_A_SAMPLE)
+# The method that chooses its own steps is asked for these accuracies instead.
+ACCURACIES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
+BY_STEP, BY_ACCURACY = "samples a step", "accuracy asked for"
 FINEST = 64
 CONVERGED = 1e-3
 NO_ANSWER, CHAOTIC = math.inf, math.nan
@@ -50,12 +54,14 @@ class Sweep:
 class Map:
     """Errors of one method over one sweep.
 
-    `error` (V, S), for each value and each of `STEPS`: RMS error of the acceleration over its RMS; infinite where the
-    program ends with a typed outcome, NaN where no step converges. `limit` (V,) is the longest stable step in samples
-    by the linearised scene, infinite if there is none.
+    `error` (V, S), for each value and each of `rows`, which are steps or accuracies as `scale` says: RMS error of the
+    acceleration over its RMS; infinite where the program ends with a typed outcome, NaN where no step converges.
+    `limit` (V,) is the longest stable step in samples by the linearised scene, infinite if there is none.
     """
 
     method: str
+    scale: str
+    rows: tuple[float, ...]
     sweep: str
     unit: str
     values: tuple[float, ...]
@@ -126,13 +132,14 @@ def stability_maps(told: Callable[[str], None]) -> list[Map]:
         told(sweep.name)
         scenes = [sweep.apply(reference_scene("G1", DURATION), value) for value in sweep.values]
         exact = [_exact(scene) for scene in scenes]
-        for name in MARCHES:
+        for name in (MODAL, *MARCHES):
+            scale, rows = (BY_ACCURACY, ACCURACIES) if name == MODAL else (BY_STEP, STEPS)
             error = tuple(
-                tuple(_error(scene, name, step, found) for step in STEPS)
+                tuple(_error(scene, name, row, found) for row in rows)
                 for scene, found in zip(scenes, exact, strict=True)
             )
             limit = tuple(_limit(scene, name) for scene in scenes)
-            maps.append(Map(name, sweep.name, sweep.unit, sweep.values, error, limit))
+            maps.append(Map(name, scale, rows, sweep.name, sweep.unit, sweep.values, error, limit))
     return maps
 
 
@@ -140,7 +147,6 @@ def facts(maps: list[Map]) -> dict[str, object]:
     """What goes into the JSON file beside the picture."""
     return {
         "scene": f"G1, {DURATION} s at {RATE:g} Hz",
-        "steps_in_samples": STEPS,
         "maps": maps,
         "made_with": made_with(),
     }
@@ -173,14 +179,18 @@ def _misfit(found: Array, exact: Array) -> float:
     return float(np.sqrt(np.mean((found - exact) ** 2))) / size if size > 0.0 else 0.0
 
 
-def _error(scene: Scene, method: str, step: float, exact: Array | None) -> float:
+def _error(scene: Scene, method: str, row: float, exact: Array | None) -> float:
     if exact is None:
         return CHAOTIC
     try:
-        found = _response(scene, method, step)
+        if method == MODAL:
+            samples = round(scene.duration * RATE)
+            trace = respond_accurately(scene, start_of(scene), RATE, samples, row, 0.0, Kept())
+            return _misfit(trace.acceleration, exact)
+        found = _response(scene, method, row)
     except SimulationFailed:
         return NO_ANSWER
-    return _misfit(found, exact[:: max(1, round(step))][: found.shape[0]])
+    return _misfit(found, exact[:: max(1, round(row))][: found.shape[0]])
 
 
 def _limit(scene: Scene, method: str) -> float:

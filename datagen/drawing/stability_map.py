@@ -8,7 +8,7 @@ import math
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from datagen.charts.stability import STEPS, Map
+from datagen.charts.stability import BY_STEP, STEPS, Map
 from datagen.drawing.style import GREY, INK, house_style, plt
 
 WIDTH, DPI = 17.0, 85
@@ -55,17 +55,17 @@ def _draw(axes: plt.Axes, one: Map, first: bool, top: bool, last: bool) -> None:
     if np.isfinite(one.limit).any():
         axes.plot(np.arange(len(one.values)), limit, color=INK, linewidth=1.6)
         axes.plot(np.arange(len(one.values)), limit, color="white", linewidth=0.7)
-    axes.set_ylim(len(STEPS) - 0.5, -0.5)
+    axes.set_ylim(len(one.rows) - 0.5, -0.5)
     axes.set_xticks(range(len(one.values)), [f"{value:g}" for value in one.values], rotation=45)
-    axes.set_yticks(range(len(STEPS)), [_share(step) for step in STEPS] if first else [])
+    axes.set_yticks(range(len(one.rows)), [_told(one.scale, row) for row in one.rows] if first else [])
     axes.tick_params(length=2, color=GREY)
     if first:
-        axes.set_ylabel(f"{one.method}\nsamples a step")
+        axes.set_ylabel(f"{one.method}\n{one.scale}")
     if top:
         axes.set_title(one.sweep, fontsize=9.5)
     if last:
         axes.set_xlabel(one.unit)
 
 
-def _share(step: float) -> str:
-    return f"{step:g}" if step >= 1.0 else f"1/{round(1.0 / step)}"
+def _told(scale: str, row: float) -> str:
+    return f"1/{round(1.0 / row)}" if scale == BY_STEP and row < 1.0 else f"{row:g}"

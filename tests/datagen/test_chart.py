@@ -186,16 +186,28 @@ def test_maps_tell_accurate_from_wrong_refused_and_unanswerable(monkeypatch, tmp
     assert code == 0
     assert "stability_maps.png" in shown
     maps = json.loads((tmp_path / "stability_maps.json").read_text())["maps"]
-    assert len(maps) == 1
-    soft, stiff = maps[0]["error"]
+    chosen, fixed = maps
+    assert chosen["method"] == "modal"
+    asked = stability.ACCURACIES.index(1e-3)
+    assert all(error < 1e-3 for error in (row[asked] for row in chosen["error"]))
+    soft, stiff = fixed["error"]
     one_step = stability.STEPS.index(1.0)
     assert soft[one_step] < 1e-3  # the goal of the reference scenes
-    assert maps[0]["limit"][0] > 1.0 > maps[0]["limit"][1]
+    assert fixed["limit"][0] > 1.0 > fixed["limit"][1]
     assert stiff[one_step] is None or stiff[one_step] > 0.1
     assert (tmp_path / "stability_maps.png").read_bytes().startswith(PNG)
 
 
 def test_the_kinds_of_a_map_follow_the_size_of_the_error():
     assert [kind(error) for error in (5e-4, 5e-3, 5e-2, 0.5, math.inf, math.nan)] == [0, 1, 2, 3, 4, 5]
-    one = stability.Map("m", "s", "u", (1.0, 2.0), ((0.0,) * 8, (math.inf,) * 8), (math.inf, math.inf))
+    one = stability.Map(
+        "m",
+        stability.BY_STEP,
+        stability.STEPS,
+        "s",
+        "u",
+        (1.0, 2.0),
+        ((0.0,) * 8, (math.inf,) * 8),
+        (math.inf, math.inf),
+    )
     assert stability_png([one]).startswith(PNG)

@@ -41,6 +41,9 @@ USUAL_PUSHES = 0.3
 ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
+# A response of more than this sensitivity may be chaotic where the pilots did not look: it is made again with this
+# share of the tolerance, and what both are apart tells.
+DOUBTFUL, FINER = 4.0, 0.25
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -101,12 +104,30 @@ def respond_accurately(
     """Trace of `scene` at k / rate from the state `start` (12,), to the relative RMS `accuracy` with its estimate.
 
     `least` (m/s², RMS) is an error that is always allowed. Two short pilots say how large the signal is and how much
-    this scene makes of the errors of its steps. Raises SimulationFailed if the response stops being finite or contact
-    changes more often than can be logged.
+    this scene makes of the errors of its steps; where that is much, a finer response says it again. Raises
+    SimulationFailed if the response stops being finite or contact changes more often than can be logged.
     """
     motion, contact = motion_model(scene), assemble(scene)
     case = _Case(scene, mean_flow(scene, motion), contact, known_kinks(scene, contact), start, rate)
     seen, sensitivity = _pilots(case, samples, accuracy)
+    output, grid, error = _to_accuracy(case, samples, accuracy, least, kept, seen, sensitivity)
+    if DOUBTFUL < sensitivity <= CHAOTIC:
+        finer = _run(case, grid._replace(share=FINER * grid.share, least=FINER * grid.least), kept)
+        apart, pushed = rms(output.acceleration - finer.acceleration), case.pushed(output, samples)
+        sensitivity = max(sensitivity, apart / pushed if pushed > 0.0 else 0.0)
+        output, error = finer, SENSITIVE * sensitivity * case.pushed(finer, samples)
+    size = rms(output.acceleration)
+    trace = trace_of(scene, contact, Grid(samples, 1, grid.interval), output, MODAL)
+    step = (samples - 1) * grid.interval / max(1, int(output.tally[STEPS]))
+    # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
+    relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
+    return replace(trace, step=step, error_estimate=relative, sensitivity=sensitivity)
+
+
+def _to_accuracy(
+    case: _Case, samples: int, accuracy: float, least: float, kept: Kept, seen: float, sensitivity: float
+) -> tuple[Output, Stride, float]:
+    """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, and that error."""
     tame = 1.0 if sensitivity > CHAOTIC else max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
     aim, error = AIM / tame, math.inf
     for _ in range(MOST_ATTEMPTS):
@@ -119,11 +140,7 @@ def respond_accurately(
             break
         aim *= min(0.5, 0.7 * max(accuracy * size, least) / error)
         seen = size**2
-    trace = trace_of(scene, contact, Grid(samples, 1, grid.interval), output, MODAL)
-    step = (samples - 1) * grid.interval / max(1, int(output.tally[STEPS]))
-    # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
-    relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
-    return replace(trace, step=step, error_estimate=relative, sensitivity=sensitivity)
+    return output, grid, error
 
 
 def mean_flow(scene: Scene, motion: MotionModel) -> LinearFlow:

@@ -34,6 +34,15 @@ def test_the_record_is_called_chaotic_and_its_points_unknown(scenario):
     assert record.labels["error_estimate"] == 1.0
 
 
+def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
+    late = draw_scenario(load_recipe("corpus").model_copy(update={"seed": 20261122}), 1000)
+    trace = simulate(late.scene, late.rate)
+    fine = simulate(late.scene, late.rate, substeps=32, estimate_error=False)
+    assert ((trace.acceleration - fine.acceleration) ** 2).mean() > 0.01 * (fine.acceleration**2).mean()
+    assert trace.chaotic
+    assert trace.error_estimate == 1.0
+
+
 def test_a_tame_record_is_not(scenario):
     tame = draw_scenario(load_recipe("gearbox_rig"), 0)
     assert "chaotic" not in make_record(tame).labels["validity"]

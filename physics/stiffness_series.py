@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inline, njit_lean
 from physics.assembly import assemble
 from physics.contact import FORCE, Law, set_time
 from physics.profile import build_path
@@ -155,19 +155,22 @@ def _interpolate(series: Array, k: int, half: int, missed: Array) -> bool:
 @njit_lean
 def _between(series: Array, k: int, half: int, column: int) -> float:
     """The polynomial through the six neighbours of row `k`."""
-    near = series[k - half, column] + series[k + half, column]
-    middle = series[k - 3 * half, column] + series[k + 3 * half, column]
-    far = series[k - 5 * half, column] + series[k + 5 * half, column]
-    return NEAR * near + MIDDLE * middle + FAR * far
+    return _weighed(series, k, half, column, (NEAR, MIDDLE, FAR))
 
 
 @njit_lean
 def _miss(series: Array, k: int, half: int, column: int) -> float:
     """How far the polynomial through the six neighbours of row `k` lies from the one through the nearer four."""
+    return _weighed(series, k, half, column, (MISS_NEAR, MISS_MIDDLE, MISS_FAR))
+
+
+@njit_inline
+def _weighed(series: Array, k: int, half: int, column: int, weights: tuple[float, float, float]) -> float:
+    """Sum of the nearest, the next and the farthest pair of the six neighbours of row `k`, each times its weight."""
     near = series[k - half, column] + series[k + half, column]
     middle = series[k - 3 * half, column] + series[k + 3 * half, column]
     far = series[k - 5 * half, column] + series[k + 5 * half, column]
-    return MISS_NEAR * near + MISS_MIDDLE * middle + MISS_FAR * far
+    return weights[0] * near + weights[1] * middle + weights[2] * far
 
 
 @njit_lean

@@ -1,7 +1,9 @@
 """A step that is carried by the one before: exponential predictor and corrector of order 5 with two contact sums.
 
 The force that the step before met at its beginning and in its middle foretells, with the force at the start, that in
-the middle; these four foretell the end; and the polynomial through all five moves the modes.
+the middle; these four foretell the end; and the polynomial through all five moves the modes (exponential multistep
+methods: Hochbruck and Ostermann 2010, Acta Numerica 19, 209). The force met at the foretold end is kept as that of the
+end: what the last correction would change of it is of the order of the step's own error.
 """
 
 from __future__ import annotations

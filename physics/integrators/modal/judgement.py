@@ -124,14 +124,15 @@ def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: 
 @njit_inline
 def is_carried(memory: Memory, step: float) -> bool:
     """Whether the step before is long enough to foretell this one by."""
-    before = memory.clock[BEFORE]
-    return before > 0.0 and before >= LEAST_RATIO * step
+    return memory.clock[BEFORE] >= LEAST_RATIO * step
 
 
 @njit_inline
 def carried_error(memory: Memory, step: float) -> float:
-    """Momentum (N s) by which a carried step is wrong at most: what Simpson's rule misses of the force's fourth power,
-    which the step itself does not miss."""
+    """Momentum (N s) that Simpson's rule would miss of the fourth power of the force in a carried step.
+
+    The step does not miss it, so a smooth force is less wrong than this; a rough one is about as wrong.
+    """
     return step * FOURTH_POWER_ERROR * (abs(memory.course[0, 4]) + abs(memory.course[1, 4]))
 
 

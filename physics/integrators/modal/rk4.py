@@ -1,5 +1,6 @@
-"""Exponential Runge-Kutta of order 4 (Krogstad 2005, ETDRK4-B) on the modes: four contact sums a step.
+"""A step that knows no step before it: exponential Runge-Kutta of order 4 (Krogstad 2005, ETDRK4-B), four contact sums.
 
+The first step after a change of contact or a kink is one; those that follow are carried (modal/carried.py).
 The modes turn exactly under the stages' contact forces; what is integrated numerically is only what the contact force
 differs from its mean spring and damper, so neither the fast resonator nor the contact modes limit the step, only how
 fast that difference changes. Order 4 while the contact set does not change, which the march ensures by stopping at

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from datagen.corpora.check import check_corpus
-from datagen.recipes.recipe import Recipe
+from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 
@@ -109,9 +109,14 @@ def test_a_run_that_loses_a_worker_says_so_and_makes_everything(
 
 
 def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
-    tiny: Recipe, tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
+    tiny_recipe: Path, tmp_path: Path, contents: Contents
 ) -> None:
-    process = Process(tiny_recipe, tmp_path / "out", "--workers", "2")
+    # Eight times as many records, so that the signal comes long before the run ends of itself.
+    longer = tmp_path / "longer.toml"
+    longer.write_text(
+        tiny_recipe.read_text().replace("records = 8", "records = 64").replace("records = 6", "records = 48")
+    )
+    process = Process(longer, tmp_path / "out", "--workers", "2")
     process.wait_for_shards(1)
     os.killpg(process.popen.pid, signal.SIGINT)
     code, printed = process.finish()
@@ -119,10 +124,11 @@ def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
     assert "Traceback" not in printed
     assert wait_until(lambda: not process.alive(), 3.0)
     verdict = check_corpus(tmp_path / "out")
-    assert verdict.records >= 2
+    assert 2 <= verdict.records < 112
     assert [problem for problem in verdict.problems if "asked for are missing" not in problem] == []
-    assert generate(tiny, tmp_path / "out", engine=Engine(workers=1)).complete
-    assert contents(tmp_path / "out") == expected
+    for folder in ("out", "uninterrupted"):
+        assert generate(load_recipe(longer), tmp_path / folder, engine=Engine(workers=1)).complete
+    assert contents(tmp_path / "out") == contents(tmp_path / "uninterrupted")
 
 
 @pytest.mark.slow

@@ -58,9 +58,9 @@ def njit_lean(kernel: Kernel) -> Kernel:
 
 
 def njit_inline(kernel: Kernel) -> Kernel:
-    """Like `njit`, and pasted into compiled callers, which spares the reference counting of its array arguments."""
-    compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True, inline="always")(kernel)
-    return cast(Kernel, compiled)
+    """Like `njit_lean`, and inlined into compiled callers, which spares passing every array as a dozen arguments."""
+    decorator: Any = numba.njit
+    return cast(Kernel, decorator(cache=True, error_model="numpy", nogil=True, _nrt=False, forceinline=True)(kernel))
 
 
 def specialise(template: Callable[..., Any], name: str, *, lean: bool = False, **bindings: Any) -> Callable[..., Any]:

@@ -144,7 +144,7 @@ def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: fl
             inner -= cells if inner >= cells else 0
 
 
-@njit_lean
+@njit_inline
 def compression_of(
     balls: Array, track: Track, ball: int, time: float, x: float, y: float, u: float, v: float
 ) -> tuple[float, float]:
@@ -178,7 +178,7 @@ def law_power(law: Law, compression: float) -> float:
     return math.sqrt(compression) if law.exponent == 1.5 else compression ** (law.exponent - 1.0)
 
 
-@njit_lean
+@njit_inline
 def press(balls: Array, frames: Array, law: Law, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
     """Net force (N) of the contact set along x and y, pushing the outer ring [P14 Eq. 8, 10].
 
@@ -247,7 +247,7 @@ def touches(balls: Array, law: Law, cage: int, place: int) -> bool:
     return balls[cage, COMPRESSION, place] > 0.0 and (not law.no_tension or balls[cage, LAW, place] > 0.0)
 
 
-@njit_lean
+@njit_inline
 def count_changes(balls: Array, law: Law) -> int:
     """Number of balls whose contact differs from the contact set, from what `press` left in `balls`."""
     changed = 0
@@ -280,6 +280,15 @@ def note_motion(balls: Array, noted: Array) -> None:
         for j in range(balls.shape[2]):
             noted[cage, 0, j] = balls[cage, COMPRESSION, j]
             noted[cage, 1, j] = balls[cage, CLOSING, j]
+
+
+@njit_inline
+def restore_motion(balls: Array, noted: Array) -> None:
+    """Bring back what `note_motion` kept in `noted` (G, 2, M)."""
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            balls[cage, COMPRESSION, j] = noted[cage, 0, j]
+            balls[cage, CLOSING, j] = noted[cage, 1, j]
 
 
 @njit_inline

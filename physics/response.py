@@ -123,6 +123,9 @@ def trace_of(scene: Scene, contact: ContactModel, grid: Grid, output: Output, me
     force = None
     if output.force.shape[0]:
         normal = output.force[:, real] / math.cos(bearing.contact_angle)
+        if contact.law.no_tension:
+            # Inside a step a ball that is just not let go of would pull by as little as the step may be wrong.
+            normal = np.maximum(normal, 0.0)
         force = normal.reshape(-1, bearing.rows, bearing.balls)
     held = int(output.tally[HELD])
     rate = 1.0 / (grid.substeps * grid.step)

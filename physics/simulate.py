@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import discard_cache
-from physics.adaptive_response import Kept, respond_accurately
+from physics.adaptive_response import respond_accurately
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
@@ -17,6 +17,7 @@ from physics.integrators.method import Method
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
+from physics.modal_case import Kept
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
-from physics.adaptive_response import Kept, respond_accurately
+from physics.adaptive_response import respond_accurately
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
 from physics.integrators.march import Grid
 from physics.integrators.method import NO_MODES
 from physics.integrators.methods import MARCHES, METHODS, MODAL
+from physics.modal_case import Kept
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.response import respond

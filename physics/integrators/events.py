@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inline, njit_lean
 from physics.contact import ACTIVE, Law, compression_of, law_power, of_ball, touches
 from physics.motion import MotionModel, outer_load, relative_acceleration
 from physics.track import Track
@@ -19,7 +19,9 @@ from physics.track import Track
 Array = NDArray[np.float64]
 
 SMALLEST_SHARE = 1e-9
-MOST_ITERATIONS = 60
+# Newton's method squares the error of a share this small away with its next correction.
+SURE_SHARE = 1e-5
+MOST_ITERATIONS, GUESS_ITERATIONS = 60, 3
 
 
 @njit_lean
@@ -34,7 +36,7 @@ def relative_motion(
         ends[2, axis] = step * step * relative_acceleration(motion, state, axis, load[axis], force[axis])
 
 
-@njit_lean
+@njit_inline
 def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float]:
     """Value, and derivative to the share x, of the quintic through both ends at the share `x` (0 to 1) of the step."""
     rise = end[0, axis] - begin[0, axis] - begin[1, axis] - 0.5 * begin[2, axis]
@@ -48,7 +50,7 @@ def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float
     return value, slope
 
 
-@njit_lean
+@njit_inline
 def contact_condition(
     balls: Array, law: Law, track: Track, ball: int, time: float, step: float, share: float, begin: Array, end: Array
 ) -> tuple[float, float, float]:
@@ -84,27 +86,27 @@ def earliest_change(
     return first_share, first_ball, first_rate
 
 
-@njit_lean
+@njit_inline
 def _root(
     balls: Array, law: Law, track: Track, ball: int, time: float, step: float, begin: Array, end: Array, upper: float
 ) -> tuple[float, float]:
     """Earliest share at which `ball` leaves the contact set's state, and the rate there; 2.0 if not by `upper`."""
     sign = 1.0 if of_ball(balls, ACTIVE, ball) > 0.5 else -1.0
     high, low = upper, 0.0
-    value, slope, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)
+    value, slope_high, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)
     at_high = sign * value
     if at_high > 0.0:
         return 2.0, 0.0
-    value, slope, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+    value, slope_low, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
     at_low = sign * value
     if at_low <= 0.0:
         # A ball toggled at the start of the step sits at zero to round-off: look just behind it.
         low = 1e-4 * upper
-        value, slope, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+        value, slope_low, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
         at_low = sign * value
         if at_low <= 0.0:
             return 0.0, rate_low
-    guess, side = (at_low * high - at_high * low) / (at_low - at_high), 0
+    guess, side = hermite_root(low, high, at_low, at_high, sign * slope_low, sign * slope_high), 0
     for _ in range(MOST_ITERATIONS):
         if not low < guess < high:
             guess = 0.5 * (low + high)
@@ -112,23 +114,43 @@ def _root(
         value, slope = sign * value, sign * slope
         if value > 0.0:
             low, at_low = guess, value
-            if value <= -SMALLEST_SHARE * slope:
-                high = min(high, guess + SMALLEST_SHARE)
             at_high *= 0.5 if side == 1 else 1.0
             side = 1
         else:
             high, at_high = guess, value
-            if value >= SMALLEST_SHARE * slope:
-                break
             at_low *= 0.5 if side == -1 else 1.0
             side = -1
+        if slope < 0.0:
+            guess -= value / slope
+            if abs(value) <= -SURE_SHARE * slope and low <= guess <= high:
+                return guess, rate
+        else:
+            guess = (at_low * high - at_high * low) / (at_low - at_high)
         if high - low <= SMALLEST_SHARE:
             break
-        guess = guess - value / slope if slope < 0.0 else (at_low * high - at_high * low) / (at_low - at_high)
     return high, rate
 
 
-@njit_lean
+@njit_inline
+def hermite_root(low: float, high: float, at_low: float, at_high: float, slope_low: float, slope_high: float) -> float:
+    """A guess of where the cubic through value and slope at both ends is zero; by the chord if slopes are unknown."""
+    length = high - low
+    chord = (at_high - at_low) / length
+    guess = -at_low / chord
+    if slope_low == 0.0 or slope_high == 0.0:
+        return low + guess
+    bend = (3.0 * chord - 2.0 * slope_low - slope_high) / length
+    twist = (slope_low + slope_high - 2.0 * chord) / (length * length)
+    for _ in range(GUESS_ITERATIONS):
+        value = at_low + guess * (slope_low + guess * (bend + guess * twist))
+        slope = slope_low + guess * (2.0 * bend + 3.0 * guess * twist)
+        if slope >= 0.0:
+            break
+        guess -= value / slope
+    return low + guess
+
+
+@njit_inline
 def mark_suspects(balls: Array, law: Law, share: float, suspects: Array) -> None:
     """Note `share` for every ball that contradicts the contact set now and was not noted for an earlier one."""
     for cage in range(suspects.shape[0]):

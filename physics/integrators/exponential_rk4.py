@@ -44,7 +44,7 @@ def step_exponential_rk4(
     """One step of length `step` from `start` (12,), where the net contact force is `force`, into `end` (12,).
 
     The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set halfway.
-    `stage` (2, 4) is scratch: relative displacement and velocity of the free flow, then of the stage, per axis.
+    `stage` (4, 6) is scratch: relative displacement and velocity of the free flow, then of the stage, a row an axis.
     """
     square = step * step
     load = outer_load(motion, time)

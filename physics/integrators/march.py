@@ -205,7 +205,7 @@ def _cross(
 
     `pace` (1,) is the longest step allowed (s): short after contact was made, then doubling with every step.
     """
-    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
+    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6))
     time, tried = start, 0
     smallest, nudge = SMALLEST_STEP_SHARE * full_step, KINK_NUDGE_SHARE * full_step
     while finish - time > smallest:
@@ -276,7 +276,7 @@ def _march(
     Returns DONE, NOT_FINITE or LOG_FULL.
     """
     now, then = start_state.copy(), np.empty(start_state.size)
-    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
+    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6))
     set_step(series, weights, 1.0)
     set_time(balls, frames, track, 0.0)
     press_state(balls, frames, law, now)

@@ -38,31 +38,31 @@ def step_runge_kutta4(
     """One step of length `step` from `start` (12,), where the net contact force is `force`, into `end` (12,).
 
     The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set halfway.
+    `stage` (4, 6) is scratch: the accelerations of the stages.
     """
     square = step * step
-    rate = np.empty((4, 6))
-    accelerations(motion, time, start, force, rate[0])
+    accelerations(motion, time, start, force, stage[0])
     for i in range(6):
         end[i] = start[i] + 0.5 * step * start[6 + i]
-        end[6 + i] = start[6 + i] + 0.5 * step * rate[0, i]
+        end[6 + i] = start[6 + i] + 0.5 * step * stage[0, i]
     move_to(balls, frames, track, time + 0.5 * step)
     pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
-    accelerations(motion, time + 0.5 * step, end, pushed, rate[1])
+    accelerations(motion, time + 0.5 * step, end, pushed, stage[1])
     for i in range(6):
-        end[i] = start[i] + 0.5 * step * start[6 + i] + 0.25 * square * rate[0, i]
-        end[6 + i] = start[6 + i] + 0.5 * step * rate[1, i]
+        end[i] = start[i] + 0.5 * step * start[6 + i] + 0.25 * square * stage[0, i]
+        end[6 + i] = start[6 + i] + 0.5 * step * stage[1, i]
     pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
     contradicted = count_changes(balls, law)
-    accelerations(motion, time + 0.5 * step, end, pushed, rate[2])
+    accelerations(motion, time + 0.5 * step, end, pushed, stage[2])
     for i in range(6):
-        end[i] = start[i] + step * start[6 + i] + 0.5 * square * rate[1, i]
-        end[6 + i] = start[6 + i] + step * rate[2, i]
+        end[i] = start[i] + step * start[6 + i] + 0.5 * square * stage[1, i]
+        end[6 + i] = start[6 + i] + step * stage[2, i]
     move_to(balls, frames, track, time + step)
     pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
-    accelerations(motion, time + step, end, pushed, rate[3])
+    accelerations(motion, time + step, end, pushed, stage[3])
     for i in range(6):
-        end[i] = start[i] + step * start[6 + i] + square / 6.0 * (rate[0, i] + rate[1, i] + rate[2, i])
-        end[6 + i] = start[6 + i] + step / 6.0 * (rate[0, i] + 2.0 * (rate[1, i] + rate[2, i]) + rate[3, i])
+        end[i] = start[i] + step * start[6 + i] + square / 6.0 * (stage[0, i] + stage[1, i] + stage[2, i])
+        end[6 + i] = start[6 + i] + step / 6.0 * (stage[0, i] + 2.0 * (stage[1, i] + stage[2, i]) + stage[3, i])
     return contradicted
 
 

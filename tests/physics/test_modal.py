@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from physics.adaptive_response import mean_flow
 from physics.assembly import assemble
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.march import DONE, LOGGED
@@ -25,8 +24,9 @@ from physics.integrators.modal.flow import (
 )
 from physics.integrators.modal.grazing import is_rough
 from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, may_shrink
-from physics.integrators.modal.march import march_modal
+from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import Stride, memory_for
+from physics.integrators.modal.tables import tables_for
 from physics.integrators.modal.weights import (
     AT_END,
     AT_HALF,
@@ -46,6 +46,7 @@ from physics.integrators.modal.weights import (
     turn,
 )
 from physics.kinks import known_kinks
+from physics.modal_case import mean_flow
 from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed
 from physics.profile import build_path
@@ -231,7 +232,8 @@ def marched(scene, samples, interval):
     grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
     start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
     output = empty_output(contact, samples, 64, False, False, False)
-    memory = memory_for(flow, start, grid, contact.balls.shape[0], contact.balls.shape[2])
+    memory = memory_for(flow, start, tables_for(flow, interval), contact.balls.shape[0], contact.balls.shape[2])
+    begin(contact.balls, contact.frames, contact.law, contact.track, flow, grid, memory, output)
     status = march_modal(
         contact.balls, contact.frames, contact.law, contact.track, flow, grid, known_kinks(scene, contact), memory,
         output,

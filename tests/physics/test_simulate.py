@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-import physics.adaptive_response
+import physics.modal_case
 import physics.response
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
@@ -69,7 +69,7 @@ def test_a_step_that_would_blow_up_is_refused_with_the_one_it_takes(absurd, refe
 
 @pytest.mark.parametrize("steps", [{}, {"substeps": 1, "estimate_error": False}])
 def test_more_contact_changes_than_can_be_logged_are_told(steps, reference_scene, monkeypatch):
-    for module in (physics.response, physics.adaptive_response):
+    for module in (physics.response, physics.modal_case):
         monkeypatch.setattr(module, "FIRST_CHANGE_LOG", 4)
         monkeypatch.setattr(module, "LARGEST_CHANGE_LOG", 32)
     with pytest.raises(SimulationFailed, match=r"more than 32 changes of contact in 0\.5 s") as caught:
@@ -80,7 +80,7 @@ def test_more_contact_changes_than_can_be_logged_are_told(steps, reference_scene
 def test_a_log_that_was_too_short_at_first_changes_nothing(reference_scene, reference_trace, monkeypatch):
     once = reference_trace("G1", 0.5)
     chosen = simulate(reference_scene("G1", 0.5), RATE)
-    for module in (physics.response, physics.adaptive_response):
+    for module in (physics.response, physics.modal_case):
         monkeypatch.setattr(module, "FIRST_CHANGE_LOG", 4)
     again = simulate(reference_scene("G1", 0.5), RATE, substeps=1, estimate_error=False)
     assert np.array_equal(again.acceleration, once.acceleration)

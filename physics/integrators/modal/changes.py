@@ -28,8 +28,8 @@ from physics.track import Track
 
 Array = NDArray[np.float64]
 
-# What a look at a trial step says: take it, or go on from where it began.
-TAKE, AGAIN = range(2)
+# What a look at a trial step says: take it, or go on from where it began, where a ball has CHANGED sides meanwhile.
+TAKE, AGAIN, CHANGED = range(3)
 
 
 @njit_lean
@@ -59,10 +59,9 @@ def look(
     grazing: bool,
     output: Output,
 ) -> int:
-    """What to do about the trial step `now` to `then` in which balls may change sides: TAKE it or AGAIN.
+    """What to do about the trial step `now` to `then` in which balls may change sides: TAKE it, AGAIN or CHANGED.
 
-    They do if `contradicted`, and may if `grazing`. AGAIN: shorter, or up to the change that was located, or from here
-    with a ball that has just changed sides.
+    They do if `contradicted`, and may if `grazing`. AGAIN: shorter, or up to the change that was located.
     """
     clock, marks, rest = memory.clock, memory.marks, memory.rest
     if units > UNITS and contradicted:
@@ -88,4 +87,4 @@ def look(
     if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
         return AGAIN
     change_sides(balls, memory, output)
-    return AGAIN
+    return CHANGED

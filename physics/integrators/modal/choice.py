@@ -19,6 +19,7 @@ from physics.integrators.modal.memory import (
     ON_GRID,
     PACE,
     STOP,
+    STRIDES,
     TIME,
     UNITS,
     Memory,
@@ -35,17 +36,18 @@ SHORT = 0.7
 
 @njit_inline
 def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> int:
-    """Power of two of the samples that may be passed over from here in one step; 0 if it has to be one or less."""
+    """How many of the `STRIDES` may be taken from here, as a number from 1; 0 if the step is a sample or less."""
     clock, marks = memory.clock, memory.marks
     if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0 or marks[CELL] < marks[CAREFUL]:
         return 0
     level = grid.levels
     while level > 0:
-        length = (1 << level) * grid.interval
+        size = STRIDES[level - 1]
+        length = size * grid.interval
         finish = clock[TIME] + length
         if (
             clock[PACE] >= length
-            and marks[CELL] + UNITS * (1 << level) <= (grid.samples - 1) * UNITS
+            and marks[CELL] + UNITS * size <= (grid.samples - 1) * UNITS
             and next_kink(balls, stops, marks[STOP], finish) >= finish
             and count_ahead(balls, LOOK_AHEAD * length) == 0
         ):
@@ -81,7 +83,7 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple
         return 0, 0, time + length, time + length
     level = stride_level(balls, grid, stops, memory)
     if level > 0:
-        units = UNITS * (1 << level)
+        units = UNITS * STRIDES[level - 1]
         return UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit
     next_line = (marks[CELL] + 1) * unit
     if clock[PACE] < SHORT * unit and next_line - time > (1.0 + SHORT) * clock[PACE]:

@@ -9,8 +9,9 @@ the shaft are exact and taken off beforehand.
 
 from __future__ import annotations
 
+import cmath
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +30,8 @@ DISPLACEMENT, VELOCITY, ACCELERATION, OUTPUT, SHAPE = range(5)
 OUTER, OUTER_SPEED, OUTER_ACCELERATION = SHAPE + 2, SHAPE + 3, SHAPE + 6
 READINGS = 11
 STATES = slice(SHAPE, OUTER_ACCELERATION)
-# An eigenvector basis worse conditioned than this loses the digits that its modes stand for.
-WORST_CONDITION = 1e9
+# Two eigenvalues nearer to each other than this share of their size lose the digits that their modes stand for.
+NEAREST = 1e-8
 DEFECT_SHIFT = 1e-6
 
 
@@ -61,108 +62,128 @@ class LinearFlow(NamedTuple):
 
 def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tuple[float, float]) -> LinearFlow:
     """The modes of `motion` with springs `stiffness` (N/m, above zero) and dampers (N s/m) in place of the contacts."""
-    rate, kick, twist = np.zeros(AMPLITUDES), np.zeros(AMPLITUDES), np.zeros(2 * PAIRS)
-    read = np.zeros((READINGS, AMPLITUDES))
+    table, twist = np.zeros((2 + READINGS, AMPLITUDES)), np.zeros(2 * PAIRS)
     rest, cosine, sine = np.zeros((3, 2, READINGS))
-    for axis in range(2):
-        matrix = _matrix(motion, axis, stiffness[axis], damping[axis])
-        values, shape, push = _modes(motion, matrix, stiffness[axis])
-        shares = _readings(motion, shape)
-        shares[ACCELERATION] = shares[VELOCITY] * values
-        shares[OUTER_ACCELERATION] = shape[3] * values
-        swinging, here = values.imag > 0.0, slice(axis * AXIS, (axis + 1) * AXIS)
-        rate[here], kick[here] = _parts(values, swinging), _parts(push, swinging)
-        read[:, here] = _parts(shares.conj(), swinging)
-        twist[axis * PAIRS : axis * PAIRS + swinging.sum()] = 1.0
-        loaded = _loaded(motion, axis, matrix, np.array([0.0, 1.0 / motion.inner_mass, 0.0, 0.0, 0.0, 0.0]))
-        rest[axis], cosine[axis], sine[axis] = loaded
+    matrices = np.array([_matrix(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)])
+    for axis, (values, shape) in enumerate(_modes(motion, matrices, stiffness)):
+        columns = np.zeros((2 + READINGS, values.size), dtype=np.complex128)
+        columns[0], columns[1] = values, _push(motion, axis, damping[axis], values, shape)
+        shape = shape * np.where(values.imag > 0.0, 2.0, 1.0)  # readings are real parts
+        _read(motion, shape, columns[2:])
+        columns[2 + ACCELERATION] = columns[2 + VELOCITY] * values
+        columns[2 + OUTER_ACCELERATION] = shape[3] * values
+        swinging = int(np.count_nonzero(values.imag))
+        table[:, axis * AXIS : (axis + 1) * AXIS] = _parts(columns, swinging)
+        twist[axis * PAIRS : axis * PAIRS + swinging] = 1.0
+        rest[axis], cosine[axis], sine[axis] = _loaded(motion, axis, matrices[axis], stiffness[axis])
     return LinearFlow(
-        rate=rate,
+        rate=table[0],
         twist=twist,
-        kick=kick,
-        read=read,
+        kick=table[1],
+        read=table[2:],
         stiffness=stiffness,
         damping=damping,
         jump=-(1.0 / motion.inner_mass + 1.0 / motion.outer_mass),
         rest=rest,
         cosine=cosine,
         sine=sine,
-        turning=bool(np.any(cosine) or np.any(sine)),
+        turning=bool(cosine.any() or sine.any()),
         shaft_speed=motion.shaft_speed,
         outer_mass=motion.outer_mass,
     )
 
 
-def _parts(values: NDArray[np.complex128], swinging: NDArray[np.bool_]) -> Array:
-    """Values (..., M) of the modes as real numbers (..., 6): both parts of the swinging, then the decaying ones."""
-    both = np.stack([values[..., swinging].real, values[..., swinging].imag], axis=-1)
-    return np.concatenate([both.reshape(*values.shape[:-1], -1), values[..., ~swinging].real], axis=-1)
+def _parts(columns: NDArray[np.complex128], swinging: int) -> Array:
+    """Rates, pushes and shares (R, M) of the modes as real numbers (R, 6): both parts of the swinging, which come
+    first, then the decaying ones."""
+    parts = np.empty((columns.shape[0], AXIS))
+    pairs = 2 * swinging
+    parts[:, 0:pairs:2], parts[:, 1:pairs:2] = columns[:, :swinging].real, columns[:, :swinging].imag
+    parts[2:, 1:pairs:2] *= -1.0  # the real part of share times amplitude takes the share's conjugate
+    parts[:, pairs:] = columns[:, swinging:].real
+    return parts
 
 
-def _readings(motion: MotionModel, states: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Readings (11, M) of states (6, M); the two that need a rate of change are left zero."""
-    read = np.zeros((READINGS, states.shape[1]), dtype=np.complex128)
+def _read(motion: MotionModel, states: NDArray[np.complex128], read: NDArray[np.complex128]) -> None:
+    """Fill the readings (11, M) of states (6, M) but for the two that need a rate of change."""
     xi, vi, xo, vo, xr, vr = states
     read[DISPLACEMENT], read[VELOCITY] = xi - xo, vi - vo
     read[OUTPUT] = (
         motion.resonator_stiffness * (xo - xr) + motion.resonator_damping * (vo - vr)
     ) / motion.resonator_mass
     read[STATES] = states
-    return read
 
 
-def _matrix(motion: MotionModel, axis: int, k: float, c: float) -> Array:
+def _matrix(motion: MotionModel, axis: int, k: float, c: float) -> list[list[float]]:
     """A (6, 6) of (xi, vi, xo, vo, xr, vr) along one axis, contacts replaced by spring and damper [P14 Eq. 11-16]."""
     mi, mo, mr = motion.inner_mass, motion.outer_mass, motion.resonator_mass
     kr, cr = motion.resonator_stiffness, motion.resonator_damping
     ko, co = float(motion.support_stiffness[axis]), float(motion.support_damping[axis])
-    return np.array(
-        [
-            [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-            [-k / mi, -c / mi, k / mi, c / mi, 0.0, 0.0],
-            [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-            [k / mo, c / mo, -(k + ko + kr) / mo, -(c + co + cr) / mo, kr / mo, cr / mo],
-            [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-            [0.0, 0.0, kr / mr, cr / mr, -kr / mr, -cr / mr],
-        ]
-    )
+    return [
+        [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+        [-k / mi, -c / mi, k / mi, c / mi, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        [k / mo, c / mo, -(k + ko + kr) / mo, -(c + co + cr) / mo, kr / mo, cr / mo],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        [0.0, 0.0, kr / mr, cr / mr, -kr / mr, -cr / mr],
+    ]
 
 
 def _modes(
-    motion: MotionModel, matrix: Array, stiffness: float
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128]]:
-    """Eigenvalues (M,), right eigenvectors (6, M) and amplitudes per unit of contact force (M,), swinging modes first.
-
-    Of a pair only the one with positive frequency is kept, its vectors doubled: readings are real parts.
-    """
+    motion: MotionModel, matrices: Array, stiffness: tuple[float, float]
+) -> list[tuple[NDArray[np.complex128], NDArray[np.complex128]]]:
+    """Eigenvalues (M,) and eigenvectors (6, M) along x and y, swinging modes first, of each pair the upper one."""
     # Velocities are scaled by a frequency so that displacements and velocities are of one size.
-    scale = np.array([1.0, math.sqrt(stiffness / motion.inner_mass + 1.0)] * 3)
-    scaled = matrix / scale[:, None] * scale[None, :]
+    fast = np.sqrt(np.array(stiffness) / motion.inner_mass + 1.0)
+    scale = np.ones((2, AXIS))
+    scale[:, 1::2] = fast[:, None]
+    scaled = matrices / scale[:, :, None] * scale[:, None, :]
     values, vectors = np.linalg.eig(scaled)
-    if np.linalg.cond(vectors) > WORST_CONDITION:
+    if _nearest(values) < NEAREST:
         # Two modes coincide (critical damping): the least shift that parts them stays far below any accuracy asked.
-        scaled[1::2, 1::2] *= 1.0 + DEFECT_SHIFT
+        scaled[:, 1::2, 1::2] *= 1.0 + DEFECT_SHIFT
         values, vectors = np.linalg.eig(scaled)
-    force = np.array([0.0, -1.0 / motion.inner_mass, 0.0, 1.0 / motion.outer_mass, 0.0, 0.0]) / scale
-    kick = np.linalg.solve(vectors, force.astype(np.complex128))
-    values = values.astype(np.complex128)
-    kept = np.concatenate([np.flatnonzero(values.imag > 0.0), np.flatnonzero(values.imag == 0.0)])
-    twice = np.where(values[kept].imag > 0.0, 2.0, 1.0)
-    return values[kept], vectors[:, kept] * scale[:, None] * twice, kick[kept]
+    found = []
+    for axis in range(2):
+        order = np.argsort(-values[axis].imag, kind="stable")
+        kept = order[: np.count_nonzero(values[axis].imag >= 0.0)]
+        found.append((values[axis][kept] + 0j, vectors[axis][:, kept] * scale[axis][:, None] + 0j))
+    return found
 
 
-def _loaded(motion: MotionModel, axis: int, matrix: Array, push: Array) -> tuple[Array, Array, Array]:
+def _nearest(values: NDArray[Any]) -> float:
+    """Least distance of two eigenvalues of a direction (2, 6), over their size."""
+    apart = np.abs(values[:, :, None] - values[:, None, :]) + np.abs(values).max() * np.eye(AXIS)
+    return float((apart / np.abs(values[:, :, None])).min())
+
+
+def _push(
+    motion: MotionModel, axis: int, damping: float, values: NDArray[np.complex128], shape: NDArray[np.complex128]
+) -> NDArray[np.complex128]:
+    """Amplitudes (M,) per unit of contact force: shapes φ of symmetric M, C, K take φᵀf / φᵀ(2λM + C)φ of a force f."""
+    xi, xo, xr = shape[0], shape[2], shape[4]
+    mass = motion.inner_mass * xi**2 + motion.outer_mass * xo**2 + motion.resonator_mass * xr**2
+    film = damping * (xi - xo) ** 2 + motion.resonator_damping * (xo - xr) ** 2
+    return (xo - xi) / (2.0 * values * mass + film + float(motion.support_damping[axis]) * xo**2)
+
+
+def _loaded(motion: MotionModel, axis: int, matrix: Array, stiffness: float) -> tuple[Array, Array, Array]:
     """Constant, cosine and sine parts (11,) of what the outer loads alone do along one axis."""
-    steady = -motion.load if axis == 1 else 0.0
-    turning = motion.unbalance_force * np.exp(1j * motion.unbalance_phase) * (1.0 if axis == 0 else -1j)
+    read = np.zeros((READINGS, 2), dtype=np.complex128)
+    states = np.zeros((AXIS, 2), dtype=np.complex128)
     if axis == 1:
-        turning -= motion.load * motion.load_fluctuation * np.exp(1j * motion.fluctuation_phase)
+        states[2::2, 0] = -motion.load / float(motion.support_stiffness[axis])
+        states[0, 0] = states[2, 0] - motion.load / stiffness
+    turning = motion.unbalance_force * cmath.exp(1j * motion.unbalance_phase) * (1.0 if axis == 0 else -1j)
+    if axis == 1:
+        turning -= motion.load * motion.load_fluctuation * cmath.exp(1j * motion.fluctuation_phase)
     speed = motion.shaft_speed
-    still = np.linalg.solve(-matrix, push) * steady
-    swing = np.linalg.solve(1j * speed * np.eye(6) - matrix, push) * turning
-    read = _readings(motion, np.column_stack([still.astype(np.complex128), swing]))
+    if turning != 0.0:
+        push = np.array([0.0, turning / motion.inner_mass, 0.0, 0.0, 0.0, 0.0])
+        states[:, 1] = np.linalg.solve(1j * speed * np.eye(AXIS) - matrix, push)
+    _read(motion, states, read)
     read[ACCELERATION, 1] = 1j * speed * read[VELOCITY, 1]
-    read[OUTER_ACCELERATION, 1] = 1j * speed * swing[3]
+    read[OUTER_ACCELERATION, 1] = 1j * speed * states[3, 1]
     return read[:, 0].real, read[:, 1].real, -read[:, 1].imag
 
 

@@ -1,7 +1,8 @@
 """Balls that may touch a bump of a rough spall, or lift over a dent of it, between the instants a step looks at.
 
 A path over a rough surface has features finer than a step. How far it can stray from its chord over the arc that a ball
-covers in the step is known beforehand; only a ball nearer to a change than that is followed through the step.
+covers in the step is known beforehand; only a ball nearer to a change than that is followed through the step. What its
+compression would be over a smooth race runs as the cubic between both ends, so only the path has to be looked at.
 """
 
 from __future__ import annotations
@@ -11,11 +12,24 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
-from physics.contact import ACTIVE, COMPRESSION, Law
-from physics.integrators.events import contact_condition
-from physics.profile import RELIEF_LEVELS
-from physics.track import ANGLE, CAGE, CELL, FIRST_BALL, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, Track, cage_at
+from physics._jit import njit_inline, njit_lean
+from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
+from physics.profile import RELIEF_LEVELS, path_at
+from physics.track import (
+    ANGLE,
+    CAGE,
+    CELL,
+    FIRST_BALL,
+    FIRST_BREAK,
+    FIRST_CUBIC,
+    FIRST_PIECE,
+    PIECES,
+    RELIEF,
+    SIGN,
+    SPEED,
+    Track,
+    cage_at,
+)
 
 Array = NDArray[np.float64]
 
@@ -33,8 +47,9 @@ def is_rough(track: Track) -> bool:
 
 
 @njit_lean
-def mark_grazing(balls: Array, track: Track, noted: Array, time: float, step: float, looks: Array) -> int:
-    """Put into `looks` (G, M) how often each ball has to be looked at inside the step, and return how many have to.
+def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float, step: float, suspects: Array) -> int:
+    """Put into `suspects` (G, M) the share of the step at which each ball is first seen to contradict the contact set,
+    or 0; how many do. If none does, `suspects` is left as it was.
 
     `balls` is as `press` left it at the end of the step, `noted` (G, 2, M) the motion at its beginning.
     """
@@ -43,43 +58,77 @@ def mark_grazing(balls: Array, track: Track, noted: Array, time: float, step: fl
         if track.spalls[spall, RELIEF] == 0.0:
             continue
         row, cage = track.spalls[spall], int(track.spalls[spall, CAGE])
-        angle, speed = cage_at(track, cage, time + step)
-        covered = abs(speed - row[SPEED]) * step
-        cells = covered / row[CELL]
+        start, _ = cage_at(track, cage, time)
+        end, _ = cage_at(track, cage, time + step)
+        travel = row[SIGN] * (end - start - row[SPEED] * step)
+        cells = abs(travel) / row[CELL]
         level = 0
         while level < RELIEF_LEVELS - 1 and cells > 1 << level:
             level += 1
-        relief = row[RELIEF + level]
         first = int(row[FIRST_BREAK])
-        entry, leave = track.breaks[first], track.breaks[first + int(row[PIECES])] + covered
-        ahead = row[SIGN] * (angle - row[ANGLE] - row[SPEED] * (time + step))
-        turns = math.ceil((entry - ahead) / track.spacing)
-        while ahead + turns * track.spacing <= leave:
+        entry, leave = track.breaks[first], track.breaks[first + int(row[PIECES])]
+        ahead = row[SIGN] * (start - row[ANGLE] - row[SPEED] * time)
+        turns = math.ceil((entry - max(travel, 0.0) - ahead) / track.spacing)
+        arc = ahead + turns * track.spacing
+        while arc <= leave - min(travel, 0.0):
             place = int(row[FIRST_BALL]) + int(row[SIGN] * turns) % track.row_size
-            if min(abs(balls[cage, COMPRESSION, place]), abs(noted[cage, 0, place])) < relief:
-                if grazing == 0:
-                    looks[:] = 0.0
-                looks[cage, place] = min(float(MOST_LOOKS), math.ceil(cells) + 1.0)
-                grazing += 1
+            if min(abs(balls[cage, COMPRESSION, place]), abs(noted[cage, 0, place])) < row[RELIEF + level]:
+                looks = int(min(float(MOST_LOOKS), math.ceil(cells) + 1.0))
+                seen = _first_contradiction(balls, law, track, row, noted, cage, place, step, arc, travel, looks)
+                if seen > 0.0:
+                    if grazing == 0:
+                        suspects[:] = 0.0
+                    suspects[cage, place] = seen
+                    grazing += 1
             turns += 1.0
+            arc += track.spacing
     return grazing
 
 
+@njit_inline
+def _drop(track: Track, row: Array, arc: float, travel: float) -> tuple[float, float]:
+    """Depth (m) of the path at `arc`, and what its slope adds to it over an arc of `travel`."""
+    first = int(row[FIRST_BREAK])
+    if arc < track.breaks[first] or arc > track.breaks[first + int(row[PIECES])]:
+        return 0.0, 0.0
+    depth, slope = path_at(
+        track.breaks, track.cells, track.cubics, first, int(row[FIRST_PIECE]), int(row[PIECES]),
+        int(row[FIRST_CUBIC]), arc,
+    )  # fmt: skip
+    return depth, slope * travel
+
+
 @njit_lean
-def follow_grazing(
-    balls: Array, law: Law, track: Track, time: float, step: float, begin: Array, end: Array, looks: Array
-) -> None:
-    """Turn `looks` (G, M) into the share of the step at which each ball is first seen to contradict the contact set,
-    or 0, with the ring's motion between `begin` and `end` (3, 2)."""
-    for cage in range(looks.shape[0]):
-        for j in range(looks.shape[1]):
-            count, seen = int(looks[cage, j]), 0.0
-            for look in range(1, count):
-                share = look / count
-                value, _, _ = contact_condition(
-                    balls, law, track, cage * looks.shape[1] + j, time, step, share, begin, end
-                )
-                if (value > 0.0) != (balls[cage, ACTIVE, j] > 0.5):
-                    seen = share
-                    break
-            looks[cage, j] = seen
+def _first_contradiction(
+    balls: Array,
+    law: Law,
+    track: Track,
+    row: Array,
+    noted: Array,
+    cage: int,
+    place: int,
+    step: float,
+    arc: float,
+    travel: float,
+    looks: int,
+) -> float:
+    """Share of the step at which a ball that starts at `arc` and covers `travel` first contradicts the contact set; 0
+    if none of the `looks` sees it."""
+    depth, fall = _drop(track, row, arc, travel)
+    begin, begin_rate = noted[cage, 0, place] + depth, step * noted[cage, 1, place] + fall
+    depth, fall = _drop(track, row, arc + travel, travel)
+    end, end_rate = balls[cage, COMPRESSION, place] + depth, step * balls[cage, CLOSING, place] + fall
+    c2 = 3.0 * (end - begin) - 2.0 * begin_rate - end_rate
+    c3 = begin_rate + end_rate - 2.0 * (end - begin)
+    held = balls[cage, ACTIVE, place] > 0.5
+    for look in range(1, looks):
+        share = look / looks
+        depth, fall = _drop(track, row, arc + share * travel, travel)
+        compression = ((c3 * share + c2) * share + begin_rate) * share + begin - depth
+        touching = compression > 0.0
+        if law.no_tension and touching:
+            rate = ((3.0 * c3 * share + 2.0 * c2) * share + begin_rate - fall) / step
+            touching = law.stiffness * compression * law_power(law, compression) + law.damping * rate > 0.0
+        if touching != held:
+            return share
+    return 0.0

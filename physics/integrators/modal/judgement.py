@@ -42,9 +42,10 @@ LEAST_SPENT, MOST_SPENT, BUDGET_SAMPLES = 0.25, 8.0, 512
 UNIT_ERROR = 0.29
 # A contact change may be wrong by this share of the tolerance, and counts, with the steps next to it, as this many.
 CHANGE_SHARE, CHANGE_FACTOR = 0.3, 3.0
-# A step is taken back if its error exceeds the tolerance this many times, and the next is doubled if it stays below
-# this share of it: the error grows by the fifth power of the length.
-REJECTED, DOUBLED = 4.0, 1.0 / 32.0
+# A step is taken back if its error exceeds the tolerance this many times. The next may be twice or half as long again
+# if it stays below these shares of it, since the error grows by the fifth power of the length, and has to be shorter
+# by LESS if it exceeds the tolerance.
+REJECTED, DOUBLED, LONGER, LESS = 4.0, 1.0 / 32.0, 1.5**-5, 0.75
 
 
 @njit_inline
@@ -57,7 +58,7 @@ def graded_length(law: Law, speed: float, tolerance: float) -> float:
 def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
     """Let the tolerance follow the acceleration of `samples` samples, and what their errors have left of the budget."""
     clock = memory.clock
-    square = clock[SQUARES] / (grid.seen_samples + samples)
+    square = (grid.seen * grid.seen_samples + clock[SQUARES]) / (grid.seen_samples + samples)
     tolerance = max(grid.least, grid.share * math.sqrt(square))
     allowed = grid.spending * tolerance * tolerance
     spent = (clock[BUDGET] + allowed * BUDGET_SAMPLES) / (allowed * (samples + BUDGET_SAMPLES))
@@ -146,12 +147,14 @@ def judge(balls: Array, law: Law, grid: Stride, memory: Memory, step: float, car
         return False
     clock[BUDGET] += error * error
     if error > tolerance:
-        clock[PACE] = 0.5 * step
+        clock[PACE] = LESS * step
     elif clock[BEFORE] == 0.0:
         clock[PACE] = min(max(2.0 * step, clock[PACE]), grid.interval)
     elif error < DOUBLED * tolerance:
-        clock[PACE] = 2.0 * step
-    elif error > 2.0 * DOUBLED * tolerance and step < clock[PACE]:
+        clock[PACE] = max(clock[PACE], 2.0 * step)
+    elif error < LONGER * tolerance:
+        clock[PACE] = 1.5 * step
+    elif step < clock[PACE]:
         clock[PACE] = step
     return True
 

@@ -9,7 +9,6 @@ from physics._jit import njit_lean
 from physics.contact import Law, press, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic
 from physics.integrators.modal.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
-from physics.integrators.modal.grazing import follow_grazing
 from physics.track import Track
 
 Array = NDArray[np.float64]
@@ -49,17 +48,15 @@ def locate(
     """Share of the step, ball and its speed of compression (m/s) of the first contact change in the trial step `now` to
     `then`; ball −1 if none.
 
-    The change was seen at the end of the step, `halfway`, or may lie between: if `grazing`, `suspects` (G, M) says how
-    often to look. `rest` (2, 11) is of the end of the step, as is `balls`, which is left somewhere inside it.
+    The change was seen at the end of the step, `halfway`, or between: if `grazing`, `suspects` (G, M) says where.
+    `rest` (2, 11) is of the end of the step, as is `balls`, which is left somewhere inside it.
     """
     begin, end = ends[0], ends[1]
     relative_motion(flow, step, then, after[0], after[1], rest, end)
     set_rest(flow, time, rest)
     relative_motion(flow, step, now, force[0], force[1], rest, begin)
     set_rest(flow, time + step, rest)
-    if grazing:
-        follow_grazing(balls, law, track, time, step, begin, end, suspects)
-    else:
+    if not grazing:
         suspects[:] = 0.0
     mark_suspects(balls, law, 1.0, suspects)
     if halfway:

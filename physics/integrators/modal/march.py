@@ -1,6 +1,6 @@
 """Marching on the modes with steps as long as the scene allows, every contact change located and every kink a stop.
 
-Steps are whole numbers of units, a sixteenth of a sample, or two, four, eight, sixteen samples, and shorter than a unit
+Steps are whole numbers of units, a sixteenth of a sample, or two to twenty-four samples, and shorter than a unit
 where an error asks for it; the samples inside a stride are exact responses of the modes to the step's contact force.
 Everything is measured by one tolerance, the momentum (N s) by which a step or a contact change may be wrong: the length
 of steps from the fourth power in the course of the contact force, how exactly a change is located from the jump of
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.contact import ACTIVE, Law, count_changes, note_motion, of_ball, reset_contact, set_time
+from physics.contact import ACTIVE, Law, count_changes, note_motion, of_ball, reset_contact, restore_motion, set_time
 from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import (
     DONE,
@@ -28,7 +28,7 @@ from physics.integrators.march import (
     passed_kinks,
 )
 from physics.integrators.modal.carried import step_carried
-from physics.integrators.modal.changes import AGAIN, TAKE, change_sides, look
+from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
 from physics.integrators.modal.choice import next_step
 from physics.integrators.modal.flow import OUTPUT, LinearFlow, set_rest
 from physics.integrators.modal.grazing import is_rough, mark_grazing
@@ -38,6 +38,7 @@ from physics.integrators.modal.memory import (
     BEFORE,
     BUDGET,
     CELL,
+    FIRST_INSIDE,
     LEFT,
     NO_BALL,
     ON_GRID,
@@ -52,7 +53,7 @@ from physics.integrators.modal.memory import (
 )
 from physics.integrators.modal.output import keep, record, remaining_force, write_inside
 from physics.integrators.modal.rk4 import step_modal_rk4
-from physics.integrators.modal.weights import set_inside, set_step
+from physics.integrators.modal.weights import set_step
 from physics.track import Track
 
 Array = NDArray[np.float64]
@@ -64,15 +65,9 @@ MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000
 @njit_lean
 def begin(
     balls: Array, frames: Array, law: Law, track: Track, flow: LinearFlow, grid: Stride, memory: Memory, output: Output
-) -> tuple[float, float]:
-    """Fill the tables of weights, find the first contact set, write sample 0; the remaining contact force (N)."""
+) -> None:
+    """Find the first contact set and write sample 0."""
     clock, marks = memory.clock, memory.marks
-    for k in range(1, UNITS + 1):
-        set_step(flow, memory.weights[k], k * (grid.interval / UNITS), memory.phi)
-    for level in range(1, grid.levels + 1):
-        size = 1 << level
-        set_step(flow, memory.weights[UNITS + level], size * grid.interval, memory.phi)
-        set_inside(flow, memory.inside[size : 2 * size - 1], size * grid.interval, memory.phi[0])
     state = memory.states[0]
     set_rest(flow, 0.0, memory.rest)
     set_time(balls, frames, track, 0.0)
@@ -84,10 +79,9 @@ def begin(
     clock[:] = 0.0
     marks[:] = 0
     clock[PACE], marks[BALL], marks[ON_GRID] = grid.interval, NO_BALL, 1
-    clock[SQUARES] = record(balls, flow, state, memory.rest, 0, 1, output) + grid.seen * grid.seen_samples
+    clock[SQUARES] = record(balls, flow, state, memory.rest, 0, 1, output)
     set_tolerance(grid, memory, 1)
     keep(balls, flow, state, memory.rest, force, 0.0, 0, output)
-    return force
 
 
 @njit_inline
@@ -195,6 +189,44 @@ def try_step(
     return carried, halfway, mx, my, after_x, after_y
 
 
+@njit_inline
+def consider(
+    balls: Array,
+    frames: Array,
+    law: Law,
+    track: Track,
+    flow: LinearFlow,
+    grid: Stride,
+    memory: Memory,
+    step: float,
+    units: int,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
+    after: tuple[float, float],
+    halfway: int,
+    carried: bool,
+    rough: bool,
+    output: Output,
+) -> tuple[int, float, float]:
+    """What to do about the trial step `now` to `then`, at whose middle `halfway` balls contradict the contact set: TAKE
+    it, AGAIN or CHANGED; and the remaining contact force (N) at its end, `after` if no ball changes sides."""
+    start = memory.clock[TIME]
+    contradicted = halfway + count_changes(balls, law) > 0
+    if not contradicted and dipped(balls, grid, memory, step):
+        return AGAIN, after[0], after[1]
+    grazing = rough and mark_grazing(balls, law, track, memory.noted, start, step, memory.suspects) > 0
+    if contradicted or grazing:
+        action = look(
+            balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, contradicted,
+            halfway > 0, grazing, output,
+        )  # fmt: skip
+        if action != TAKE:
+            return action, after[0], after[1]
+        after = remaining_force(balls, frames, law, flow, then, memory.rest)
+    return TAKE if judge(balls, law, grid, memory, step, carried) else AGAIN, after[0], after[1]
+
+
 @njit_lean
 def march_modal(
     balls: Array,
@@ -207,10 +239,16 @@ def march_modal(
     memory: Memory,
     output: Output,
 ) -> int:
-    """Fill `output` from the first state of `memory` at t = 0; returns DONE, NOT_FINITE, LOG_FULL or OUT_OF_STEPS."""
+    """Fill `output` up to the samples of `grid` from where `begin`, or the march before, has left `memory`.
+
+    Returns DONE, NOT_FINITE, LOG_FULL or OUT_OF_STEPS. After DONE it can go on to more samples, after LOG_FULL with a
+    longer log.
+    """
     now, then, rest = memory.states[0], memory.states[1], memory.rest
     clock, marks = memory.clock, memory.marks
-    force = begin(balls, frames, law, track, flow, grid, memory, output)
+    set_rest(flow, clock[TIME], rest)
+    set_time(balls, frames, track, clock[TIME])
+    force = remaining_force(balls, frames, law, flow, now, rest)
     most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
     room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
     rough = is_rough(track)
@@ -227,39 +265,33 @@ def march_modal(
         carried, halfway, mx, my, after_x, after_y = try_step(
             balls, frames, law, track, flow, memory, row, step, now, force, then
         )
-        after = after_x, after_y
         if marks[BALL] == NO_BALL:
-            action = TAKE
-            contradicted = halfway + count_changes(balls, law) > 0
-            grazing = rough and mark_grazing(balls, track, memory.noted, start, step, memory.suspects) > 0
-            if not contradicted and dipped(balls, grid, memory, step):
-                action = AGAIN
-            elif contradicted or grazing:
-                action = look(
-                    balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, contradicted,
-                    halfway > 0, grazing, output,
-                )  # fmt: skip
-                after = remaining_force(balls, frames, law, flow, then, rest)
-            if action == TAKE and not judge(balls, law, grid, memory, step, carried):
-                action = AGAIN
+            action, after_x, after_y = consider(
+                balls, frames, law, track, flow, grid, memory, step, units, now, force, then, (after_x, after_y),
+                halfway, carried, rough, output,
+            )  # fmt: skip
             if action != TAKE:
-                set_time(balls, frames, track, start)
                 set_rest(flow, start, rest)
-                force = remaining_force(balls, frames, law, flow, now, rest)
+                restore_motion(balls, memory.noted)
+                if action == CHANGED:
+                    set_time(balls, frames, track, start)
+                    force = remaining_force(balls, frames, law, flow, now, rest)
                 continue
         output.tally[STEPS] += 1
         remember(memory, step, force, (mx, my))
         if units > UNITS:
             write_inside(
-                balls, frames, law, track, flow, memory.inside, units // UNITS, now, memory.between, then, before, rest,
-                memory.course, start, grid.interval, marks[CELL] // UNITS, output,
+                balls, frames, law, track, flow, memory.inside, FIRST_INSIDE[row - UNITS - 1], units // UNITS, now,
+                memory.between, then, before, rest, memory.course, start, grid.interval, marks[CELL] // UNITS, output,
             )  # fmt: skip
         now, then = then, now
-        force = after
+        force = after_x, after_y
         land(grid, memory, units, beyond)
         if arrive(balls, frames, track, grid, memory, step, beyond - target, output):
             force = remaining_force(balls, frames, law, flow, now, rest)
         if not write_sample(balls, flow, grid, memory, now, force, units, kept, output):
             return NOT_FINITE
+    for part in range(now.size):
+        memory.states[0, part] = now[part]
     output.budget[0] = clock[BUDGET]
     return DONE if output.tally[LOGGED] < room else LOG_FULL

@@ -8,11 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
-from physics.integrators.modal.weights import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS
+from physics.integrators.modal.weights import POWERS
 
 Array = NDArray[np.float64]
 
 UNITS = 16
+# Steps of more than a sample, in samples, and where the weights of the samples inside each begin.
+STRIDES = (2, 3, 4, 6, 8, 12, 16, 24)
+FIRST_INSIDE = (0, 1, 3, 6, 11, 18, 29, 44)
 # Shortest step that an error may ask for, as a share of a unit.
 SHORTEST = 1.0 / 64.0
 NO_BALL = -1
@@ -52,7 +55,7 @@ class Memory(NamedTuple):
 
 
 class Stride(NamedTuple):
-    """`samples` instants, `interval` (s) apart; steps of at most 2^`levels` samples.
+    """`samples` instants, `interval` (s) apart; steps of at most a sample, or the first `levels` of the `STRIDES`.
 
     One step may be wrong by the momentum (N s) `share` times the root mean square of the resonator's acceleration
     (m/s²) seen so far, or by `least` if that is more. `seen` (m²/s⁴) is what to take for the mean square at the start,
@@ -70,13 +73,17 @@ class Stride(NamedTuple):
     spending: float
 
 
-def memory_for(flow: LinearFlow, start: Array, grid: Stride, cages: int, balls: int) -> Memory:
-    """Memory for a march on `grid` from the amplitudes `start` (12,), for `cages` of `balls` columns each."""
+def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], cages: int, balls: int) -> Memory:
+    """Memory for a march from the amplitudes `start` (12,), for `cages` of `balls` columns each.
+
+    `tables` (modal/tables.py) may serve several marches, one after the other.
+    """
+    weights, inside = tables
     return Memory(
         states=np.stack([start, np.zeros_like(start)]),
         between=np.zeros_like(start),
-        weights=np.zeros((UNITS + grid.levels + 1, STEP_WEIGHTS)),
-        inside=np.zeros((2 << grid.levels, INSIDE_WEIGHTS)),
+        weights=weights,
+        inside=inside,
         course=np.zeros((2, POWERS)),
         phi=np.zeros((2, POWERS + 1, AMPLITUDES)),
         rest=flow.rest.copy(),

@@ -87,6 +87,7 @@ def keep_inside(
     track: Track,
     flow: LinearFlow,
     inside: Array,
+    first: int,
     count: int,
     state: Array,
     between: Array,
@@ -102,7 +103,7 @@ def keep_inside(
     `between` is scratch; leaves the time of `balls` and `rest` at the end of the stride.
     """
     for k in range(count - 1):
-        w, share, time = inside[count + k], (k + 1.0) / count, start + (k + 1) * interval
+        w, share, time = inside[first + k], (k + 1.0) / count, start + (k + 1) * interval
         force = force_on(course, 0, share), force_on(course, 1, share)
         turn(w, INSIDE_TURN, INSIDE_OTHER, state, between)
         push(w, INSIDE_KICKS, INSIDE_OTHER, course, between)
@@ -147,6 +148,7 @@ def write_inside(
     track: Track,
     flow: LinearFlow,
     inside: Array,
+    first: int,
     count: int,
     state: Array,
     between: Array,
@@ -165,7 +167,7 @@ def write_inside(
     contact force runs through the step as `course` (2, 5) says.
     """
     for k in range(count - 1):
-        w = inside[count + k]
+        w = inside[first + k]
         share = (k + 1.0) / count
         x = before[0] + share * (rest[0, OUTPUT] - before[0])
         y = before[1] + share * (rest[1, OUTPUT] - before[1])
@@ -176,7 +178,7 @@ def write_inside(
         output.acceleration[sample + 1 + k, 1] = y + weigh(w, INSIDE_OTHER + INSIDE_READ, state, 1)
     if output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0:
         keep_inside(
-            balls, frames, law, track, flow, inside, count, state, between, rest, course, start, interval, sample,
-            output,
+            balls, frames, law, track, flow, inside, first, count, state, between, rest, course, start, interval,
+            sample, output,
         )  # fmt: skip
         remaining_force(balls, frames, law, flow, end, rest)

@@ -143,11 +143,12 @@ def _waviness_cubics(waves: tuple[Waviness, ...], balls: int) -> Array:
     count = balls * -(-WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves)) // balls)
     nodes = 2.0 * np.pi * np.arange(count + 1) / count
     width = 2.0 * np.pi / count
-    cubics = np.zeros((2, count, 4))
+    value, rate = np.zeros((2, 2, count + 1))
     for wave in waves:
-        value = wave.amplitude * np.cos(wave.order * nodes + wave.phase)
+        race = 0 if wave.race == "outer" else 1
+        value[race] += wave.amplitude * np.cos(wave.order * nodes + wave.phase)
         # Slopes of the periodic cubic spline through the wave, which has no jump in curvature: its own by a factor.
         turn = wave.order * width
-        rate = -wave.amplitude * np.sin(wave.order * nodes + wave.phase) * 3.0 * math.sin(turn) / (2.0 + math.cos(turn))
-        cubics[0 if wave.race == "outer" else 1] += hermite_cubics(value, rate)
-    return cubics
+        factor = 3.0 * math.sin(turn) / (2.0 + math.cos(turn))
+        rate[race] -= wave.amplitude * factor * np.sin(wave.order * nodes + wave.phase)
+    return np.stack([hermite_cubics(value[race], rate[race]) for race in range(2)])

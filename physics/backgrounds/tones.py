@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_lean
+
 Array = NDArray[np.float64]
 
 BLOCK = 256
@@ -16,17 +18,31 @@ def tones(frequency: Array, amplitude: Array, phase: Array, samples: int, rate: 
     `frequency` (L,) Hz, `amplitude` (L,), `phase` (L, 2) rad, one a line and axis. Lines at or above half the `rate`
     (Hz) are left out, as by an anti-aliasing filter; those below 0 Hz lie at their absolute frequency.
     """
+    heard = np.flatnonzero((np.abs(frequency) < rate / 2.0) & (amplitude != 0.0))
     blocks = -(-samples // BLOCK)
-    total = np.zeros((blocks, BLOCK, 2))
-    for line in np.flatnonzero((np.abs(frequency) < rate / 2.0) & (amplitude != 0.0)):
-        turn = 2.0 * np.pi * frequency[line] / rate
-        # cos(a + b) = cos a cos b - sin a sin b: a at the start of each block, b within it.
-        within = turn * np.arange(BLOCK)
-        for axis in (0, 1):
-            start = turn * BLOCK * np.arange(blocks) + phase[line, axis]
-            total[:, :, axis] += np.outer(amplitude[line] * np.cos(start), np.cos(within))
-            total[:, :, axis] -= np.outer(amplitude[line] * np.sin(start), np.sin(within))
-    return total.reshape(-1, 2)[:samples]
+    turn = 2.0 * np.pi * frequency[heard] / rate
+    # cos(a + b) = cos a cos b - sin a sin b: a at the start of each block, b within it.
+    within = turn[:, None] * np.arange(BLOCK)
+    start = turn[:, None, None] * (BLOCK * np.arange(blocks)) + phase[heard][:, :, None]
+    loud = amplitude[heard][:, None, None]
+    total = np.zeros((samples, 2))
+    _add_up(loud * np.cos(start), loud * np.sin(start), np.cos(within), np.sin(within), total)
+    return total
+
+
+@njit_lean
+def _add_up(cosine: Array, sine: Array, within_cosine: Array, within_sine: Array, total: Array) -> None:
+    """Add the lines that start the blocks as `cosine` and `sine` (L, 2, B) and go on `within` (L, K) to `total`."""
+    samples, width = total.shape[0], within_cosine.shape[1]
+    for block in range(cosine.shape[2]):
+        first = block * width
+        for line in range(cosine.shape[0]):
+            cx, sx = cosine[line, 0, block], sine[line, 0, block]
+            cy, sy = cosine[line, 1, block], sine[line, 1, block]
+            for k in range(min(width, samples - first)):
+                c, s = within_cosine[line, k], within_sine[line, k]
+                total[first + k, 0] += cx * c - sx * s
+                total[first + k, 1] += cy * c - sy * s
 
 
 def draw_phases(generator: np.random.Generator, lines: int) -> Array:

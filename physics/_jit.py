@@ -45,22 +45,49 @@ CACHE_FOLDER = _cache_folder()
 setattr(numba.config, "CACHE_DIR", str(CACHE_FOLDER))
 
 
+# numba's stubs do not know all of its options.
+_decorator: Any = numba.njit
+USUAL: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+LEAN: dict[str, Any] = {**USUAL, "_nrt": False}
+
+
 def njit(kernel: Kernel) -> Kernel:
     """Compile `kernel` on first call, without fast-math, so that its bits do not depend on the vector width."""
-    compiled: Any = numba.njit(cache=True, error_model="numpy", nogil=True)(kernel)
-    return cast(Kernel, compiled)
+    return cast(Kernel, _decorator(**USUAL)(kernel))
 
 
 def njit_lean(kernel: Kernel) -> Kernel:
     """Like `njit` for a kernel that creates no array: without reference counts, which cost more than short kernels."""
-    decorator: Any = numba.njit
-    return cast(Kernel, decorator(cache=True, error_model="numpy", nogil=True, _nrt=False)(kernel))
+    return cast(Kernel, _decorator(**LEAN)(kernel))
+
+
+def njit_inner(kernel: Kernel) -> Kernel:
+    """Like `njit_lean`, for kernels to call alone: from Python TypeError. Without a door to Python a kernel that takes
+    dozens of arrays compiles in half the time."""
+    return cast(Kernel, _without_door(_decorator(**LEAN, no_cpython_wrapper=True)(kernel)))
 
 
 def njit_inline(kernel: Kernel) -> Kernel:
-    """Like `njit_lean`, and inlined into compiled callers, which spares passing every array as a dozen arguments."""
-    decorator: Any = numba.njit
-    return cast(Kernel, decorator(cache=True, error_model="numpy", nogil=True, _nrt=False, forceinline=True)(kernel))
+    """Like `njit_inner`, and inlined by the compiler, which spares passing every array as a dozen arguments."""
+    return cast(Kernel, _without_door(_decorator(**LEAN, no_cpython_wrapper=True, forceinline=True)(kernel)))
+
+
+def njit_pasted(kernel: Kernel) -> Kernel:
+    """Like `njit_inline` for a part that only one kernel calls: pasted into it before it is compiled at all."""
+    return cast(Kernel, _decorator(**USUAL, inline="always")(kernel))
+
+
+def _without_door(compiled: Any) -> Any:
+    """The compiled kernel, made to raise TypeError if it is called from Python, where it has no code to run."""
+
+    def keep(result: Any) -> None:
+        compiled.overloads[tuple(result.signature.args)] = result
+
+    def refuse(*_: Any, **__: Any) -> None:
+        raise TypeError(f"{compiled.__name__} is a part of compiled kernels; from Python call its py_func")
+
+    compiled.add_overload, compiled._compile_for_args = keep, refuse
+    return compiled
 
 
 def specialise(template: Callable[..., Any], name: str, *, lean: bool = False, **bindings: Any) -> Callable[..., Any]:

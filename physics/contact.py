@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.profile import path_at
 from physics.track import (
     ANGLE,
@@ -77,7 +77,7 @@ class ContactModel(NamedTuple):
     ball: Index
 
 
-@njit_lean
+@njit_inner
 def set_time(balls: Array, frames: Array, track: Track, time: float) -> None:
     """`move_to` as a called function, for places where a pasted copy would only cost compile time."""
     move_to(balls, frames, track, time)
@@ -100,7 +100,7 @@ def move_to(balls: Array, frames: Array, track: Track, time: float) -> None:
                 _add_spall(balls, track, cage, spall, angle, speed, time)
 
 
-@njit_inline
+@njit_pasted
 def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, speed: float, time: float) -> None:
     sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
     first_break, first_piece = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, FIRST_PIECE])
@@ -121,7 +121,7 @@ def _add_spall(balls: Array, track: Track, cage: int, spall: int, angle: float, 
         turns += 1.0
 
 
-@njit_lean
+@njit_inner
 def _add_waviness(balls: Array, track: Track, cage: int, angle: float, speed: float, time: float) -> None:
     """Both races' waves under every ball: those of one row lie whole cells apart, at the same place within theirs."""
     cells, size = track.waviness.shape[1], balls.shape[2]
@@ -307,7 +307,7 @@ def count_dips(balls: Array, noted: Array, step: float) -> int:
     return dips
 
 
-@njit_lean
+@njit_inner
 def reset_contact(balls: Array, law: Law) -> None:
     """Make the contact set what the compressions left by `press` say."""
     for cage in range(balls.shape[0]):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inner
 from physics.contact import COMPRESSION, COSINE, FLOOR, FORCE, FRAME_COSINE, FRAME_SINE, SINE, Law, law_power
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ class Hold(NamedTuple):
     xy: float
 
 
-@njit_lean
+@njit_inner
 def direction(balls: Array, frames: Array, cage: int, place: int) -> tuple[float, float]:
     """Cosine and sine of the angle φ of a ball."""
     cosine, sine = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE]
@@ -53,7 +53,7 @@ def direction(balls: Array, frames: Array, cage: int, place: int) -> tuple[float
     )
 
 
-@njit_lean
+@njit_inner
 def elastic(balls: Array, frames: Array, law: Law, dx: float, dy: float) -> Hold:
     """What the contacts hold without damping at the displacement (dx, dy), m.
 
@@ -92,7 +92,7 @@ def elastic(balls: Array, frames: Array, law: Law, dx: float, dy: float) -> Hold
     return Hold(energy, force_x, force_y, pressed, xx, yy, xy)
 
 
-@njit_lean
+@njit_inner
 def solve_at(
     balls: Array, frames: Array, law: Law, load_x: float, load_y: float, dx: float, dy: float
 ) -> tuple[float, float, Hold, int]:
@@ -121,19 +121,19 @@ def solve_at(
     return dx, dy, hold, status
 
 
-@njit_lean
+@njit_inner
 def _ends(hold: Hold, law: Law, load: float, gx: float, gy: float, share: float) -> bool:
     """Whether the unbalanced force (gx, gy) is a small `share` of the load, or there is no load and no ball pressed."""
     # Under preload the balls press each other harder than the load, and rounding grows with that.
     return _is_free(hold, law, load) or math.hypot(gx, gy) <= share * (load + 1e-3 * hold.pressed)
 
 
-@njit_lean
+@njit_inner
 def _is_free(hold: Hold, law: Law, load: float) -> bool:
     return load == 0.0 and hold.pressed <= law.stiffness * NEGLIGIBLE_COMPRESSION**law.exponent
 
 
-@njit_lean
+@njit_inner
 def _status(hold: Hold, law: Law, load: float, gx: float, gy: float) -> int:
     if not _ends(hold, law, load, gx, gy, ACCEPTABLE):
         return NO_EQUILIBRIUM
@@ -142,7 +142,7 @@ def _status(hold: Hold, law: Law, load: float, gx: float, gy: float) -> int:
     return NOT_UNIQUE if _singular(hold) else LOADED
 
 
-@njit_lean
+@njit_inner
 def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_room: float) -> tuple[float, float]:
     """Step (m, m) against the unbalanced force; softened where the stiffness is singular, and never very long."""
     force = max(load, hold.pressed)
@@ -155,7 +155,7 @@ def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_
     return share * x, share * y
 
 
-@njit_lean
+@njit_inner
 def _descend(
     balls: Array,
     frames: Array,
@@ -184,6 +184,6 @@ def _descend(
     return x, y, hold
 
 
-@njit_lean
+@njit_inner
 def _singular(hold: Hold) -> bool:
     return hold.xx * hold.yy - hold.xy * hold.xy <= SINGULAR * (hold.xx + hold.yy) ** 2

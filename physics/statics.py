@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact import COMPRESSION, FORCE, Law, of_ball, set_time
 from physics.outcome import StaticOutcome
@@ -103,7 +103,7 @@ def _solve_all(
             force[k, ball] = of_ball(balls, FORCE, ball)
 
 
-@njit_lean
+@njit_inner
 def _film_damping(balls: Array, frames: Array, law: Law) -> tuple[float, float, float]:
     """Damping xx, yy, xy (N s/m) of the balls that `elastic` found pressed [P14 Eq. 27]."""
     xx, yy, xy = 0.0, 0.0, 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit, njit_lean
+from physics._jit import njit, njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact import Law, set_time
 from physics.rest import Hold, elastic, solve_at
@@ -49,7 +49,7 @@ def _follow(
         stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
 
 
-@njit_lean
+@njit_inner
 def settle(
     balls: Array, frames: Array, law: Law, load_x: float, load_y: float, x: float, y: float
 ) -> tuple[float, float, Hold]:

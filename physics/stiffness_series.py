@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact import FORCE, Law, set_time
 from physics.profile import build_path
@@ -111,7 +111,7 @@ def _fill(
         half //= 2
 
 
-@njit_lean
+@njit_inner
 def _solve(
     balls: Array,
     frames: Array,
@@ -131,7 +131,7 @@ def _solve(
     series[k, MARK] = _mark(balls, track, time[k])
 
 
-@njit_lean
+@njit_inner
 def _interpolate(series: Array, k: int, half: int, missed: Array) -> bool:
     """Fill row `k` from its neighbours and return True, unless something happens between them or they disagree."""
     mark = series[k - half, MARK]
@@ -152,13 +152,13 @@ def _interpolate(series: Array, k: int, half: int, missed: Array) -> bool:
     return True
 
 
-@njit_lean
+@njit_inner
 def _between(series: Array, k: int, half: int, column: int) -> float:
     """The polynomial through the six neighbours of row `k`."""
     return _weighed(series, k, half, column, (NEAR, MIDDLE, FAR))
 
 
-@njit_lean
+@njit_inner
 def _miss(series: Array, k: int, half: int, column: int) -> float:
     """How far the polynomial through the six neighbours of row `k` lies from the one through the nearer four."""
     return _weighed(series, k, half, column, (MISS_NEAR, MISS_MIDDLE, MISS_FAR))
@@ -173,7 +173,7 @@ def _weighed(series: Array, k: int, half: int, column: int, weights: tuple[float
     return weights[0] * near + weights[1] * middle + weights[2] * far
 
 
-@njit_lean
+@njit_inner
 def _mark(balls: Array, track: Track, time: float) -> float:
     """A whole number that tells which balls are pressed and how many edges of paths they have crossed.
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact import ACTIVE, Law, compression_of, law_power, of_ball, touches
 from physics.motion import MotionModel, outer_load, relative_acceleration
 from physics.track import Track
@@ -24,7 +24,7 @@ SURE_SHARE = 1e-5
 MOST_ITERATIONS, GUESS_ITERATIONS = 60, 3
 
 
-@njit_lean
+@njit_inner
 def relative_motion(
     motion: MotionModel, time: float, step: float, state: Array, force: tuple[float, float], ends: Array
 ) -> None:
@@ -66,7 +66,7 @@ def contact_condition(
     return compression, rate * step, rate
 
 
-@njit_lean
+@njit_inner
 def earliest_change(
     balls: Array, law: Law, track: Track, time: float, step: float, begin: Array, end: Array, suspects: Array
 ) -> tuple[float, int, float]:
@@ -86,7 +86,7 @@ def earliest_change(
     return first_share, first_ball, first_rate
 
 
-@njit_inline
+@njit_pasted
 def _root(
     balls: Array, law: Law, track: Track, ball: int, time: float, step: float, begin: Array, end: Array, upper: float
 ) -> tuple[float, float]:
@@ -131,7 +131,7 @@ def _root(
     return high, rate
 
 
-@njit_inline
+@njit_pasted
 def hermite_root(low: float, high: float, at_low: float, at_high: float, slope_low: float, slope_high: float) -> float:
     """A guess of where the cubic through value and slope at both ends is zero; by the chord if slopes are unknown."""
     length = high - low

@@ -1,6 +1,7 @@
 """What the physics tests share: numbers typed from publications, the catalogue's rigs and the reference scenes."""
 
 import math
+import sys
 import tomllib
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,6 +22,8 @@ from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.trace import Trace
+
+sys.path.insert(0, str(Path(__file__).parent))  # so that tests can import kernels
 
 AUTHORITIES = Path(__file__).parents[1] / "authorities"
 RATE = 65536.0

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from kernels import press, reset_contact, set_time
 
 from physics.assembly import assemble, race_speed
 from physics.cage import CagePath, draw_slip_knots
@@ -14,9 +15,6 @@ from physics.contact import (
     FRAME_COSINE,
     FRAME_SINE,
     FRAME_SPEED,
-    press,
-    reset_contact,
-    set_time,
 )
 
 REST, MOVING = (1e-6, -6e-6), (2e-3, -3e-3)

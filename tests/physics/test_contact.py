@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kernels import count_changes, of_ball, press, reset_contact, set_time, touches
 
 from physics.assembly import assemble
 from physics.cage import CagePath, draw_slip_knots
@@ -15,12 +16,6 @@ from physics.contact import (
     COMPRESSION,
     FORCE,
     LAW,
-    count_changes,
-    of_ball,
-    press,
-    reset_contact,
-    set_time,
-    touches,
 )
 from physics.imperfections import Imperfections, Waviness
 from physics.spall import Spall

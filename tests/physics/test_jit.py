@@ -12,7 +12,7 @@ import pytest
 
 import physics
 from physics import _jit
-from physics._jit import CACHE_FOLDER, fingerprint, njit, njit_inline, specialise
+from physics._jit import CACHE_FOLDER, fingerprint, njit, njit_inline, njit_inner, njit_pasted, specialise
 
 PACKAGE = Path(physics.__file__).parent
 
@@ -77,7 +77,7 @@ def polynomial(values):
 
 
 called = njit(polynomial)
-pasted = njit_inline(polynomial)
+parts = {decorator.__name__: decorator(polynomial) for decorator in (njit_inner, njit_inline, njit_pasted)}
 
 
 @njit
@@ -85,14 +85,26 @@ def calling(values):
     return 3.0 * called(values) - values[0]
 
 
-@njit
-def pasting(values):
-    return 3.0 * pasted(values) - values[0]
+@pytest.mark.parametrize("name", parts)
+def test_a_part_of_a_kernel_gives_the_same_bits_as_a_called_one_and_as_plain_python(name):
+    part, values = parts[name], np.random.default_rng(0).uniform(0.0, 2.0, 1001)
+
+    @njit
+    def calling_part(values):
+        return 3.0 * part(values) - values[0]
+
+    assert calling(values) == calling_part(values) == 3.0 * polynomial(values) - values[0]
 
 
-def test_a_pasted_kernel_gives_the_same_bits_as_a_called_one_and_as_plain_python():
-    values = np.random.default_rng(0).uniform(0.0, 2.0, 1001)
-    assert calling(values) == pasting(values) == 3.0 * polynomial(values) - values[0]
+@pytest.mark.parametrize("name", ["njit_inner", "njit_inline"])
+def test_a_part_without_a_door_to_python_says_so_compiled_or_not(name):
+    part = {"njit_inner": njit_inner, "njit_inline": njit_inline}[name](polynomial)
+    with pytest.raises(TypeError, match="polynomial is a part of compiled kernels"):
+        part(np.ones(3))
+    njit(lambda values: part(values))(np.ones(3))
+    with pytest.raises(TypeError, match="call its py_func"):
+        part(np.ones(3))
+    assert part.py_func(np.ones(3)) == 1.5
 
 
 def test_a_kernel_divides_by_zero_as_numpy_does():

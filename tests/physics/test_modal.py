@@ -5,12 +5,12 @@ import math
 
 import numpy as np
 import pytest
+from kernels import foretell, is_rough, reading, through_end, through_middle, turn
 from scipy.linalg import expm
 
 from physics.assembly import assemble
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.march import DONE, LOGGED
-from physics.integrators.modal.carried import foretell, through_end, through_middle
 from physics.integrators.modal.flow import (
     AMPLITUDES,
     AXIS,
@@ -19,10 +19,8 @@ from physics.integrators.modal.flow import (
     amplitudes_of,
     linear_flow,
     physical_state,
-    reading,
     ringing,
 )
-from physics.integrators.modal.grazing import is_rough
 from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, may_shrink
 from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import Stride, memory_for
@@ -43,7 +41,6 @@ from physics.integrators.modal.weights import (
     TURN,
     set_inside,
     set_step,
-    turn,
 )
 from physics.kinks import known_kinks
 from physics.modal_case import mean_flow

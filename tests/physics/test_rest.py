@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kernels import elastic, set_time
 from scipy.optimize import minimize_scalar
 
 from physics.assembly import assemble
-from physics.contact import FLOOR, set_time
+from physics.contact import FLOOR
 from physics.imperfections import Imperfections
 from physics.outcome import StaticOutcome
-from physics.rest import elastic
 from physics.spall import Spall
 from physics.statics import equilibrium, load_vector
 

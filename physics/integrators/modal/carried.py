@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline
+from physics._jit import njit_inline, njit_pasted
 from physics.contact import Law, count_changes, move_to, press
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import (
@@ -61,7 +61,7 @@ def through_end(
     )
 
 
-@njit_inline
+@njit_pasted
 def step_carried(
     balls: Array,
     frames: Array,

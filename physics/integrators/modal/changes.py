@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inner
 from physics.contact import ACTIVE, Law, count_changes, of_ball, reset_contact, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, UNLOCATED, Output, toggle
 from physics.integrators.modal.flow import LinearFlow
@@ -32,14 +32,14 @@ Array = NDArray[np.float64]
 TAKE, AGAIN, CHANGED = range(3)
 
 
-@njit_lean
+@njit_inner
 def change_sides(balls: Array, memory: Memory, output: Output) -> None:
     """Let the ball of the contact change ahead change sides now."""
     toggle(balls, memory.marks[BALL], memory.clock[TIME], output)
     memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
 
 
-@njit_lean
+@njit_inner
 def look(
     balls: Array,
     frames: Array,

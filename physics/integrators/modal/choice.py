@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline
+from physics._jit import njit_inline, njit_pasted
 from physics.contact import count_ahead
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE, Stops, next_kink
 from physics.integrators.modal.memory import (
@@ -34,7 +34,7 @@ LOOK_AHEAD = 1.0
 SHORT = 0.7
 
 
-@njit_inline
+@njit_pasted
 def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> int:
     """How many of the `STRIDES` may be taken from here, as a number from 1; 0 if the step is a sample or less."""
     clock, marks = memory.clock, memory.marks
@@ -68,7 +68,7 @@ def up_to_kink(
     return row, units, target, target
 
 
-@njit_inline
+@njit_pasted
 def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple[int, int, float, float]:
     """Row of the step's weights (0 if they have to be computed), its units (0 if it ends off the grid), its end (s),
     and where to go on (s), beyond a kink at its end."""

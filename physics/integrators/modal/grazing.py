@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner
 from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
 from physics.profile import RELIEF_LEVELS, path_at
 from physics.track import (
@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 MOST_LOOKS = 64
 
 
-@njit_lean
+@njit_inner
 def is_rough(track: Track) -> bool:
     """Whether some spall's path has features finer than steps need be."""
     relief = 0.0
@@ -46,7 +46,7 @@ def is_rough(track: Track) -> bool:
     return relief > 0.0
 
 
-@njit_lean
+@njit_inner
 def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float, step: float, suspects: Array) -> int:
     """Put into `suspects` (G, M) the share of the step at which each ball is first seen to contradict the contact set,
     or 0; how many do. If none does, `suspects` is left as it was.
@@ -98,7 +98,7 @@ def _drop(track: Track, row: Array, arc: float, travel: float) -> tuple[float, f
     return depth, slope * travel
 
 
-@njit_lean
+@njit_inner
 def _first_contradiction(
     balls: Array,
     law: Law,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, count_dips, law_power
 from physics.integrators.modal.memory import (
     BALL,
@@ -48,7 +48,7 @@ CHANGE_SHARE, CHANGE_FACTOR = 0.3, 3.0
 REJECTED, DOUBLED, LONGER, LESS = 4.0, 1.0 / 32.0, 1.5**-5, 0.75
 
 
-@njit_inline
+@njit_pasted
 def graded_length(law: Law, speed: float, tolerance: float) -> float:
     """Longest step (s) next to an instant at which a ball starts or ceases to touch at `speed` (m/s)."""
     return (tolerance / (START_ERROR * law.stiffness * max(abs(speed), 1e-12) ** 1.5)) ** 0.4
@@ -65,7 +65,7 @@ def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
     clock[TOLERANCE] = tolerance / min(max(spent, LEAST_SPENT), MOST_SPENT)
 
 
-@njit_lean
+@njit_inner
 def meet_change(
     law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
 ) -> None:
@@ -84,13 +84,13 @@ def meet_change(
         clock[GRADED] = step
 
 
-@njit_inline
+@njit_pasted
 def may_shrink(grid: Stride, step: float) -> bool:
     """Whether `step` (s) is long enough to be taken back for a shorter one."""
     return step > SHORTEST * grid.interval / UNITS
 
 
-@njit_inline
+@njit_pasted
 def dipped(balls: Array, grid: Stride, memory: Memory, step: float) -> bool:
     """Whether some ball seems to change sides and back within the step, which is then to be halved."""
     if not may_shrink(grid, step) or count_dips(balls, memory.noted, step) == 0:
@@ -99,7 +99,7 @@ def dipped(balls: Array, grid: Stride, memory: Memory, step: float) -> bool:
     return True
 
 
-@njit_lean
+@njit_inner
 def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: float) -> float:
     """Momentum (N s) by which the step is wrong, from the balls' motion at its beginning (`noted`), `midway` and end.
 
@@ -122,13 +122,13 @@ def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: 
     return total
 
 
-@njit_inline
+@njit_pasted
 def is_carried(memory: Memory, step: float) -> bool:
     """Whether the step before is long enough to foretell this one by."""
     return memory.clock[BEFORE] >= LEAST_RATIO * step
 
 
-@njit_inline
+@njit_pasted
 def carried_error(memory: Memory, step: float) -> float:
     """Momentum (N s) that Simpson's rule would miss of the fourth power of the force in a carried step.
 
@@ -137,7 +137,7 @@ def carried_error(memory: Memory, step: float) -> float:
     return step * FOURTH_POWER_ERROR * (abs(memory.course[0, 4]) + abs(memory.course[1, 4]))
 
 
-@njit_inline
+@njit_pasted
 def judge(balls: Array, law: Law, grid: Stride, memory: Memory, step: float, carried: bool) -> bool:
     """Set the pace by the error of the step; False to take it back."""
     clock, tolerance = memory.clock, memory.clock[TOLERANCE]
@@ -159,7 +159,7 @@ def judge(balls: Array, law: Law, grid: Stride, memory: Memory, step: float, car
     return True
 
 
-@njit_inline
+@njit_pasted
 def remember(memory: Memory, step: float, force: tuple[float, float], middle: tuple[float, float]) -> None:
     """Keep the contact force of the step that was taken, which foretells that of the next."""
     past = memory.past

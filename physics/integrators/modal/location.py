@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inner
 from physics.contact import Law, press, set_time
 from physics.integrators.events import earliest_change, mark_suspects, quintic
 from physics.integrators.modal.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
@@ -14,7 +14,7 @@ from physics.track import Track
 Array = NDArray[np.float64]
 
 
-@njit_lean
+@njit_inner
 def relative_motion(
     flow: LinearFlow, step: float, state: Array, force_x: float, force_y: float, rest: Array, ends: Array
 ) -> None:
@@ -26,7 +26,7 @@ def relative_motion(
     ends[2, 0], ends[2, 1] = step * step * a, step * step * b
 
 
-@njit_lean
+@njit_inner
 def locate(
     balls: Array,
     frames: Array,

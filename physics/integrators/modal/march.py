@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_lean, njit_pasted
 from physics.contact import ACTIVE, Law, count_changes, note_motion, of_ball, reset_contact, restore_motion, set_time
 from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import (
@@ -84,7 +84,7 @@ def begin(
     keep(balls, flow, state, memory.rest, force, 0.0, 0, output)
 
 
-@njit_inline
+@njit_pasted
 def land(grid: Stride, memory: Memory, units: int, beyond: float) -> None:
     """Move the clock to the end of a step of `units`, or off the grid to `beyond` (s)."""
     clock, marks = memory.clock, memory.marks
@@ -99,7 +99,7 @@ def land(grid: Stride, memory: Memory, units: int, beyond: float) -> None:
     clock[TIME] = marks[CELL] * unit if marks[ON_GRID] == 1 else beyond
 
 
-@njit_inline
+@njit_pasted
 def write_sample(
     balls: Array,
     flow: LinearFlow,
@@ -128,7 +128,7 @@ def write_sample(
     return square < LARGEST_ACCELERATION**2
 
 
-@njit_inline
+@njit_pasted
 def arrive(
     balls: Array,
     frames: Array,
@@ -157,7 +157,7 @@ def arrive(
     return False
 
 
-@njit_inline
+@njit_pasted
 def try_step(
     balls: Array,
     frames: Array,
@@ -189,7 +189,7 @@ def try_step(
     return carried, halfway, mx, my, after_x, after_y
 
 
-@njit_inline
+@njit_pasted
 def consider(
     balls: Array,
     frames: Array,

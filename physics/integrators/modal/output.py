@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact import ACTIVE, FORCE, Law, of_ball, press, set_time
 from physics.integrators.march import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
 from physics.integrators.modal.flow import (
@@ -35,7 +35,7 @@ from physics.track import Track
 Array = NDArray[np.float64]
 
 
-@njit_lean
+@njit_inner
 def remaining_force(
     balls: Array, frames: Array, law: Law, flow: LinearFlow, state: Array, rest: Array
 ) -> tuple[float, float]:
@@ -45,7 +45,7 @@ def remaining_force(
     return fx - flow.stiffness[0] * x - flow.damping[0] * u, fy - flow.stiffness[1] * y - flow.damping[1] * v
 
 
-@njit_lean
+@njit_inner
 def keep(
     balls: Array,
     flow: LinearFlow,
@@ -79,7 +79,7 @@ def force_on(course: Array, axis: int, share: float) -> float:
     return force
 
 
-@njit_lean
+@njit_inner
 def keep_inside(
     balls: Array,
     frames: Array,
@@ -140,7 +140,7 @@ def record(
     return x * x + y * y
 
 
-@njit_inline
+@njit_pasted
 def write_inside(
     balls: Array,
     frames: Array,

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inner, njit_pasted
 from physics.contact import Law, count_changes, note_motion, press, set_time
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import AT_END, AT_HALF, END, HALF, KICKS, OTHER, TURN, free_motion, push, turn
@@ -22,7 +22,7 @@ from physics.track import Track
 Array = NDArray[np.float64]
 
 
-@njit_lean
+@njit_inner
 def step_modal_rk4(
     balls: Array,
     frames: Array,
@@ -91,7 +91,7 @@ def step_modal_rk4(
     return contradicted, x3, y3, fx - kx * x - cx * u, fy - ky * y - cy * v
 
 
-@njit_inline
+@njit_pasted
 def set_parabola(first: float, twice_middle: float, last: float, course: Array) -> None:
     """Fill `course` (5,) with the parabola through forces (N) at the beginning, in the middle and at the end."""
     course[0], course[1] = first, 2.0 * twice_middle - 3.0 * first - last

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.integrators.modal.flow import (
     AMPLITUDES,
     AXIS,
@@ -61,7 +61,7 @@ def product(twist: float, a: float, b: float, c: float, d: float) -> tuple[float
     return a * c - twist * (b * d), twist * (a * d + b * c) + (1.0 - twist) * (b * d)
 
 
-@njit_lean
+@njit_inner
 def phi_functions(rate: Array, twist: Array, length: float, phi: Array) -> None:
     """Fill `phi` (6, 12): φ0 to φ5 of every pair of amplitudes over `length` (s)."""
     size, doublings = 0.0, 0

@@ -1,0 +1,34 @@
+"""Kernels that only kernels can call, made callable from Python."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+
+from physics import contact, rest
+from physics.integrators.modal import carried, flow, grazing, weights
+
+
+def from_python(kernel: Callable[..., Any]) -> Callable[..., Any]:
+    """A compiled function that hands its arguments on to the `kernel` and returns what that returns."""
+
+    @numba.njit(error_model="numpy")
+    def handed_on(*values):
+        return kernel(*values)
+
+    return handed_on
+
+
+count_changes = from_python(contact.count_changes)
+of_ball = from_python(contact.of_ball)
+press = from_python(contact.press)
+reset_contact = from_python(contact.reset_contact)
+set_time = from_python(contact.set_time)
+touches = from_python(contact.touches)
+elastic = from_python(rest.elastic)
+foretell = from_python(carried.foretell)
+through_middle = from_python(carried.through_middle)
+through_end = from_python(carried.through_end)
+reading = from_python(flow.reading)
+is_rough = from_python(grazing.is_rough)
+turn = from_python(weights.turn)

@@ -290,10 +290,11 @@ def _reaches_floor(spall: Spall, arcs: Array, gap: Array) -> bool:
 
 def hermite_cubics(value: Array, rate: Array) -> Array:
     """Cubics (N, 4), from the cube down, over N cells with these values and slopes per cell at their nodes (N + 1,)."""
-    rise = np.diff(value)
-    return np.column_stack(
-        [rate[:-1] + rate[1:] - 2.0 * rise, 3.0 * rise - 2.0 * rate[:-1] - rate[1:], rate[:-1], value[:-1]]
-    )
+    rise, cubics = np.diff(value), np.empty((value.size - 1, 4))
+    cubics[:, 0] = rate[:-1] + rate[1:] - 2.0 * rise
+    cubics[:, 1] = 3.0 * rise - 2.0 * rate[:-1] - rate[1:]
+    cubics[:, 2], cubics[:, 3] = rate[:-1], value[:-1]
+    return cubics
 
 
 def _distinct(edges: list[float]) -> list[float]:
@@ -309,24 +310,22 @@ def _hermite_pieces(
     edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool, rough: bool
 ) -> DepthPath:
     """Cubic Hermite cells with the curve's values and one-sided slopes at the nodes."""
-    cubics = []
-    nodes_depth, nodes_arc = [], []
-    for left, right, count in zip(edges[:-1], edges[1:], cells, strict=True):
-        nodes = np.linspace(left, right, count + 1)
-        width = (right - left) / count
-        # Slopes are read just inside the piece so that at a kink each side gets its own.
-        inner = np.clip(nodes, left + 1e-9 * width, right - 1e-9 * width)
-        value, rate = depth(inner), slope(inner) * width
-        cubics.append(hermite_cubics(value, rate))
-        nodes_depth.append(value)
-        nodes_arc.append(nodes)
-    values, arcs = np.concatenate(nodes_depth), np.concatenate(nodes_arc)
+    count = np.array(cells, dtype=np.int64)
+    first = np.cumsum(count + 1) - (count + 1)
+    piece = np.repeat(np.arange(count.size), count + 1)
+    width = np.diff(edges) / count
+    arcs = edges[piece] + (np.arange(piece.size) - first[piece]) * width[piece]
+    arcs[first + count] = edges[1:]
+    # Slopes are read just inside the piece so that at a kink each side gets its own.
+    inner = np.clip(arcs, (edges[:-1] + 1e-9 * width)[piece], (edges[1:] - 1e-9 * width)[piece])
+    values, rates = depth(inner), slope(inner) * width[piece]
+    cubics = np.delete(hermite_cubics(values, rates), (first + count)[:-1], axis=0)
     largest = float(values.max())
     floor = arcs[values >= largest - 1e-9 * max(largest, 1e-12)]
     path = DepthPath(
         breaks=np.asarray(edges, dtype=np.float64),
-        cells=np.array(cells, dtype=np.int64),
-        cubics=np.ascontiguousarray(np.concatenate(cubics)),
+        cells=count,
+        cubics=cubics,
         deepest=float(0.5 * (floor[0] + floor[-1])),
         largest_depth=largest,
         bridged=bridged,

@@ -58,6 +58,7 @@ def engaged(engine: Engine) -> Iterator[None]:
     """joblib works with `engine` in this context; raises BadInput if Dask is not there."""
     from joblib import cpu_count, parallel_config
     from joblib.parallel import get_active_backend
+    from threadpoolctl import threadpool_limits
 
     callers, callers_workers = get_active_backend()
     if engine.backend == "dask":
@@ -66,13 +67,18 @@ def engaged(engine: Engine) -> Iterator[None]:
     elif engine.backend is None and type(callers).__name__ != "LokyBackend":
         yield
     else:
-        with parallel_config(
-            backend="loky",
-            n_jobs=engine.workers or callers_workers or cpu_count(),
-            inner_max_num_threads=1,
-            max_nbytes=None,
-            initializer=watch_parent,
-            initargs=(os.getpid(),),
+        # One worker works in this process, where threads that wait for each other would cost more than they bring.
+        limits = threadpool_limits(limits=1)
+        with (
+            limits,
+            parallel_config(
+                backend="loky",
+                n_jobs=engine.workers or callers_workers or cpu_count(),
+                inner_max_num_threads=1,
+                max_nbytes=None,
+                initializer=watch_parent,
+                initargs=(os.getpid(),),
+            ),
         ):
             yield
 

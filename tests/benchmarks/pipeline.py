@@ -21,6 +21,8 @@ from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
 
+from threadpoolctl import threadpool_limits
+
 from datagen.recipes.recipe import Recipe, Store, load_recipe
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
@@ -69,7 +71,7 @@ def plain(recipe: Recipe, compression: str) -> Recipe:
 def one_process(recipe: Recipe, records: int) -> tuple[float, float, int]:
     """Processor time (s) of making and writing the first `records`, their length (s), and bytes written."""
     identity, planned = corpus_identity(recipe), plan_shards(recipe, records)
-    with scratch() as folder:
+    with scratch() as folder, threadpool_limits(limits=1):  # as a worker has it
         begin = time.process_time()
         rows = [make_shard(recipe, folder, shard, identity) for shard in planned]
         spent = time.process_time() - begin
@@ -82,7 +84,7 @@ def shares(recipe: Recipe, records: int) -> dict[str, float]:
     """Share of the time in every step of STAGES, and of all else."""
     identity, planned = corpus_identity(recipe), plan_shards(recipe, records)
     profile = cProfile.Profile()
-    with scratch() as folder:
+    with scratch() as folder, threadpool_limits(limits=1):
         profile.enable()
         for shard in planned:
             make_shard(recipe, folder, shard, identity)

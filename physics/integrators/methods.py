@@ -38,7 +38,7 @@ METHODS: Mapping[str, Method] = {
             dense_output="the modes' exact response to the quartic through the forces of this step and the one before",
             events="located as exactly as the jump of force asks, steps graded as far as the speed of contact asks; "
             "stops at every known kink",
-            purpose="the default: steps of up to sixteen samples, as long as the accuracy allows",
+            purpose="the default: steps of up to twenty-four samples, as long as the accuracy allows",
             source="multistep: Hochbruck and Ostermann 2010, Acta Numerica 19, 209; first steps: Krogstad 2005, "
             "J. Comput. Phys. 203, 72; step control and modes of our own",
         ),

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,16 +66,22 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     table, twist = np.zeros((2 + READINGS, AMPLITUDES)), np.zeros(2 * PAIRS)
     rest, cosine, sine = np.zeros((3, 2, READINGS))
     matrices = np.array([_matrix(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)])
-    for axis, (values, shape) in enumerate(_modes(motion, matrices, stiffness)):
-        columns = np.zeros((2 + READINGS, values.size), dtype=np.complex128)
-        columns[0], columns[1] = values, _push(motion, axis, damping[axis], values, shape)
-        shape = shape * np.where(values.imag > 0.0, 2.0, 1.0)  # readings are real parts
-        _read(motion, shape, columns[2:])
-        columns[2 + ACCELERATION] = columns[2 + VELOCITY] * values
-        columns[2 + OUTER_ACCELERATION] = shape[3] * values
-        swinging = int(np.count_nonzero(values.imag))
-        table[:, axis * AXIS : (axis + 1) * AXIS] = _parts(columns, swinging)
-        twist[axis * PAIRS : axis * PAIRS + swinging] = 1.0
+    for axis, modes in enumerate(_modes(motion, matrices, stiffness)):
+        column = axis * AXIS
+        for value, shape in modes:
+            read = _read(motion, shape)
+            read[ACCELERATION], read[OUTER_ACCELERATION] = read[VELOCITY] * value, shape[3] * value
+            parts = np.array([value, _push(motion, axis, damping[axis], value, shape), *read])
+            if value.imag > 0.0:
+                # Readings are real parts: of twice the share's conjugate and the amplitude.
+                table[:, column], table[:, column + 1] = parts.real, parts.imag
+                table[2:, column] *= 2.0
+                table[2:, column + 1] *= -2.0
+                twist[column // 2] = 1.0
+                column += 2
+            else:
+                table[:, column] = parts.real
+                column += 1
         rest[axis], cosine[axis], sine[axis] = _loaded(motion, axis, matrices[axis], stiffness[axis])
     return LinearFlow(
         rate=table[0],
@@ -93,25 +100,11 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     )
 
 
-def _parts(columns: NDArray[np.complex128], swinging: int) -> Array:
-    """Rates, pushes and shares (R, M) of the modes as real numbers (R, 6): both parts of the swinging, which come
-    first, then the decaying ones."""
-    parts = np.empty((columns.shape[0], AXIS))
-    pairs = 2 * swinging
-    parts[:, 0:pairs:2], parts[:, 1:pairs:2] = columns[:, :swinging].real, columns[:, :swinging].imag
-    parts[2:, 1:pairs:2] *= -1.0  # the real part of share times amplitude takes the share's conjugate
-    parts[:, pairs:] = columns[:, swinging:].real
-    return parts
-
-
-def _read(motion: MotionModel, states: NDArray[np.complex128], read: NDArray[np.complex128]) -> None:
-    """Fill the readings (11, M) of states (6, M) but for the two that need a rate of change."""
-    xi, vi, xo, vo, xr, vr = states
-    read[DISPLACEMENT], read[VELOCITY] = xi - xo, vi - vo
-    read[OUTPUT] = (
-        motion.resonator_stiffness * (xo - xr) + motion.resonator_damping * (vo - vr)
-    ) / motion.resonator_mass
-    read[STATES] = states
+def _read(motion: MotionModel, state: Sequence[complex]) -> list[complex]:
+    """Readings (11) of a state (6); the two that need a rate of change are left zero."""
+    xi, vi, xo, vo, xr, vr = state
+    pull = motion.resonator_stiffness * (xo - xr) + motion.resonator_damping * (vo - vr)
+    return [xi - xo, vi - vo, 0.0, pull / motion.resonator_mass, *state, 0.0]
 
 
 def _matrix(motion: MotionModel, axis: int, k: float, c: float) -> list[list[float]]:
@@ -131,8 +124,8 @@ def _matrix(motion: MotionModel, axis: int, k: float, c: float) -> list[list[flo
 
 def _modes(
     motion: MotionModel, matrices: Array, stiffness: tuple[float, float]
-) -> list[tuple[NDArray[np.complex128], NDArray[np.complex128]]]:
-    """Eigenvalues (M,) and eigenvectors (6, M) along x and y, swinging modes first, of each pair the upper one."""
+) -> list[list[tuple[complex, list[complex]]]]:
+    """Eigenvalue and eigenvector (6) of every mode along x and y, swinging ones first, of each pair the upper one."""
     # Velocities are scaled by a frequency so that displacements and velocities are of one size.
     fast = np.sqrt(np.array(stiffness) / motion.inner_mass + 1.0)
     scale = np.ones((2, AXIS))
@@ -143,11 +136,12 @@ def _modes(
         # Two modes coincide (critical damping): the least shift that parts them stays far below any accuracy asked.
         scaled[:, 1::2, 1::2] *= 1.0 + DEFECT_SHIFT
         values, vectors = np.linalg.eig(scaled)
+    vectors = vectors * scale[:, :, None]
     found = []
     for axis in range(2):
-        order = np.argsort(-values[axis].imag, kind="stable")
-        kept = order[: np.count_nonzero(values[axis].imag >= 0.0)]
-        found.append((values[axis][kept] + 0j, vectors[axis][:, kept] * scale[axis][:, None] + 0j))
+        every = zip(values[axis].tolist(), vectors[axis].T.tolist(), strict=True)
+        upper = [(complex(value), shape) for value, shape in every if value.imag >= 0.0]
+        found.append(sorted(upper, key=lambda mode: mode[0].imag <= 0.0))
     return found
 
 
@@ -157,34 +151,29 @@ def _nearest(values: NDArray[Any]) -> float:
     return float((apart / np.abs(values[:, :, None])).min())
 
 
-def _push(
-    motion: MotionModel, axis: int, damping: float, values: NDArray[np.complex128], shape: NDArray[np.complex128]
-) -> NDArray[np.complex128]:
-    """Amplitudes (M,) per unit of contact force: shapes φ of symmetric M, C, K take φᵀf / φᵀ(2λM + C)φ of a force f."""
-    xi, xo, xr = shape[0], shape[2], shape[4]
+def _push(motion: MotionModel, axis: int, damping: float, value: complex, shape: Sequence[complex]) -> complex:
+    """Amplitude per unit of contact force: a shape φ of symmetric M, C, K takes φᵀf / φᵀ(2λM + C)φ of a force f."""
+    xi, _, xo, _, xr, _ = shape
     mass = motion.inner_mass * xi**2 + motion.outer_mass * xo**2 + motion.resonator_mass * xr**2
     film = damping * (xi - xo) ** 2 + motion.resonator_damping * (xo - xr) ** 2
-    return (xo - xi) / (2.0 * values * mass + film + float(motion.support_damping[axis]) * xo**2)
+    return (xo - xi) / (2.0 * value * mass + film + float(motion.support_damping[axis]) * xo**2)
 
 
 def _loaded(motion: MotionModel, axis: int, matrix: Array, stiffness: float) -> tuple[Array, Array, Array]:
     """Constant, cosine and sine parts (11,) of what the outer loads alone do along one axis."""
-    read = np.zeros((READINGS, 2), dtype=np.complex128)
-    states = np.zeros((AXIS, 2), dtype=np.complex128)
-    if axis == 1:
-        states[2::2, 0] = -motion.load / float(motion.support_stiffness[axis])
-        states[0, 0] = states[2, 0] - motion.load / stiffness
+    load = motion.load if axis == 1 else 0.0
+    outer = -load / float(motion.support_stiffness[axis])
+    still = _read(motion, [outer - load / stiffness, 0.0, outer, 0.0, outer, 0.0])
     turning = motion.unbalance_force * cmath.exp(1j * motion.unbalance_phase) * (1.0 if axis == 0 else -1j)
-    if axis == 1:
-        turning -= motion.load * motion.load_fluctuation * cmath.exp(1j * motion.fluctuation_phase)
+    turning -= load * motion.load_fluctuation * cmath.exp(1j * motion.fluctuation_phase)
+    if turning == 0.0:
+        return np.real(still), np.zeros(READINGS), np.zeros(READINGS)
     speed = motion.shaft_speed
-    if turning != 0.0:
-        push = np.array([0.0, turning / motion.inner_mass, 0.0, 0.0, 0.0, 0.0])
-        states[:, 1] = np.linalg.solve(1j * speed * np.eye(AXIS) - matrix, push)
-    _read(motion, states, read)
-    read[ACCELERATION, 1] = 1j * speed * read[VELOCITY, 1]
-    read[OUTER_ACCELERATION, 1] = 1j * speed * states[3, 1]
-    return read[:, 0].real, read[:, 1].real, -read[:, 1].imag
+    push = np.array([0.0, turning / motion.inner_mass, 0.0, 0.0, 0.0, 0.0])
+    state = np.linalg.solve(1j * speed * np.eye(AXIS) - matrix, push).tolist()
+    swing = _read(motion, state)
+    swing[ACCELERATION], swing[OUTER_ACCELERATION] = 1j * speed * swing[VELOCITY], 1j * speed * state[3]
+    return np.real(still), np.real(swing), -np.imag(swing)
 
 
 @njit_inline

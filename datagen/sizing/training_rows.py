@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
-from datagen.sizing.sized_records import SizedRecord, sized_records
+from datagen.sizing.scored_record import FEWEST_SAMPLES, FEWEST_SPACINGS, LONGEST_SCORED_SPACINGS
+from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_records
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.situation import Situation
@@ -27,7 +28,8 @@ PLACE_TOLERANCE = 0.4
 
 @dataclass(frozen=True)
 class Trial:
-    """One record under one noise: what was found and what is true; `stored` if the noise is the corpus's own.
+    """One record under one noise: what was found and what is true; `stored` if the noise is the corpus's own, `clean`
+    if there is none, `asked` if a size must be told of it.
 
     `true_lag` in samples (NaN: no events); `lag` the same modulo the period (NaN: no events or the wrong race), `arc`
     the spall's in rad (modulo the spacing), `quality` (P,) of each pair, 0 to 1.
@@ -36,6 +38,8 @@ class Trial:
     record: int
     bearing_id: str
     stored: bool
+    clean: bool
+    asked: bool
     situation: Situation
     evidence: Evidence
     true_lag: float
@@ -89,7 +93,14 @@ def trial(sized: SizedRecord, evidence: Evidence, stored: bool) -> Trial:
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)
     bearing_id = str(sized.labels["bearing_id"])
-    return Trial(sized.record, bearing_id, stored, sized.situation, evidence, true_lag, lag, arc, quality)
+    clean = stored != (float(sized.labels["snr_db"]) < CLEAN_DB)
+    asked = _asked(sized, true_lag)
+    return Trial(sized.record, bearing_id, stored, clean, asked, sized.situation, evidence, true_lag, lag, arc, quality)
+
+
+def _asked(sized: SizedRecord, true_lag: float) -> bool:
+    least = max(FEWEST_SAMPLES, FEWEST_SPACINGS * nominal_period(sized.labels) * sized.rate)
+    return true_lag >= least and float(sized.labels["extent_spacing"]) <= LONGEST_SCORED_SPACINGS
 
 
 def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:

@@ -54,6 +54,9 @@ def test_the_reach_holds_ninety_per_cent_of_the_usual_errors_that_are_known() ->
 def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
     made = trials(small_ladder, ("train",))
     assert len(made) == 2 * 24  # clean, as stored, and with noise
+    assert all(trial.clean == trial.stored for trial in made)  # the corpus has no noise
+    for trial in made:  # spalls are at least a tenth of a spacing long, so that five samples are the only bar
+        assert trial.asked == (trial.true_lag >= 5.0 and trial.true_lag >= trial.evidence.mean.period / 50.0)
     with_events = [trial for trial in made if np.isfinite(trial.lag)]
     assert len(with_events) > 20
     for trial in with_events:

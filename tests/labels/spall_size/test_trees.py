@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from sklearn.ensemble import HistGradientBoostingClassifier, HistGradientBoostingRegressor
+from sklearn.ensemble import HistGradientBoostingRegressor
 
-from datagen.sizing.fit import to_trees
+from datagen.sizing.committee import mean_of, to_trees
 from labels.spall_size.trees import Trees
 
 
@@ -17,10 +17,14 @@ def test_plain_trees_say_what_the_library_says():
     assert to_trees(model).predict(rows) == pytest.approx(model.predict(rows), abs=1e-5)  # leaves are stored as float32
 
 
-def test_trees_of_a_classifier_give_log_odds():
+def test_the_mean_of_several_trees_is_the_mean_of_what_each_says():
     rows, aim = rows_and_aim()
-    model = HistGradientBoostingClassifier(max_iter=30, random_state=0).fit(rows, aim > 0.5)
-    assert to_trees(model).predict(rows) == pytest.approx(model.decision_function(rows), abs=1e-4)  # the same
+    models = [
+        HistGradientBoostingRegressor(max_iter=10 + seed, max_features=0.4, random_state=seed).fit(rows, aim + seed)
+        for seed in range(3)
+    ]
+    mean = np.mean([model.predict(rows) for model in models], axis=0)
+    assert mean_of([to_trees(model) for model in models]).predict(rows) == pytest.approx(mean, abs=1e-5)  # float32
 
 
 def test_trees_come_back_from_their_arrays():

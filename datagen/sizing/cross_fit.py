@@ -1,0 +1,37 @@
+"""What a calibration would have told of training records whose bearings it was not fitted to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+TOLD_SHARES = (0.80, 0.85, 0.90, 0.95, 0.98)
+
+
+@dataclass(frozen=True)
+class CrossFit:
+    """Relative error `error` (N,) of the lags of N records that ask for a size, and the `expected` one (N,), of which
+    none above `most` is told."""
+
+    error: Array
+    expected: Array
+    most: float
+
+    def lines(self) -> list[str]:
+        """In words: the silence and the error of what is told, and the error if another share were told."""
+        told = self.expected <= self.most
+        ordered = self.error[np.argsort(self.expected, kind="stable")]
+        shares = [f"{share:.0%}: {_mean(ordered[: round(share * ordered.size)]):.1%}" for share in TOLD_SHARES]
+        return [
+            f"{told.size} records ask for a size: with {self.most:.2f} at most {1.0 - _mean(told):.1%} get none, "
+            f"lag error {_mean(self.error[told]):.1%}",
+            f"lag error by share told: {', '.join(shares)}",
+        ]
+
+
+def _mean(values: NDArray[np.bool_] | Array) -> float:
+    return float(np.mean(values)) if values.size else float("nan")

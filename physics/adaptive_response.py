@@ -38,7 +38,7 @@ SEED_ATTEMPTS = 3
 GUESSED_SHARE, SMALLEST_SHARE = 1e-2, 1e-8
 # No tolerance is below this share of what the load does in a sample: forces are not known better.
 ROUND_OFF = 1e-13
-# The tolerance of the first pilot over that of the second; weights of the guessed size of the signal, in samples.
+# The tolerance of the pilot; weights of the guessed size of the signal, in samples.
 COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
 # No further attempt is made after one that has left more than this share of the error.
 MOST_ATTEMPTS, WORTHWHILE = 4, 0.5

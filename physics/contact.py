@@ -79,7 +79,7 @@ class ContactModel(NamedTuple):
 
 @njit_inner
 def set_time(balls: Array, frames: Array, track: Track, time: float) -> None:
-    """`move_to` as a called function, for places where a pasted copy would only cost compile time."""
+    """`move_to` as a called function, for places where an inlined copy would only cost compile time."""
     move_to(balls, frames, track, time)
 
 

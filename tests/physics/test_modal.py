@@ -23,7 +23,7 @@ from physics.integrators.modal.flow import (
 )
 from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, may_shrink
 from physics.integrators.modal.march import begin, march_modal
-from physics.integrators.modal.memory import Stride, memory_for
+from physics.integrators.modal.memory import STRIDES, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.modal.weights import (
     AT_END,
@@ -43,7 +43,7 @@ from physics.integrators.modal.weights import (
     set_step,
 )
 from physics.kinks import known_kinks
-from physics.modal_case import mean_flow
+from physics.modal_case import March, case_of, mean_flow
 from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed
 from physics.profile import build_path
@@ -247,6 +247,20 @@ def test_carried_steps_are_of_order_five_while_no_contact_changes(fan, build_sce
     fine = marched(scene, 8193, 1.0 / RATE / 64.0)[::64]
     errors = [rms(marched(scene, 128 * k + 1, 1.0 / k / RATE)[::k] - fine) for k in (1, 2, 4)]
     assert -np.diff(np.log2(errors)) == pytest.approx(5.0, abs=0.1)
+
+
+def test_a_march_that_pauses_goes_on_as_if_it_had_not(reference_scene, reference_trace):
+    scene, samples = reference_scene("F1", 0.1), round(0.1 * RATE)
+    start = starting_state(motion_model(scene), equilibrium(scene, np.zeros(1)).displacement[0])
+    grid = Stride(samples, 1.0 / RATE, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
+    once, paused = March(case_of(scene, start, RATE), samples), March(case_of(scene, start, RATE), samples)
+    once.go_on(grid)
+    for until in (1, 700, 701, 2048, samples):
+        paused.go_on(grid._replace(samples=until))
+    fine = reference_trace("F1", 0.1, 16)
+    for march in (once, paused):
+        assert rms(march.output.acceleration - fine.acceleration) < 1e-3 * rms(fine.acceleration)  # 1e-9 N s a step
+        assert march.output.tally[LOGGED] == fine.changes.time.size
 
 
 def test_readings_are_what_the_state_gives(fan, quiet_flow):

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from physics.cage import CagePath
 from physics.contact import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, PLACE, SINE, ContactModel, Law
+from physics.depth_path import DepthPath, hermite_cubics
 from physics.imperfections import Waviness
-from physics.profile import DepthPath, build_path, hermite_cubics
+from physics.profile import build_path
 from physics.scene import Scene
 from physics.track import (
     ANGLE,

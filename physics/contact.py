@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.profile import path_at
+from physics.depth_path import path_at
 from physics.track import (
     ANGLE,
     CAGE,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.profile import RELIEF_LEVELS, path_at
+from physics.depth_path import RELIEF_LEVELS, path_at
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -27,7 +27,7 @@ class Track(NamedTuple):
     """What the balls run on, as a function of time.
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
-    Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.profile.DepthPath). `waviness`
+    Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.depth_path.DepthPath). `waviness`
     (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N a multiple of the balls of a
     row, 0 for smooth races.
     """

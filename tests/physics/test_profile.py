@@ -8,9 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from physics.depth_path import hermite_cubics
 from physics.imperfections import Imperfections, Waviness
-from physics.profile import build_path, hermite_cubics, race_depth, window, wrap
+from physics.profile import build_path, race_depth, wrap
 from physics.spall import Spall
+from physics.spall_surface import window
 
 RACES = pytest.mark.parametrize("race", ["outer", "inner"])
 EXTENT = math.radians(2.0)

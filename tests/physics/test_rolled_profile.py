@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from physics.profile import build_path, race_depth, roughness_curve, window
+from physics.profile import build_path, race_depth
 from physics.spall import Spall
+from physics.spall_surface import roughness_curve, window
 
 RACES = pytest.mark.parametrize("race", ["outer", "inner"])
 EXTENT = math.radians(2.0)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner
 from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
-from physics.profile import RELIEF_LEVELS, path_at
+from physics.depth_path import RELIEF_LEVELS, path_at
 from physics.track import (
     ANGLE,
     CAGE,

@@ -40,6 +40,8 @@ GUESSED_SHARE, SMALLEST_SHARE = 1e-2, 1e-8
 ROUND_OFF = 1e-13
 # The tolerance of the pilot; weights of the guessed size of the signal, in samples.
 COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
+# A beginning made with more than this many times the tolerance that the scene turns out to need is made again.
+CALM = 1.5
 # No further attempt is made after one that has left more than this share of the error.
 MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
 
@@ -76,13 +78,13 @@ def _to_accuracy(
 ) -> tuple[Output, Stride, float]:
     """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, and that error.
 
-    The first attempt goes on with the `march` that has begun; more begin anew.
+    The first attempt goes on with the `march` that has begun, unless the scene makes much of errors; more begin anew.
     """
     case, samples = march.case, march.samples
     tame = 1.0 if sensitivity > CHAOTIC else max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
     aim, error = AIM / tame, math.inf
     for attempt in range(MOST_ATTEMPTS):
-        if attempt > 0:
+        if attempt > 0 or tame > CALM:
             march = March(case, samples, march.kept)
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame * aim)) ** 2
         grid = _grid(case, samples, aim * accuracy, aim * least, seen, UNCERTAIN, spending)

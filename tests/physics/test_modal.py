@@ -334,7 +334,7 @@ def test_more_accuracy_takes_shorter_steps(reference_scene):
 
 def test_a_beginning_too_coarse_for_the_scene_is_made_again(reference_scene):
     scene = reference_scene("G1", 0.04)  # of which the beginning that says how sensitive the scene is takes four fifths
-    scene = replace(scene, rig=replace(scene.rig, film_damping=1e4))
+    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, film_damping=1e4))
     fine = simulate(scene, RATE, substeps=64, estimate_error=False).acceleration
     assert rms(simulate(scene, RATE).acceleration - fine) < 0.7e-3 * rms(fine)  # 1.7e-3 if it is kept
 

@@ -62,8 +62,10 @@ def njit_lean(kernel: Kernel) -> Kernel:
 
 
 def njit_inner(kernel: Kernel) -> Kernel:
-    """Like `njit_lean`, for kernels to call alone: from Python TypeError. Without a door to Python a kernel that takes
-    dozens of arrays compiles in half the time."""
+    """Like `njit_lean`, but only other kernels can call it; called from Python, it raises TypeError.
+
+    A kernel that takes dozens of arrays compiles in half the time without code that unpacks them from Python objects.
+    """
     return cast(Kernel, _without_door(_decorator(**LEAN, no_cpython_wrapper=True)(kernel)))
 
 

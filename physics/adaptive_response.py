@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
-# A response of more than this sensitivity may be chaotic where the pilots did not look: it is made again with this
+# A response of more than this sensitivity may be chaotic where the pilot did not look: it is made again with this
 # share of the tolerance, and what both are apart tells.
 DOUBTFUL, FINER = 4.0, 0.25
 PILOT_SAMPLES = 2048
@@ -59,13 +59,12 @@ def respond_accurately(
     case = case_of(scene, start, rate)
     march = March(case, samples, kept)
     seen, sensitivity = _beginning(march, accuracy, least)
-    output, grid, error = _to_accuracy(march, accuracy, least, seen, sensitivity)
+    output, grid, error, size = _to_accuracy(march, accuracy, least, seen, sensitivity)
     if DOUBTFUL < sensitivity <= CHAOTIC:
         finer = March(case, samples, kept).go_on(grid._replace(share=FINER * grid.share, least=FINER * grid.least))
         apart, pushed = rms(output.acceleration - finer.acceleration), case.pushed(output, samples)
         sensitivity = max(sensitivity, apart / pushed if pushed > 0.0 else 0.0)
-        output, error = finer, SENSITIVE * sensitivity * case.pushed(finer, samples)
-    size = rms(output.acceleration)
+        output, error, size = finer, SENSITIVE * sensitivity * case.pushed(finer, samples), rms(finer.acceleration)
     trace = trace_of(scene, case.contact, Grid(samples, 1, grid.interval), output, MODAL)
     step = (samples - 1) * grid.interval / max(1, int(output.tally[STEPS]))
     # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
@@ -75,8 +74,9 @@ def respond_accurately(
 
 def _to_accuracy(
     march: March, accuracy: float, least: float, seen: float, sensitivity: float
-) -> tuple[Output, Stride, float]:
-    """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, and that error.
+) -> tuple[Output, Stride, float, float]:
+    """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, that error, and the
+    response's own RMS (m/s²).
 
     The first attempt goes on with the `march` that has begun, unless the scene makes much of errors; more begin anew.
     """
@@ -95,7 +95,7 @@ def _to_accuracy(
             break
         aim *= min(0.5, 0.7 * max(accuracy * size, least) / error)
         seen = size**2
-    return output, grid, error
+    return output, grid, error, size
 
 
 def rms(values: Array) -> float:

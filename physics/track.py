@@ -90,15 +90,21 @@ def wave_cell(cells: int, angle: float) -> tuple[int, float]:
 def spall_under(track: Track, spall: int, number: int, angle: float, speed: float, time: float) -> tuple[float, float]:
     """Depth (m) under ball `number` of the spall's row and its rate (m/s)."""
     sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
-    first_break, pieces = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, PIECES])
-    entry, leave = track.breaks[first_break], track.breaks[first_break + pieces]
+    entry = track.breaks[int(track.spalls[spall, FIRST_BREAK])]
     arc = sign * (angle - track.spalls[spall, ANGLE] - race_speed * time + number * track.spacing)
     circle = track.row_size * track.spacing
     arc += math.ceil((entry - arc) / circle) * circle
-    if arc > leave:
-        return 0.0, 0.0
-    depth, slope = path_at(
-        track.breaks, track.cells, track.cubics, first_break, int(track.spalls[spall, FIRST_PIECE]), pieces,
-        int(track.spalls[spall, FIRST_CUBIC]), arc,
-    )  # fmt: skip
+    depth, slope = path_under(track, spall, arc)
     return depth, slope * sign * (speed - race_speed)
+
+
+@njit_inline
+def path_under(track: Track, spall: int, arc: float) -> tuple[float, float]:
+    """Drop (m) and slope (m/rad) of a spall's path at `arc` (rad); zero outside."""
+    row = track.spalls[spall]
+    first_break, pieces = int(row[FIRST_BREAK]), int(row[PIECES])
+    if arc < track.breaks[first_break] or arc > track.breaks[first_break + pieces]:
+        return 0.0, 0.0
+    return path_at(
+        track.breaks, track.cells, track.cubics, first_break, int(row[FIRST_PIECE]), pieces, int(row[FIRST_CUBIC]), arc
+    )

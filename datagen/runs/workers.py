@@ -68,9 +68,8 @@ def engaged(engine: Engine) -> Iterator[None]:
         yield
     else:
         # One worker works in this process, where threads that wait for each other would cost more than they bring.
-        limits = threadpool_limits(limits=1)
         with (
-            limits,
+            threadpool_limits(limits=1),
             parallel_config(
                 backend="loky",
                 n_jobs=engine.workers or callers_workers or cpu_count(),

@@ -93,7 +93,8 @@ def trial(sized: SizedRecord, evidence: Evidence, stored: bool) -> Trial:
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)
     bearing_id = str(sized.labels["bearing_id"])
-    clean = stored != (float(sized.labels["snr_db"]) < CLEAN_DB)
+    noisy = float(sized.labels["snr_db"]) < CLEAN_DB
+    clean = stored != noisy  # of every record one trial is as stored, and the other the other way round
     asked = _asked(sized, true_lag)
     return Trial(sized.record, bearing_id, stored, clean, asked, sized.situation, evidence, true_lag, lag, arc, quality)
 

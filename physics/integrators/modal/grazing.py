@@ -12,23 +12,22 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_inner
+from physics._jit import njit_inner
 from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
-from physics.depth_path import RELIEF_LEVELS, path_at
+from physics.depth_path import RELIEF_LEVELS
 from physics.track import (
     ANGLE,
     CAGE,
     CELL,
     FIRST_BALL,
     FIRST_BREAK,
-    FIRST_CUBIC,
-    FIRST_PIECE,
     PIECES,
     RELIEF,
     SIGN,
     SPEED,
     Track,
     cage_at,
+    path_under,
 )
 
 Array = NDArray[np.float64]
@@ -74,7 +73,7 @@ def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float
             place = int(row[FIRST_BALL]) + int(row[SIGN] * turns) % track.row_size
             if min(abs(balls[cage, COMPRESSION, place]), abs(noted[cage, 0, place])) < row[RELIEF + level]:
                 looks = int(min(float(MOST_LOOKS), math.ceil(cells) + 1.0))
-                seen = _first_contradiction(balls, law, track, row, noted, cage, place, step, arc, travel, looks)
+                seen = _first_contradiction(balls, law, track, spall, noted, cage, place, step, arc, travel, looks)
                 if seen > 0.0:
                     if grazing == 0:
                         suspects[:] = 0.0
@@ -85,25 +84,12 @@ def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float
     return grazing
 
 
-@njit_inline
-def _drop(track: Track, row: Array, arc: float, travel: float) -> tuple[float, float]:
-    """Depth (m) of the path at `arc`, and what its slope adds to it over an arc of `travel`."""
-    first = int(row[FIRST_BREAK])
-    if arc < track.breaks[first] or arc > track.breaks[first + int(row[PIECES])]:
-        return 0.0, 0.0
-    depth, slope = path_at(
-        track.breaks, track.cells, track.cubics, first, int(row[FIRST_PIECE]), int(row[PIECES]),
-        int(row[FIRST_CUBIC]), arc,
-    )  # fmt: skip
-    return depth, slope * travel
-
-
 @njit_inner
 def _first_contradiction(
     balls: Array,
     law: Law,
     track: Track,
-    row: Array,
+    spall: int,
     noted: Array,
     cage: int,
     place: int,
@@ -114,20 +100,20 @@ def _first_contradiction(
 ) -> float:
     """Share of the step at which a ball that starts at `arc` and covers `travel` first contradicts the contact set; 0
     if none of the `looks` sees it."""
-    depth, fall = _drop(track, row, arc, travel)
-    begin, begin_rate = noted[cage, 0, place] + depth, step * noted[cage, 1, place] + fall
-    depth, fall = _drop(track, row, arc + travel, travel)
-    end, end_rate = balls[cage, COMPRESSION, place] + depth, step * balls[cage, CLOSING, place] + fall
+    depth, slope = path_under(track, spall, arc)
+    begin, begin_rate = noted[cage, 0, place] + depth, step * noted[cage, 1, place] + slope * travel
+    depth, slope = path_under(track, spall, arc + travel)
+    end, end_rate = balls[cage, COMPRESSION, place] + depth, step * balls[cage, CLOSING, place] + slope * travel
     c2 = 3.0 * (end - begin) - 2.0 * begin_rate - end_rate
     c3 = begin_rate + end_rate - 2.0 * (end - begin)
     held = balls[cage, ACTIVE, place] > 0.5
     for look in range(1, looks):
         share = look / looks
-        depth, fall = _drop(track, row, arc + share * travel, travel)
+        depth, slope = path_under(track, spall, arc + share * travel)
         compression = ((c3 * share + c2) * share + begin_rate) * share + begin - depth
         touching = compression > 0.0
         if law.no_tension and touching:
-            rate = ((3.0 * c3 * share + 2.0 * c2) * share + begin_rate - fall) / step
+            rate = ((3.0 * c3 * share + 2.0 * c2) * share + begin_rate - slope * travel) / step
             touching = law.stiffness * compression * law_power(law, compression) + law.damping * rate > 0.0
         if touching != held:
             return share

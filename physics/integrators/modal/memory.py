@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 UNITS = 16
 # Steps of more than a sample, in samples, and where the weights of the samples inside each begin.
 STRIDES = (2, 3, 4, 6, 8, 12, 16, 24)
-FIRST_INSIDE = (0, 1, 3, 6, 11, 18, 29, 44)
+FIRST_INSIDE = tuple(sum(STRIDES[:k]) - k for k in range(len(STRIDES)))
 # Shortest step that an error may ask for, as a share of a unit.
 SHORTEST = 1.0 / 64.0
 NO_BALL = -1

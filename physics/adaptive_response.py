@@ -120,16 +120,20 @@ def _grid(case: Case, samples: int, share: float, least: float, seen: float, wei
 
 def _beginning(march: March, accuracy: float, least: float) -> tuple[float, float]:
     """Let the `march` begin; the mean square (m²/s⁴) of its first samples' acceleration, and how many times as far it
-    is from a coarser one as the errors of that one's steps add up to."""
-    case, length = march.case, min(march.samples, PILOT_SAMPLES)
+    is from a coarser one as the errors of that one's steps add up to, for as long as they may grow."""
+    case, short = march.case, min(march.samples, PILOT_SAMPLES)
+    length = min(march.samples, max(short, math.ceil(case.memory * case.rate)))
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
     for _ in range(SEED_ATTEMPTS):
-        coarse = March(case, length).go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
-        found = rms(coarse.acceleration[length // 2 :])
+        pilot = March(case, length)
+        coarse = pilot.go_on(_grid(case, short, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
+        found = rms(coarse.acceleration[short // 2 : short])
         if found > 0.1 * size:
             size = found
             break
         size = max(found, 1e-3 * size)
+    if length > short:
+        coarse = pilot.go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
     wanted = AIM * min(max(accuracy, least / size), COARSE)
     fine = march.go_on(_grid(case, length, wanted, 0.0, size**2, CERTAIN, 1.0))
     pushed = case.pushed(coarse, length)

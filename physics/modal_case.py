@@ -13,7 +13,7 @@ from physics.assembly import assemble
 from physics.contact import ContactModel
 from physics.integrators.adaptive_march import OUT_OF_STEPS
 from physics.integrators.march import LOG_FULL, NOT_FINITE, Output, Stops
-from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, ringing
+from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.memory import Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
@@ -22,7 +22,7 @@ from physics.motion import MotionModel, motion_model
 from physics.outcome import Outcome, SimulationFailed
 from physics.response import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
 from physics.scene import Scene
-from physics.statics import equilibrium
+from physics.statics import Equilibrium, equilibrium
 
 Array = NDArray[np.float64]
 
@@ -43,10 +43,12 @@ class Kept:
 
 @dataclass(frozen=True)
 class Case:
-    """What every march of a scene from the state `start` (12,) on a grid of `rate` (Hz) has in common."""
+    """What every march of a scene from the state `start` (12,) on a grid of `rate` (Hz) has in common; `memory` (s):
+    how long its contacts may make errors grow."""
 
     scene: Scene
     flow: LinearFlow
+    memory: float
     contact: ContactModel
     stops: Stops
     start: Array
@@ -80,13 +82,19 @@ class Case:
 
 def case_of(scene: Scene, start: Array, rate: float) -> Case:
     """`scene` made ready for marches from the state `start` (12,) at `rate` (Hz)."""
-    motion, contact = motion_model(scene), assemble(scene)
-    return Case(scene, mean_flow(scene, motion), contact, known_kinks(scene, contact), start, rate)
+    motion, contact, rest = motion_model(scene), assemble(scene), resting(scene)
+    flow = mean_flow(motion, rest)
+    memory = memory_of_errors(flow, rest.stiffness[:, :2].std(axis=0))
+    return Case(scene, flow, memory, contact, known_kinks(scene, contact), start, rate)
 
 
-def mean_flow(scene: Scene, motion: MotionModel) -> LinearFlow:
-    """Modes of `scene` with the mean of its quasi-static contact stiffness and damping."""
-    rest = equilibrium(scene, np.linspace(0.0, scene.duration, MEAN_STIFFNESS_TIMES))
+def resting(scene: Scene) -> Equilibrium:
+    """Quasi-static positions of `scene` all along."""
+    return equilibrium(scene, np.linspace(0.0, scene.duration, MEAN_STIFFNESS_TIMES))
+
+
+def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
+    """Modes of `motion` with the mean contact stiffness and damping of the positions `rest`."""
     stiffness, damping = rest.stiffness.mean(axis=0), rest.damping.mean(axis=0)
     kx, ky = (max(float(stiffness[axis]), SMALLEST_STIFFNESS) for axis in range(2))
     return linear_flow(motion, (kx, ky), (float(damping[0]), float(damping[1])))

@@ -43,7 +43,7 @@ from physics.integrators.modal.weights import (
     set_step,
 )
 from physics.kinks import known_kinks
-from physics.modal_case import March, case_of, mean_flow
+from physics.modal_case import March, case_of, mean_flow, resting
 from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed
 from physics.profile import build_path
@@ -225,7 +225,7 @@ def test_the_error_of_a_quartic_force_is_that_of_simpsons_rule():
 def marched(scene, samples, interval):
     """Acceleration (samples, 2) by carried steps of one `interval` (s) throughout, from the static equilibrium."""
     contact, motion = assemble(scene), motion_model(scene)
-    flow = mean_flow(scene, motion)
+    flow = mean_flow(motion, resting(scene))
     grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
     start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
     output = empty_output(contact, samples, 64, False, False, False)

@@ -34,6 +34,8 @@ STATES = slice(SHAPE, OUTER_ACCELERATION)
 # Two eigenvalues nearer to each other than this share of their size lose the digits that their modes stand for.
 NEAREST = 1e-8
 DEFECT_SHIFT = 1e-6
+# Of 60 scenes of the wide corpus that last a second, errors grew unseen in one; its ratio is 16, that of twelve above 10.
+FEEDING = 10.0
 
 
 class LinearFlow(NamedTuple):
@@ -250,6 +252,23 @@ def ringing(flow: LinearFlow, duration: float) -> float:
         mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())
         sums.append(-0.5 * float((same + mixed).sum().real))
     return max(sums)
+
+
+def memory_of_errors(flow: LinearFlow, swing: Array) -> float:
+    """Time constant (s) of the slowest mode that contacts whose stiffness swings by `swing` (2,), N/m, may feed: 0 if
+    none is.
+
+    A change of stiffness moves an eigenvalue by the mode's answer to the force that goes with it. Where that is many
+    times the decay, errors may grow from one swing to the next for as long as the mode rings.
+    """
+    longest = 0.0
+    for axis in range(2):
+        rate, kick, read = (
+            _complex_modes(flow, values, axis) for values in (flow.rate, flow.kick, flow.read[DISPLACEMENT])
+        )
+        fed = 0.5 * swing[axis] * np.abs(kick * read) > FEEDING * np.abs(rate.real)
+        longest = max(longest, float((1.0 / np.abs(rate.real[fed])).max(initial=0.0)))
+    return longest
 
 
 def _complex_modes(flow: LinearFlow, values: Array, axis: int) -> NDArray[np.complex128]:

@@ -9,6 +9,7 @@ a pilot shows that this scene makes of them: contact changes can multiply an err
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -23,6 +24,8 @@ from physics.scene import Scene
 from physics.trace import CHAOTIC, Trace
 
 Array = NDArray[np.float64]
+GoOn = Callable[[March, Stride], Output]
+ACCELERATION_ALONE = Kept()
 
 # Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
 # them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
@@ -47,33 +50,44 @@ MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
 
 
 def respond_accurately(
-    scene: Scene, start: Array, rate: float, samples: int, accuracy: float, least: float, kept: Kept
+    scene: Scene,
+    start: Array,
+    rate: float,
+    samples: int,
+    accuracy: float,
+    least: float,
+    kept: Kept = ACCELERATION_ALONE,
+    go_on: GoOn = March.go_on,
+    pilot: int = PILOT_SAMPLES,
 ) -> Trace:
     """Trace of `scene` at k / rate from the state `start` (12,), to the relative RMS `accuracy` with its estimate.
 
-    `least` (m/s², RMS) is an error that is always allowed. A short coarse pilot and the beginning of the response say
-    how large the signal is and how much this scene makes of the errors of its steps; where that is much, a finer
-    response says it again. Raises SimulationFailed if the response stops being finite or contact changes more often
-    than can be logged.
+    `least` (m/s², RMS) is an error that is always allowed. `go_on` may end a march before all samples. A coarse
+    `pilot` of some samples and the beginning of the response say how large the signal is and how much this scene makes
+    of the errors of its steps; where that is much, a finer response says it again. Raises SimulationFailed if the
+    response stops being finite or contact changes more often than can be logged.
     """
     case = case_of(scene, start, rate)
     march = March(case, samples, kept)
-    seen, sensitivity = _beginning(march, accuracy, least)
-    output, grid, error, size = _to_accuracy(march, accuracy, least, seen, sensitivity)
+    seen, sensitivity = _beginning(march, pilot, accuracy, least)
+    output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, sensitivity)
     if DOUBTFUL < sensitivity <= CHAOTIC:
-        finer = March(case, samples, kept).go_on(grid._replace(share=FINER * grid.share, least=FINER * grid.least))
-        apart, pushed = rms(output.acceleration - finer.acceleration), case.pushed(output, samples)
+        finer_grid = grid._replace(share=FINER * grid.share, least=FINER * grid.least)
+        finer = go_on(March(case, samples, kept), finer_grid)
+        both = min(output.acceleration.shape[0], finer.acceleration.shape[0])
+        apart, pushed = rms(output.acceleration[:both] - finer.acceleration[:both]), case.pushed(output)
         sensitivity = max(sensitivity, apart / pushed if pushed > 0.0 else 0.0)
-        output, error, size = finer, SENSITIVE * sensitivity * case.pushed(finer, samples), rms(finer.acceleration)
-    trace = trace_of(scene, case.contact, Grid(samples, 1, grid.interval), output, MODAL)
-    step = (samples - 1) * grid.interval / max(1, int(output.tally[STEPS]))
+        output, error, size = finer, SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
+    marched = output.acceleration.shape[0]
+    trace = trace_of(scene, case.contact, Grid(marched, 1, grid.interval), output, MODAL)
+    step = (marched - 1) * grid.interval / max(1, int(output.tally[STEPS]))
     # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
     relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
     return replace(trace, step=step, error_estimate=relative, sensitivity=sensitivity)
 
 
 def _to_accuracy(
-    march: March, accuracy: float, least: float, seen: float, sensitivity: float
+    march: March, go_on: GoOn, accuracy: float, least: float, seen: float, sensitivity: float
 ) -> tuple[Output, Stride, float, float]:
     """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, that error, and the
     response's own RMS (m/s²).
@@ -88,9 +102,9 @@ def _to_accuracy(
             march = March(case, samples, march.kept)
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame * aim)) ** 2
         grid = _grid(case, samples, aim * accuracy, aim * least, seen, UNCERTAIN, spending)
-        output = march.go_on(grid)
+        output = go_on(march, grid)
         size = rms(output.acceleration)
-        before, error = error, ERROR_FACTOR * tame * case.pushed(output, samples)
+        before, error = error, ERROR_FACTOR * tame * case.pushed(output)
         if error <= max(accuracy * size, least) or error > WORTHWHILE * before:
             break
         aim *= min(0.5, 0.7 * max(accuracy * size, least) / error)
@@ -118,24 +132,24 @@ def _grid(case: Case, samples: int, share: float, least: float, seen: float, wei
     )
 
 
-def _beginning(march: March, accuracy: float, least: float) -> tuple[float, float]:
+def _beginning(march: March, pilot: int, accuracy: float, least: float) -> tuple[float, float]:
     """Let the `march` begin; the mean square (m²/s⁴) of its first samples' acceleration, and how many times as far it
     is from a coarser one as the errors of that one's steps add up to, for as long as they may grow."""
-    case, short = march.case, min(march.samples, PILOT_SAMPLES)
-    length = min(march.samples, max(short, math.ceil(case.memory * case.rate)))
+    case, short = march.case, min(march.samples, pilot)
+    length = max(short, math.ceil(min(case.memory * case.rate, march.samples)))
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
     for _ in range(SEED_ATTEMPTS):
-        pilot = March(case, length)
-        coarse = pilot.go_on(_grid(case, short, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
+        ahead = March(case, length)
+        coarse = ahead.go_on(_grid(case, short, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
         found = rms(coarse.acceleration[short // 2 : short])
         if found > 0.1 * size:
             size = found
             break
         size = max(found, 1e-3 * size)
     if length > short:
-        coarse = pilot.go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
+        coarse = ahead.go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
     wanted = AIM * min(max(accuracy, least / size), COARSE)
     fine = march.go_on(_grid(case, length, wanted, 0.0, size**2, CERTAIN, 1.0))
-    pushed = case.pushed(coarse, length)
+    pushed = case.pushed(coarse)
     apart = rms(coarse.acceleration - fine.acceleration[:length])
     return size**2, apart / pushed if pushed > 0.0 else 1.0

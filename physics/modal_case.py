@@ -74,10 +74,10 @@ class Case:
         """Momentum (N s) a step may be wrong by for an error of 1 m/s² (RMS), at the usual number of pushes."""
         return 1.0 / math.sqrt(self.ringing * USUAL_PUSHES * self.rate)
 
-    def pushed(self, output: Output, samples: int) -> float:
-        """What the errors of the steps of `samples` add up to in the resonator's acceleration (m/s², RMS of both
+    def pushed(self, output: Output) -> float:
+        """What the errors of the steps of `output` add up to in the resonator's acceleration (m/s², RMS of both
         axes)."""
-        return math.sqrt(0.5 * self.ringing * float(output.budget[0]) * self.rate / samples)
+        return math.sqrt(0.5 * self.ringing * float(output.budget[0]) * self.rate / output.acceleration.shape[0])
 
 
 def case_of(scene: Scene, start: Array, rate: float) -> Case:

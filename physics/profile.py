@@ -40,6 +40,11 @@ def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
     return _rolled_path(spall, bearing)
 
 
+def is_rough(spall: Spall, bearing: Bearing) -> bool:
+    """Whether the path of the ball's centre over `spall` goes up and down all along."""
+    return bool(build_path(spall, bearing).relief[0] > 0.0)
+
+
 def race_depth(scene: Scene, row: int, angle: Array) -> Array:
     """Path of the ball's centre on the defective race (N,), m, at angles (N,) fixed to it and equal to φ at t = 0.
 

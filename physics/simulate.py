@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import discard_cache
-from physics.adaptive_response import respond_accurately
+from physics.adaptive_response import ACCELERATION_ALONE, respond_accurately
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.integrators.march import Grid
@@ -21,6 +21,7 @@ from physics.modal_case import Kept
 from physics.motion import motion_model, starting_state
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.periodic_response import respond_until_repeated, worth_repeating
 from physics.resampling import decimate
 from physics.response import MODEL, respond, respond_by_reference
 from physics.scene import Scene
@@ -58,11 +59,14 @@ def simulate(
     keep_force: bool = False,
     keep_outer: bool = False,
     estimate_error: bool = True,
+    repeat: bool = True,
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
 
     By default the modal method chooses its own steps so that the relative RMS error of the acceleration stays within
-    `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made.
+    `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made;
+    where nothing slips, it stops when the response repeats itself from ball to ball (unless more is to be kept, or not
+    with `repeat` False).
     Other methods take `substeps` fixed steps a sample (and are meant if they are given); None starts from the fewest
     that resolve the fastest mode and doubles them until a pilot of a few ball passes differs from one at half the step
     by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
@@ -83,7 +87,9 @@ def simulate(
     factor = oversampling(scene, rate)
     if method == MODAL:
         kept = Kept(keep_state, keep_force, keep_outer)
-        trace = respond_accurately(scene, start, rate * factor, samples * factor, accuracy, least_error, kept)
+        wanted = (scene, start, rate * factor, samples * factor, accuracy, least_error)
+        repeated = repeat and kept == ACCELERATION_ALONE and worth_repeating(scene, samples / rate, accuracy)
+        trace = respond_until_repeated(*wanted) if repeated else respond_accurately(*wanted, kept)
         return _lowered(trace, rate, factor)
     steps, error = substeps or default_substeps(scene, rate * factor), math.nan
     least = stable_substeps(scene, METHODS[method], rest, rate * factor)

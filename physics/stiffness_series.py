@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact import FORCE, Law, set_time
-from physics.profile import build_path
+from physics.profile import is_rough
 from physics.scene import Scene
-from physics.spall import Spall
 from physics.statics import load_vector
 from physics.stiffness import expected, settle, stiffness_trace
 from physics.track import ANGLE, CAGE, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, Track, cage_at
@@ -69,17 +68,13 @@ def coarsest_stride(scene: Scene, step: float) -> int:
 
     1 where a ball is always on a rough surface.
     """
-    if any(spall.extent >= scene.rig.bearing.spacing and _is_rough(scene, spall) for spall in scene.spalls):
+    if any(spall.extent >= scene.rig.bearing.spacing and is_rough(spall, scene.rig.bearing) for spall in scene.spalls):
         return 1
     bearing, turn = scene.rig.bearing, scene.operation.shaft_speed / (2.0 * math.pi)
     needed = FEWEST_NODES_PER_PASS * max(bearing.bpfo, bearing.bpfi) * turn
     for wave in scene.imperfections.waviness:
         needed = max(needed, FEWEST_NODES_PER_WAVE * wave.order * turn)
     return int(2.0 ** math.floor(math.log2(min(max(1.0 / (step * needed), 1.0), COARSEST_STRIDE))))
-
-
-def _is_rough(scene: Scene, spall: Spall) -> bool:
-    return bool(build_path(spall, scene.rig.bearing).relief[0] > 0.0)
 
 
 @njit_lean

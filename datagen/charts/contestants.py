@@ -20,6 +20,8 @@ from physics.integrators.general_purpose import (
 from physics.integrators.methods import MARCHES, METHODS, REFERENCE
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
+from physics.periodic_response import METHOD as REPEATED
+from physics.periodic_response import worth_repeating
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics import equilibrium
@@ -60,15 +62,17 @@ class Contestant:
     part: bool = False
 
 
-def contestants(quick: bool) -> list[Contestant]:
-    """All of them, or with `quick` two settings of each."""
+def contestants(scene: Scene, quick: bool) -> list[Contestant]:
+    """All that can be run on `scene`, or with `quick` two settings of each."""
     kept = slice(QUICK if quick else None)
     found = []
     for name in METHODS:
         if name in MARCHES:
             found += [_march(name, steps) for steps in SUBSTEPS.get(name, USUAL_SUBSTEPS)[kept]]
         elif name != REFERENCE:
-            found += [_choosing(name, accuracy) for accuracy in ACCURACIES[kept]]
+            found += [_choosing(name, accuracy, repeat=False) for accuracy in ACCURACIES[kept]]
+            repeatable = [accuracy for accuracy in ACCURACIES if worth_repeating(scene, scene.duration, accuracy)]
+            found += [_choosing(REPEATED, accuracy, repeat=True) for accuracy in repeatable[kept]]
     found += [_model(name) for name in SIMPLER_MODELS]
     for kind in (BALL_BY_BALL, CONTACT_KERNEL):
         found += [_compiled(pair, kind, tolerance) for pair in PAIRS for tolerance in TOLERANCES[kept]]
@@ -89,9 +93,9 @@ def _march(name: str, steps: int) -> Contestant:
     return Contestant(METHOD, name, f"{steps} steps a sample", run, _of_trace)
 
 
-def _choosing(name: str, accuracy: float) -> Contestant:
+def _choosing(name: str, accuracy: float, *, repeat: bool) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
-        return simulate(scene, rate, method=name, accuracy=accuracy)
+        return simulate(scene, rate, accuracy=accuracy, repeat=repeat)
 
     return Contestant(METHOD, name, f"accuracy {accuracy:g}", run, _of_trace)
 

@@ -81,7 +81,7 @@ def measure(subject: Subject, quick: bool, rounds: int, told: Callable[[str], No
         else simulate(scene, subject.rate, method=REFERENCE, keep_state=True)
     )
     runs = []
-    for contestant in contestants(quick):
+    for contestant in contestants(scene, quick):
         told(f"{contestant.name} {contestant.setting}")
         runs.append(_run(contestant, subject, scene, reference, rounds))
     return Chart(

@@ -24,7 +24,7 @@ def work_precision_png(chart: Chart) -> bytes:
         figure, axes = plt.subplots(figsize=(WIDTH, HEIGHT))
         figure.subplots_adjust(left=0.085, right=0.66, top=0.9, bottom=0.1)
         names = list(dict.fromkeys(run.name for run in chart.runs))
-        methods = [name for name in names if _group(chart, name) == METHOD]
+        methods = list(dict.fromkeys(_method(name) for name in names if _group(chart, name) == METHOD))
         for name in names:
             _draw(axes, chart, name, methods)
         axes.axhline(TARGET, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
@@ -45,6 +45,11 @@ def _group(chart: Chart, name: str) -> str:
     return next(run.group for run in chart.runs if run.name == name)
 
 
+def _method(name: str) -> str:
+    """The method alone, of which a comma may part what else is done."""
+    return name.split(",")[0]
+
+
 def _points(runs: Sequence[Run], name: str) -> list[tuple[float, float]]:
     found = []
     for run in runs:
@@ -60,8 +65,11 @@ def _draw(axes: plt.Axes, chart: Chart, name: str, methods: list[str]) -> None:
         return
     speed, error = zip(*points, strict=True)
     if _group(chart, name) == METHOD:
-        colour = METHOD_COLOURS[methods.index(name) % len(METHOD_COLOURS)]
-        axes.plot(speed, error, "o-", color=colour, markersize=4.5, linewidth=1.6, label=name, zorder=4)
+        colour = METHOD_COLOURS[methods.index(_method(name)) % len(METHOD_COLOURS)]
+        style, face = ("o-", colour) if _method(name) == name else ("o--", "white")
+        axes.plot(
+            speed, error, style, color=colour, markerfacecolor=face, markersize=4.5, linewidth=1.6, label=name, zorder=4
+        )
         _mark_edge(axes, chart, name, colour)
     elif _group(chart, name) == MODEL:
         axes.plot(speed, error, "*", markersize=10, color=INK, alpha=0.75, zorder=3)

@@ -1,10 +1,11 @@
-"""What the calibration is fitted to: pairs of candidates of the training records, each clean and with noise."""
+"""What the calibration is fitted to: pairs of candidates of training records, each clean, with noise and cut short."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,12 +25,24 @@ ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
 SHORTEST_LAG = 1.5  # samples
 LAG_SCALE = 0.12
 PLACE_TOLERANCE = 0.4
+SHORTEST_SHARE, LONGEST_SHARE = 0.1, 0.5
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What is heard of a record: a `signal` (T,), m/s², that begins at its sample `start`; `stored` if it is whole and
+    its noise the corpus's own, `clean` if it is whole and without noise."""
+
+    signal: Array
+    start: int
+    stored: bool
+    clean: bool
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One record under one noise: what was found and what is true; `stored` if the noise is the corpus's own, `clean`
-    if there is none, `asked` if a size must be told of it.
+    """What was found in what was heard of a record, and what is true; `stored` and `clean` as in Heard, `asked` if a
+    size must be told of it.
 
     `true_lag` in samples (NaN: no events); `lag` the same modulo the period (NaN: no events or the wrong race), `arc`
     the spall's in rad (modulo the spacing), `quality` (P,) of each pair, 0 to 1.
@@ -59,33 +72,47 @@ def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Tria
 
 def _of_record(sized: SizedRecord) -> list[Trial]:
     made = []
-    for stored, signal in ((True, sized.acceleration[:, 1]), (False, _otherwise(sized))):
-        evidence = gather_evidence(signal, sized.rate, sized.situation.pass_periods())
+    for heard in _heard(sized):
+        evidence = gather_evidence(heard.signal, sized.rate, sized.situation.pass_periods())
         if evidence is not None:
-            made.append(trial(sized, _slim(evidence), stored))
+            made.append(trial(sized, _slim(evidence), heard))
     return made
 
 
-def _slim(evidence: Evidence) -> Evidence:
-    """What the fit needs: no signals, and numbers in the single precision in which trees compare them."""
-    pairs = replace(evidence.pairs, features=evidence.pairs.features.astype(np.float32))
-    return replace(evidence, whitened=np.zeros(0), pairs=pairs)
+def _heard(sized: SizedRecord) -> list[Heard]:
+    """The y axis as stored; clean if it was stored with noise, else with noise of a level drawn from those of the size
+    ladder; and of one of both, drawn, a part that holds a tenth to half of it."""
+    stored = sized.acceleration[:, 1]
+    clean = stored if sized.clean is None else sized.clean[:, 1]
+    noisy = float(sized.labels["snr_db"]) < CLEAN_DB
+    other = clean if noisy else _with_noise(clean, sized.record)
+    generator = stream(0, "record", sized.record, "signal", item=1)
+    share = SHORTEST_SHARE * (LONGEST_SHARE / SHORTEST_SHARE) ** generator.random()
+    length = round(share * stored.size)
+    start = int(generator.integers(stored.size - length + 1))
+    part = (stored, other)[int(generator.integers(2))][start : start + length]
+    return [Heard(stored, 0, True, not noisy), Heard(other, 0, False, noisy), Heard(part, start, False, False)]
 
 
-def _otherwise(sized: SizedRecord) -> Array:
-    """The y axis clean if it was stored with noise, else with noise of a level drawn from those of the size ladder."""
-    clean = sized.acceleration[:, 1] if sized.clean is None else sized.clean[:, 1]
-    if float(sized.labels["snr_db"]) < CLEAN_DB:
-        return clean
-    generator = stream(0, "record", sized.record, "white_noise", item=1)
+def _with_noise(clean: Array, record: int) -> Array:
+    generator = stream(0, "record", record, "white_noise", item=1)
     level = LEVELS_DB[int(generator.integers(len(LEVELS_DB)))]
     return np.asarray(clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size))
 
 
-def trial(sized: SizedRecord, evidence: Evidence, stored: bool) -> Trial:
-    """The `evidence` of a record beside its truth."""
+def _slim(evidence: Evidence) -> Evidence:
+    """What the fit needs: no signals, and numbers in the single precision in which trees compare them."""
+    nothing = np.zeros(0)
+    pairs = replace(evidence.pairs, features=evidence.pairs.features.astype(np.float32))
+    energy: Any = evidence.mean.energy.astype(np.float32)
+    mean = replace(evidence.mean, energy=energy, waveform=nothing, sway=nothing, give=nothing)
+    return replace(evidence, whitened=nothing, mean=mean, pairs=pairs)
+
+
+def trial(sized: SizedRecord, evidence: Evidence, heard: Heard) -> Trial:
+    """The `evidence` of what was `heard` of a record beside its truth."""
     lag, arc, quality = math.nan, math.nan, np.zeros(evidence.pairs.lag.size)
-    truth = sized.truth
+    truth = None if sized.truth is None else sized.truth.within(*_stretch(sized, heard))
     true_lag = truth.lag * sized.rate if truth is not None else math.nan
     if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LAG:
         turns = math.floor(true_lag / (0.97 * evidence.mean.period))
@@ -93,10 +120,13 @@ def trial(sized: SizedRecord, evidence: Evidence, stored: bool) -> Trial:
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)
     bearing_id = str(sized.labels["bearing_id"])
-    noisy = float(sized.labels["snr_db"]) < CLEAN_DB
-    clean = stored != noisy  # of every record one trial is as stored, and the other the other way round
-    asked = _asked(sized, true_lag)
+    stored, clean, asked = heard.stored, heard.clean, _asked(sized, true_lag)
     return Trial(sized.record, bearing_id, stored, clean, asked, sized.situation, evidence, true_lag, lag, arc, quality)
+
+
+def _stretch(sized: SizedRecord, heard: Heard) -> tuple[float, float]:
+    """Where what was `heard` begins and ends in its record, s."""
+    return heard.start / sized.rate, (heard.start + heard.signal.size) / sized.rate
 
 
 def _asked(sized: SizedRecord, true_lag: float) -> bool:

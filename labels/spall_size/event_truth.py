@@ -23,6 +23,11 @@ class EventTruth:
         """Median time between both events of a pass, s; NaN if no pass has them."""
         return float(np.median(self.last - self.first)) if self.first.size else float("nan")
 
+    def within(self, start: float, end: float) -> EventTruth:
+        """The passes that lie between two times (s), counted from the first of them."""
+        inside = (self.first >= start) & (self.last <= end)
+        return EventTruth(self.first[inside] - start, self.last[inside] - start, self.kept[inside])
+
 
 def event_truth(release: Array, regain: Array, fall: Array, rise: Array, latest: Array) -> EventTruth:
     """Events of the passes (N,): first release and last regain, else first fall and last rise; NaN: there is none.

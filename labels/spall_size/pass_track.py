@@ -86,24 +86,26 @@ def _mean_pattern(log_energy: Array, path: NDArray[np.int64]) -> Array:
 
 
 def _best_path(match: Array, shortest: float, longest: float, mean: float, deviation: float) -> NDArray[np.int64]:
-    return _dynamic_programme(
-        np.ascontiguousarray(match), int(shortest * CELLS), int(longest * CELLS) + 1, mean, deviation
-    )
+    low, high = int(shortest * CELLS), int(longest * CELLS) + 1
+    penalty: Array = 0.5 * ((np.arange(low, high + 1, dtype=np.float64) - mean) / deviation) ** 2
+    return _dynamic_programme(np.ascontiguousarray(match), low, penalty)
 
 
 @njit
-def _dynamic_programme(match: Array, low: int, high: int, mean: float, deviation: float) -> NDArray[np.int64]:
-    count = match.size
+def _dynamic_programme(match: Array, low: int, penalty: Array) -> NDArray[np.int64]:
+    """The path of the largest sum of `match` (C,) whose steps are `low`, `low` + 1 … cells long, each less its
+    `penalty`."""
+    count, high = match.size, low + penalty.size - 1
     total = match.copy()
     before = np.full(count, -1)
     for k in range(low, count):
-        best, place = 0.0, -1
-        for step in range(low, min(high, k) + 1):
-            value = total[k - step] - 0.5 * ((step - mean) / deviation) ** 2
-            if place < 0 or value > best:
-                best, place = value, k - step
+        best, longer = total[k - low] - penalty[0], 0
+        for j in range(1, min(penalty.size, k - low + 1)):
+            value = total[k - low - j] - penalty[j]
+            if value > best:
+                best, longer = value, j
         total[k] += best
-        before[k] = place
+        before[k] = k - low - longer
     end = count - high + int(np.argmax(total[count - high :]))
     length = 0
     k = end

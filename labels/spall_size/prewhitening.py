@@ -14,7 +14,7 @@ ORDER = 30
 REWEIGHTINGS = 2
 FLOOR_SHARE = 0.02
 RIDGE = 1e-9
-BLOCK = 1 << 15
+BLOCK = 1 << 12
 
 
 @dataclass(frozen=True)
@@ -61,13 +61,13 @@ def _residual(x: Array, coefficients: Array) -> Array:
 def _reweighted(x: Array, coefficients: Array, order: int) -> Array:
     power = _residual(x, coefficients) ** 2
     weight = 1.0 / (power + FLOOR_SHARE * power.mean() + 1e-300)
-    weight[:order] = 0.0
-    gram, target = np.zeros((order, order)), np.zeros(order)
+    # Of the products of a sample and its `order` predecessors, the last column is that of the sample itself.
+    products = np.zeros((order + 1, order + 1))
     past = np.lib.stride_tricks.sliding_window_view(x, order + 1)
+    root = np.sqrt(weight[order:, None])
     for start in range(0, past.shape[0], BLOCK):
-        rows = past[start : start + BLOCK]
-        weighted = rows[:, :order] * weight[order + start : order + start + rows.shape[0], None]
-        gram += weighted.T @ rows[:, :order]
-        target += weighted.T @ rows[:, order]
+        rows = root[start : start + BLOCK] * past[start : start + BLOCK]
+        products += rows.T @ rows
+    gram, target = products[:order, :order], products[:order, order]
     gram[np.diag_indices(order)] += RIDGE * np.trace(gram) / order
     return np.asarray(solve(gram, target, assume_a="pos"))[::-1]

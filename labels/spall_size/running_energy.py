@@ -17,7 +17,8 @@ class RunningEnergy:
         self.first = float(mean.offset[0])
         self.last = float(mean.offset[-1])
         self.period = mean.period
-        self.running = np.concatenate([np.zeros((len(CHANNELS), 1)), np.cumsum(mean.energy, axis=1)], axis=1)
+        summed = np.cumsum(mean.energy, axis=1, dtype=np.float64)
+        self.running = np.concatenate([np.zeros((len(CHANNELS), 1)), summed], axis=1)
         self.grid = np.arange(self.running.shape[1])
 
     def level(self, start: Array, stop: Array) -> Array:

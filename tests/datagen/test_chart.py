@@ -47,8 +47,12 @@ def small_chart():
     """A chart of one method and one compiled solver over 0.12 s."""
     subject = find_subject("F1", 0)
     subject = dataclasses.replace(subject, scene=subject.lasting(0.12))
-    chosen = [one for one in entrants.contestants(quick=True) if one.name in ("exponential_rk4", "impulse train")]
-    original, entrants_of = entrants.contestants, lambda quick: chosen
+    chosen = [
+        one
+        for one in entrants.contestants(subject.scene, quick=True)
+        if one.name in ("exponential_rk4", "impulse train")
+    ]
+    original, entrants_of = entrants.contestants, lambda scene, quick: chosen
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("datagen.charts.measure.contestants", entrants_of)
         chart = measure(subject, quick=True, rounds=1, told=lambda what: None)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from physics.adaptive_response import PILOT_SAMPLES, respond_accurately, rms
 from physics.integrators.march import Output
+from physics.integrators.modal.flow import slowest_decay
 from physics.integrators.modal.memory import Stride
 from physics.modal_case import March
 from physics.profile import is_rough
@@ -65,7 +66,8 @@ def respond_until_repeated(
 ) -> Trace:
     """As `respond_accurately`, of a `scene` that has a period; what comes after the march repeats its last period.
 
-    Where that would not keep the accuracy, it is marched to the end.
+    Step and share of tension are those of the march. Where repeating would not keep the accuracy, it is marched to the
+    end.
     """
     period = period_of(scene)
     cells = math.ceil(FINENESS * rate * period)
@@ -122,7 +124,7 @@ class _Repeating:
 
     def go_on(self, march: March, grid: Stride) -> Output:
         """The output, up to the last period that was needed."""
-        slowest, apart = float(np.abs(march.case.flow.rate[0::2]).min()), {1: math.inf}
+        slowest, apart = slowest_decay(march.case.flow), {1: math.inf}
         for count in range(2, grid.samples // self.cells + 1):
             marched = count * self.cells
             output = march.go_on(grid._replace(samples=marched))

@@ -254,6 +254,11 @@ def ringing(flow: LinearFlow, duration: float) -> float:
     return max(sums)
 
 
+def slowest_decay(flow: LinearFlow) -> float:
+    """Rate (1/s) at which the amplitude of the mode falls that falls slowest; 0 if one does not."""
+    return min(float(np.abs(_complex_modes(flow, flow.rate, axis).real).min()) for axis in range(2))
+
+
 def memory_of_errors(flow: LinearFlow, swing: Array) -> float:
     """Time constant (s) of the slowest mode that contacts whose stiffness swings by `swing` (2,), N/m, may feed: 0 if
     none is.

@@ -36,9 +36,6 @@ AIM, MARGIN = 0.1, 0.75
 # share of the tolerance, and what both are apart tells.
 DOUBTFUL, FINER = 4.0, 0.25
 PILOT_SAMPLES = 2048
-# Where errors may grow, the pilot lasts this many times as long as they are remembered, and goes on while those of its
-# later half are this many times those of its earlier one (errors that only add up would be 1.3 times as large).
-MEMORIES, GROWING = 2.0, 2.0
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
 GUESSED_SHARE, SMALLEST_SHARE = 1e-2, 1e-8
@@ -137,29 +134,22 @@ def _grid(case: Case, samples: int, share: float, least: float, seen: float, wei
 
 def _beginning(march: March, pilot: int, accuracy: float, least: float) -> tuple[float, float]:
     """Let the `march` begin; the mean square (m²/s⁴) of its first samples' acceleration, and how many times as far it
-    is from a coarser one as the errors of that one's steps add up to, for as long as they may grow."""
+    is from a coarser one as the errors of that one's steps add up to: all along, if contacts may make them grow."""
     case, short = march.case, min(march.samples, pilot)
-    long = MEMORIES * case.memory * case.rate
-    growing = long > short
-    length = math.ceil(min(long, march.samples)) if growing else short
+    length = march.samples if case.memory * case.rate > short else short
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
     for _ in range(SEED_ATTEMPTS):
-        ahead = March(case, march.samples if growing else short)
+        ahead = March(case, length)
         coarse = ahead.go_on(_grid(case, short, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
         found = rms(coarse.acceleration[short // 2 : short])
         if found > 0.1 * size:
             size = found
             break
         size = max(found, 1e-3 * size)
+    if length > short:
+        coarse = ahead.go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
     wanted = AIM * min(max(accuracy, least / size), COARSE)
-    while True:
-        if length > short:
-            coarse = ahead.go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
-        fine = march.go_on(_grid(case, length, wanted, 0.0, size**2, CERTAIN, 1.0))
-        difference = coarse.acceleration[:length] - fine.acceleration[:length]
-        growing = growing and rms(difference[length // 2 :]) > GROWING * rms(difference[: length // 2])
-        if not growing or length == march.samples:
-            break
-        length = min(2 * length, march.samples)
-    pushed = case.pushed(coarse._replace(acceleration=coarse.acceleration[:length]))
-    return size**2, rms(difference) / pushed if pushed > 0.0 else 1.0
+    fine = march.go_on(_grid(case, length, wanted, 0.0, size**2, CERTAIN, 1.0))
+    pushed = case.pushed(coarse)
+    apart = rms(coarse.acceleration - fine.acceleration[:length])
+    return size**2, apart / pushed if pushed > 0.0 else 1.0

@@ -21,6 +21,17 @@ class CrossFit:
     expected: Array
     most: float
 
+    def most_within(self, error: float) -> float:
+        """`most`, or the largest expected error below it up to which what is told has at most this mean `error`; the
+        smallest if even that record's is larger."""
+        ordered = np.argsort(self.expected, kind="stable")
+        ordered = ordered[self.expected[ordered] <= self.most]
+        told = np.cumsum(self.error[ordered]) / np.arange(1, ordered.size + 1)
+        if ordered.size == 0 or told[-1] <= error:
+            return self.most
+        within = np.flatnonzero(told <= error)
+        return float(self.expected[ordered[within[-1] if within.size else 0]])
+
     def lines(self) -> list[str]:
         """In words: the silence and the error of what is told, and the error if another share were told."""
         told = self.expected <= self.most

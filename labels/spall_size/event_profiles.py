@@ -16,16 +16,17 @@ PROFILED = (0, 1, 3)
 RIVALS = 3
 
 
-def profile_columns(mean: MeanPass, entry: float, leave: float, lag: float) -> list[float]:
-    """Log energies in 13 windows round either event, of the whole signal and of its low and high band."""
+def profile_columns(mean: MeanPass, entry: Array, leave: Array, lag: Array) -> Array:
+    """Log energies (P, 78) in 13 windows round either event of each pair, of the whole signal and of its low and high
+    band."""
     summed = RunningEnergy(mean)
-    edges = np.array(EDGES) * lag
-    columns: list[float] = []
+    edges = np.array(EDGES) * lag[:, None]
+    middle, half = 0.5 * (edges[:, 1:] + edges[:, :-1]), np.maximum(0.5 * np.diff(edges, axis=1), 0.5)
+    levels = []
     for place in (entry, leave):
-        middle, half = place + 0.5 * (edges[1:] + edges[:-1]), np.maximum(0.5 * np.diff(edges), 0.5)
-        level = summed.level(middle - half, middle + half)
-        columns += [float(value) for channel in PROFILED for value in level[channel]]
-    return columns
+        level = summed.level(place[:, None] + middle - half, place[:, None] + middle + half)
+        levels += [level[channel] for channel in PROFILED]
+    return np.concatenate(levels, axis=1)
 
 
 def rival_columns(pairs: Pairs, score: Array, best: int) -> list[float]:

@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 
 from labels.spall_size.event_profiles import profile_columns, rival_columns
 from labels.spall_size.evidence import Evidence
-from labels.spall_size.pair_features import NAMES
+from labels.spall_size.pair_features import NAMES, Pairs
 from labels.spall_size.situation import Situation
 from labels.spall_size.static_release import release_arc, static_compression
 
 Array = NDArray[np.float64]
 
-LEADING = 10
+LEADING = 16
+# Leading pairs differ in lag by more than this (logarithm): of those that say nearly the same the best stands for all.
+DISTINCT = 0.05
 CORES = [NAMES.index(f"{event}_core_all") for event in ("entry", "exit")]
 NEAR = 0.3  # logarithm of a lag's ratio
 
@@ -45,17 +47,18 @@ class Measurement:
 
 
 def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> LeadingPairs:
-    """At most ten pairs of `evidence` by `score` (P,); rows are longer if load and Hertz factor are known."""
+    """At most sixteen pairs of `evidence` by `score` (P,); rows are longer if load and Hertz factor are known."""
     pairs = evidence.pairs
-    order = leading_order(score)
+    order = leading_order(pairs, score)
     entry, leave, lag = pairs.entry[order], pairs.exit[order], pairs.lag[order]
     # The tracked period stands for one ball spacing, whatever the stated speed and the slip were.
     arc = lag / evidence.mean.period * situation.bearing().spacing
+    profiles = profile_columns(evidence.mean, entry, leave, lag)
     rows = []
     for k, own in enumerate(order):
         row = [
             *(float(value) for value in pairs.features[own]),
-            *profile_columns(evidence.mean, float(entry[k]), float(leave[k]), float(lag[k])),
+            *(float(value) for value in profiles[k]),
             *rival_columns(pairs, score, int(own)),
             float(score[own] - score[order[0]]),
             float(k),
@@ -65,9 +68,15 @@ def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> Lea
     return LeadingPairs(entry, leave, lag, arc, np.array(rows))
 
 
-def leading_order(score: Array) -> NDArray[np.int64]:
-    """Which pairs lead by `score` (P,), the best first."""
-    return np.argsort(-score, kind="stable")[:LEADING]
+def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:
+    """Which `pairs` of different lags lead by `score` (P,), the best first."""
+    lag, chosen = np.log(pairs.lag), list[int]()
+    for own in np.argsort(-score, kind="stable"):
+        if np.all(np.abs(lag[own] - lag[chosen]) > DISTINCT):
+            chosen.append(int(own))
+        if len(chosen) == LEADING:
+            break
+    return np.array(chosen)
 
 
 def measure(leading: LeadingPairs, rank: Array) -> Measurement:
@@ -92,7 +101,7 @@ def measure(leading: LeadingPairs, rank: Array) -> Measurement:
 
 
 def _field(rank: Array, told: Array | None = None) -> Array:
-    """What is `told` (L,) of the leading pairs, or else their `rank` (L,), from the best rank down to the tenth."""
+    """What is `told` (L,) of the leading pairs, or else their `rank` (L,), from the best rank down to the last."""
     values = (rank if told is None else told)[np.argsort(-rank, kind="stable")]
     return np.pad(values, (0, LEADING - values.size))
 

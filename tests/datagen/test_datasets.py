@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 
+import numpy as np
 import pytest
 
 from datagen.recipes.recipe import load_recipe
@@ -24,9 +25,8 @@ def scenarios(name: str) -> list[Scenario]:
 
 
 def test_the_promised_datasets_are_shipped() -> None:
-    assert {"corpus", "fan_rig", "gearbox_rig", "quickstart", "size_ladder", "size_training", "transfer"} <= set(
-        shipped_recipes()
-    )
+    promised = {"corpus", "fan_rig", "gearbox_rig", "quickstart", "transfer"}
+    assert promised | {"size_ladder", "size_training", "size_imperfect"} <= set(shipped_recipes())
 
 
 @pytest.mark.parametrize(
@@ -148,3 +148,15 @@ def test_the_size_training_is_for_training_only_and_shares_no_machine_with_the_l
     wide = [s.scene.spalls[0].extent / s.scene.rig.bearing.spacing for s in drawn if s.part.endswith("wide")]
     assert len(wide) > 5
     assert all(0.4 <= share <= 0.9 for share in wide)
+
+
+def test_the_imperfect_bearings_are_for_training_only_and_hold_spalls_of_every_size() -> None:
+    recipe = load_recipe("size_imperfect")
+    drawn = [draw_scenario(recipe, record) for record in range(0, recipe.count, 20)]
+    assert {scenario.split for scenario in drawn} == {"train"}
+    assert recipe.seed not in {load_recipe(name).seed for name in ("size_ladder", "size_training")}
+    assert all(scenario.scene.imperfections.waviness for scenario in drawn)
+    spalls = [(spall, scenario.scene.rig.bearing) for scenario in drawn for spall in scenario.scene.spalls]
+    shares = np.array([spall.extent / bearing.spacing for spall, bearing in spalls])
+    assert (shares.min() < 0.04, shares.max() > 1.0) == (True, True)
+    assert 0.3 < np.mean(shares < 0.15) < 0.7  # log-uniform: half of the line spalls, and few are extended

@@ -23,3 +23,13 @@ def test_a_larger_share_told_takes_the_next_in_order_of_the_expected_error() -> 
 
 def test_no_records_are_no_error() -> None:
     assert "nan%" in CrossFit(np.zeros(0), np.zeros(0), 0.5).lines()[0]
+
+
+def test_the_most_is_as_large_as_the_error_of_what_is_told_allows() -> None:
+    error, expected = np.array([0.06, 0.02, 0.04, 1.0]), np.array([0.3, 0.1, 0.2, 0.9])
+    assert CrossFit(error, expected, most=1.0).most_within(0.04) == 0.3  # (0.02 + 0.04 + 0.06) / 3
+    assert CrossFit(error, expected, most=1.0).most_within(0.039) == 0.2
+    assert CrossFit(error, expected, most=0.25).most_within(0.04) == 0.25
+    assert CrossFit(error, expected, most=1.0).most_within(1.0) == 1.0
+    assert CrossFit(error, expected, most=1.0).most_within(0.01) == 0.1
+    assert CrossFit(np.zeros(0), np.zeros(0), most=0.4).most_within(0.01) == 0.4

@@ -53,7 +53,10 @@ def test_the_reach_holds_ninety_per_cent_of_the_usual_errors_that_are_known() ->
 @pytest.mark.slow
 def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
     made = trials(small_ladder, ("train",))
-    assert len(made) == 2 * 24  # clean, as stored, and with noise
+    whole = [trial for trial in made if trial.evidence.alignment.place.max() > 0.8 * 0.3 * 65536]
+    assert len([trial for trial in made if trial.stored]) == 24  # as stored
+    assert len(whole) == 2 * 24  # and with noise
+    assert len(made) > 2 * 24 + 12  # and a part, if that holds passes enough
     assert all(trial.clean == trial.stored for trial in made)  # the corpus has no noise
     for trial in made:  # spalls are at least a tenth of a spacing long, so that five samples are the only bar
         assert trial.asked == (trial.true_lag >= 5.0 and trial.true_lag >= trial.evidence.mean.period / 50.0)

@@ -8,10 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import discard_cache
 from physics.adaptive_response import ACCELERATION_ALONE, respond_accurately
-from physics.cage import CagePath
-from physics.catalog import rig
 from physics.integrators.march import Grid
 from physics.integrators.method import Method
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
@@ -19,13 +16,11 @@ from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
 from physics.modal_case import Kept
 from physics.motion import motion_model, starting_state
-from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.periodic_response import respond_until_repeated, worth_repeating
 from physics.resampling import decimate
 from physics.response import MODEL, respond, respond_by_reference
 from physics.scene import Scene
-from physics.spall import Spall
 from physics.stability import longest_stable_step
 from physics.statics import Equilibrium, equilibrium
 from physics.trace import Trace
@@ -136,19 +131,6 @@ def oversampling(scene: Scene, rate: float) -> int:
             f"at most {MOST_OVERSAMPLING} times are allowed",
         )
     return factor
-
-
-def warm_up() -> None:
-    """Compile every kernel, or load it from the cache; a cache damaged by a crash is discarded and made again."""
-    machine = rig("gearbox")
-    cage = CagePath(machine.bearing.cage_speed(machine.rated_speed), duration=0.002)
-    spall = Spall("outer", 1, math.radians(270.0), 0.02, 1e-5)
-    scene = Scene(machine, Operation(machine.rated_speed, machine.rated_load), cage, (spall,))
-    try:
-        simulate(scene, 65536.0)
-    except Exception:
-        discard_cache()
-        simulate(scene, 65536.0)
 
 
 def _check_request(

@@ -34,7 +34,7 @@ class ShardRow:
 def warm_kernels(reporter: Reporter) -> None:
     """Compile every kernel before workers start, so that they find it in the cache."""
     from physics._jit import CACHE_FOLDER
-    from physics.simulate import warm_up
+    from physics.warming import warm_up
 
     if not any(CACHE_FOLDER.iterdir()):
         reporter.say("compiling the physics, once for each version of it")

@@ -27,7 +27,8 @@ from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
 from physics.outcome import SimulationFailed
 from physics.scene import Scene
-from physics.simulate import simulate, warm_up
+from physics.simulate import simulate
+from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
 ACCURACY = 1e-3

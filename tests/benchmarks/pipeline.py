@@ -28,7 +28,7 @@ from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard
 from datagen.runs.workers import Engine
-from physics.simulate import warm_up
+from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
 DATASETS = ("gearbox_rig", "fan_rig", "corpus")

@@ -17,7 +17,8 @@ import numpy as np
 
 from physics.periodic_response import METHOD as REPEATED
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
-from physics.simulate import simulate, warm_up
+from physics.simulate import simulate
+from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
 RATE = 65536.0

@@ -1,0 +1,30 @@
+"""Kernels compiled beforehand: a worker that makes records has nothing left to compile."""
+
+import subprocess
+import sys
+
+MAKE_RECORDS = """
+import gc
+from numba.core.dispatcher import Dispatcher
+from datagen.recipes.recipe import load_recipe
+from datagen.records.record import make_record
+from datagen.scenarios.sampling import draw_scenario
+from physics.warming import warm_up
+
+def compiled():
+    kernels = [kernel for kernel in gc.get_objects() if isinstance(kernel, Dispatcher)]
+    return {(kernel.__module__, kernel.__qualname__, len(kernel.signatures)) for kernel in kernels if kernel.signatures}
+
+warm_up()
+before = compiled()
+for recipe in map(load_recipe, ("datasets/quickstart", "datasets/gearbox_rig", "datasets/corpus")):
+    for record in range(6):
+        make_record(draw_scenario(recipe, record), ("cage_angle", "profile_depth"))
+for late in sorted(compiled() - before):
+    print(*late)
+"""
+
+
+def test_no_kernel_is_compiled_after_the_warm_up() -> None:
+    done = subprocess.run([sys.executable, "-c", MAKE_RECORDS], capture_output=True, text=True, check=True)
+    assert done.stdout == ""

@@ -34,7 +34,14 @@ class Process:
         command = [sys.executable, "-m", "datagen", "generate", str(recipe), "--out", str(out), *options]
         environment = os.environ | {MARK: self.mark}
         self.popen = subprocess.Popen(
-            command, cwd=ROOT, env=environment, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+            command,
+            cwd=ROOT,
+            env=environment,
+            start_new_session=True,
+            # Where a shell runs the tests in its background, they and their children would take no notice of Ctrl-C.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
         )
 
     def wait_for_shards(self, count: int) -> None:

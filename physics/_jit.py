@@ -92,15 +92,15 @@ def _without_door(compiled: Any) -> Any:
     return compiled
 
 
-def specialise(template: Callable[..., Any], name: str, *, lean: bool = False, **bindings: Any) -> Callable[..., Any]:
-    """Compile a copy of `template` under `name`, with `bindings` in place of its module's names; `lean` as `njit_lean`.
+def specialise(template: Callable[..., Any], name: str, **bindings: Any) -> Callable[..., Any]:
+    """Compile a copy of `template` under `name`, with `bindings` in place of its module's names.
 
     A compiled function given as an argument or a closure would miss the compile cache in every process.
     """
     copy = types.FunctionType(template.__code__, {**template.__globals__, **bindings}, name, template.__defaults__)
     copy.__qualname__ = name
     copy.__doc__ = template.__doc__
-    return njit_lean(copy) if lean else njit(copy)
+    return njit(copy)
 
 
 def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:

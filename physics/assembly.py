@@ -42,7 +42,7 @@ def assemble(scene: Scene) -> ContactModel:
     """The contact model of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
     bearing, rig = scene.rig.bearing, scene.rig
     alpha = math.cos(bearing.contact_angle)
-    cages = 1 if scene.second_cage is None else 2
+    cages = len(scene.cages)
     balls, row, ball = _lay_out_balls(scene, cages)
     frames = np.zeros((cages, FRAME_COLUMNS))
     law = Law(
@@ -59,12 +59,11 @@ def _track(scene: Scene) -> Track:
     """What the balls of `scene` run on; the same scene gives the same arrays, which are for reading only."""
     bearing = scene.rig.bearing
     paths = [build_path(spall, bearing) for spall in scene.spalls]
-    cages = [scene.cage] if scene.second_cage is None else [scene.cage, scene.second_cage]
-    cage, clock = _cage_arrays(cages)
+    cage, clock = _cage_arrays(scene.cages)
     return Track(
         cage=cage,
         clock=clock,
-        spalls=_spall_table(scene, paths, len(cages)),
+        spalls=_spall_table(scene, paths, len(scene.cages)),
         breaks=np.concatenate([np.zeros(0), *(path.breaks for path in paths)]),
         cells=np.concatenate([np.zeros((0, 2), dtype=np.int64), *(path.pieces for path in paths)]),
         cubics=np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *(path.cubics for path in paths)])),
@@ -84,7 +83,7 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         table[index, CAGE] = row if cages > 1 else 0
         table[index, SIGN] = spall.travel_sign
         table[index, ANGLE] = spall.angle - row * scene.rig.bearing.stagger
-        table[index, SPEED] = race_speed(scene, spall.race)
+        table[index, SPEED] = scene.race_speed(spall.race)
         table[index, FIRST_PIECE], table[index, PIECES] = piece, path.cells.size
         table[index, FIRST_BREAK], table[index, FIRST_CUBIC] = first_break, cubic
         table[index, CELL], table[index, RELIEF:] = path.cell, path.relief
@@ -92,11 +91,6 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         first_break += path.breaks.size
         cubic += path.cubics.shape[0]
     return table
-
-
-def race_speed(scene: Scene, race: str) -> float:
-    """Angular speed of a race, rad/s: the shaft's for the inner race, zero for the outer one."""
-    return scene.operation.shaft_speed if race == "inner" else 0.0
 
 
 def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
@@ -120,7 +114,7 @@ def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], 
     return balls, row.ravel().astype(np.int64), ball.ravel().astype(np.int64)
 
 
-def _cage_arrays(cages: list[CagePath]) -> tuple[Array, Array]:
+def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
     intervals = max(cage.polynomial.c.shape[1] for cage in cages)
     quartics = np.zeros((len(cages), intervals, 5))
     clock = np.zeros((len(cages), 2))

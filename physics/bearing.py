@@ -109,6 +109,7 @@ class Bearing:
 
     def conformity(self, race: str) -> float:
         """Groove radius over ball diameter, dimensionless: `race` is "outer" or "inner"."""
+        require(race in ("outer", "inner"), f'race = "{race}"; allowed: outer, inner', "race")
         return self.outer_conformity if race == "outer" else self.inner_conformity
 
     @property

@@ -95,20 +95,18 @@ def race_contact(
     ball_diameter: float,
     contact_angle: float = 0.0,
     conformity: float = DEFAULT_CONFORMITY,
-    young_modulus: float = YOUNG_MODULUS,
-    poisson_ratio: float = POISSON_RATIO,
 ) -> PointContact:
-    """The contact of a ball (m, m, rad) with the groove of one race; `conformity` is groove radius / ball diameter."""
+    """The contact of a steel ball (m, m, rad) with the groove of one race; `conformity` is groove radius over ball
+    diameter."""
     require(race in ("outer", "inner"), f'race = "{race}"; allowed: outer, inner', "race")
     require_between("conformity", conformity, SMALLEST_CONFORMITY, 1e3)
-    require_between("poisson_ratio", poisson_ratio, 0.0, 0.5)
     towards = math.cos(contact_angle)
     race_radius = (pitch_diameter + (1.0 if race == "outer" else -1.0) * ball_diameter * towards) / 2.0
     bend = (-1.0 if race == "outer" else 1.0) * towards / race_radius
     return PointContact(
         along=2.0 / ball_diameter + bend,
         across=2.0 / ball_diameter - 1.0 / (conformity * ball_diameter),
-        modulus=young_modulus / (1.0 - poisson_ratio**2),
+        modulus=YOUNG_MODULUS / (1.0 - POISSON_RATIO**2),
     )
 
 
@@ -123,12 +121,10 @@ def load_deflection_factor(
     contact_angle: float = 0.0,
     inner_conformity: float = DEFAULT_CONFORMITY,
     outer_conformity: float = DEFAULT_CONFORMITY,
-    young_modulus: float = YOUNG_MODULUS,
-    poisson_ratio: float = POISSON_RATIO,
 ) -> float:
     """K of F = K δ^(3/2) for a ball between both races, N/m^1.5; lengths m, angle rad [P14 Eq. 6]."""
     inner, outer = (
-        race_contact(race, pitch_diameter, ball_diameter, contact_angle, conformity, young_modulus, poisson_ratio)
+        race_contact(race, pitch_diameter, ball_diameter, contact_angle, conformity)
         for race, conformity in (("inner", inner_conformity), ("outer", outer_conformity))
     )
     return in_series(inner.load_deflection, outer.load_deflection, BALL_EXPONENT)
@@ -159,8 +155,6 @@ def contact_width(
     bearing: Bearing,
     race: str,
     load: float,
-    young_modulus: float = YOUNG_MODULUS,
-    poisson_ratio: float = POISSON_RATIO,
 ) -> float:
     """Width along the rolling direction of the contact with `race` ("outer", "inner") under a normal `load` (N), m.
 
@@ -173,8 +167,6 @@ def contact_width(
         bearing.ball_diameter,
         bearing.contact_angle,
         bearing.conformity(race),
-        young_modulus,
-        poisson_ratio,
     )
     if not is_roller(bearing):
         return 2.0 * contact.semi_axes(load)[0]

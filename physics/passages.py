@@ -35,9 +35,8 @@ def crossings(scene: Scene, spall_index: int, arcs: Array, start: float, stop: f
     """Every crossing of the points at `arcs` (N,), point after point, each as `passages` gives it."""
     spall = scene.spalls[spall_index]
     bearing = scene.rig.bearing
-    cage = scene.cage if spall.row == 1 or scene.second_cage is None else scene.second_cage
+    cage, race_speed = scene.cage_of(spall.row), scene.race_speed(spall.race)
     sign = float(spall.travel_sign)
-    race_speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
     path = cage.polynomial
     travel = PPoly(sign * path.c, path.x, extrapolate=True)
     # The race's own turning is taken off piece by piece: t = (t − x) + x inside the piece that starts at x.

@@ -38,8 +38,7 @@ FINEST_ACCURACY = 3e-4
 def balls_a_period(scene: Scene) -> int:
     """How many balls have to pass until `scene` is as it was, but for their numbers; 0 if it never is."""
     run, bearing, imperfections = scene.operation, scene.rig.bearing, scene.imperfections
-    cages = [scene.cage] if scene.second_cage is None else [scene.cage, scene.second_cage]
-    even = len({cage.mean_speed for cage in cages}) == 1 and not any(cage.knot_values for cage in cages)
+    even = len({cage.mean_speed for cage in scene.cages}) == 1 and not any(cage.knot_values for cage in scene.cages)
     steady = run.unbalance_force == 0.0 and run.load_fluctuation == 0.0
     fixed = scene.defective_race != "inner" and all(wave.race == "outer" for wave in imperfections.waviness)
     if not (even and steady and fixed):

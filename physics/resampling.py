@@ -41,7 +41,12 @@ def decimate(signal: Array, factor: int) -> Array:
 
 
 def read_at(signal: Array, place: Array) -> Array:
-    """Values (K, C) of `signal` (T, C), T at least 6, at each `place` (K,) in samples, by quintic polynomials."""
+    """Values (K, C) of `signal` (T, C) at each `place` (K,) in samples, by quintic polynomials.
+
+    Raises ValueError if there are fewer than 6 samples.
+    """
+    if signal.shape[0] < POINTS:
+        raise ValueError(f"{signal.shape[0]} samples; reading between them takes at least {POINTS}")
     values = np.zeros((place.size, signal.shape[1]))
     _read_at(np.ascontiguousarray(signal), np.ascontiguousarray(place), values)
     return values

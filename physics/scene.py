@@ -85,6 +85,19 @@ class Scene:
         return self.cage.duration
 
     @property
+    def cages(self) -> tuple[CagePath, ...]:
+        """The path of the one cage, or of those of row 1 and row 2."""
+        return (self.cage,) if self.second_cage is None else (self.cage, self.second_cage)
+
+    def cage_of(self, row: int) -> CagePath:
+        """The path of the cage that holds the balls of `row` (1 or 2)."""
+        return self.cages[min(row, len(self.cages)) - 1]
+
+    def race_speed(self, race: str) -> float:
+        """Angular speed of a race, rad/s: the shaft's for the inner race, zero for the outer one."""
+        return self.operation.shaft_speed if race == "inner" else 0.0
+
+    @property
     def defective_race(self) -> str:
         """The race that holds the spalls: "none", "outer" or "inner"."""
         return self.spalls[0].race if self.spalls else "none"

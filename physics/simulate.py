@@ -10,19 +10,18 @@ from numpy.typing import NDArray
 
 from physics.adaptive_response import ACCELERATION_ALONE, respond_accurately
 from physics.integrators.march import Grid
-from physics.integrators.method import Method
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
 from physics.modal_case import Kept
 from physics.motion import motion_model, starting_state
-from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.outcome import Outcome, SimulationFailed
 from physics.periodic_response import respond_until_repeated, worth_repeating
 from physics.resampling import decimate
 from physics.response import MODEL, respond, respond_by_reference
 from physics.scene import Scene
-from physics.stability import longest_stable_step
-from physics.statics import Equilibrium, equilibrium
+from physics.stability import require_stable, stable_substeps
+from physics.statics import carried
 from physics.trace import Trace
 
 Array = NDArray[np.float64]
@@ -35,7 +34,6 @@ PILOT_PASSES = 3.0
 PILOT_TURNS = 2.2
 SHORTEST_PILOT = 2048
 MOST_SUBSTEPS = 32
-MOST_STABLE_SUBSTEPS = 1024
 MOST_OVERSAMPLING = 64
 # On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
 PILOT_ORDER = 2.0
@@ -67,56 +65,46 @@ def simulate(
     by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
     too low to hold the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer
     ring's motion kept by `keep_outer` (states and forces stay samples). The reference method has no estimate. A simpler
-    `model` (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them.
+    `model` (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them,
+    asked for or not.
     Raises SimulationFailed with a typed outcome.
     """
     method = method or (MODAL if substeps is None else "exponential_rk4")
-    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy)
-    if model != MODEL:
-        return SIMPLER_MODELS[model].respond(scene, rate)
-    rest = _starting_rest(scene)
-    start = starting_state(motion_model(scene), rest.displacement[0])
+    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy, least_error)
     samples = round(scene.duration * rate)
-    if method == REFERENCE:
-        return respond_by_reference(scene, start, rate, samples, keep_state=keep_state)
+    if model != MODEL:
+        simpler = SIMPLER_MODELS[model]
+        factor = oversampling(scene, rate) if simpler.rings else 1
+        return _lowered(simpler.respond(scene, rate * factor), rate, factor, samples)
+    rest = carried(scene, np.zeros(1))
+    start = starting_state(motion_model(scene), rest.displacement[0])
     factor = oversampling(scene, rate)
+    if method == REFERENCE:
+        trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=keep_state)
+        return _lowered(trace, rate, factor, samples)
     if method == MODAL:
         kept = Kept(keep_state, keep_force, keep_outer)
         wanted = (scene, start, rate * factor, samples * factor, accuracy, least_error)
         repeated = repeat and kept == ACCELERATION_ALONE and worth_repeating(scene, samples / rate, accuracy)
         trace = respond_until_repeated(*wanted) if repeated else respond_accurately(*wanted, kept)
-        return _lowered(trace, rate, factor)
+        return _lowered(trace, rate, factor, samples)
     steps, error = substeps or default_substeps(scene, rate * factor), math.nan
     least = stable_substeps(scene, METHODS[method], rest, rate * factor)
     if substeps is None:
         steps = max(steps, least)
-    if steps < least or steps > MOST_STABLE_SUBSTEPS:
-        raise SimulationFailed(Outcome.UNSTABLE_STEP, _instability(METHODS[method], rate * factor, steps, least))
+    require_stable(METHODS[method], rate * factor, steps, least)
     if estimate_error:
         most = steps if substeps else max(MOST_SUBSTEPS, steps)
         steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
     grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
     trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force, keep_outer=keep_outer)
-    return replace(_lowered(trace, rate, factor), error_estimate=error)
+    return replace(_lowered(trace, rate, factor, samples), error_estimate=error)
 
 
 def default_substeps(scene: Scene, rate: float) -> int:
     """Fewest steps a sample that give the fastest linear mode about six steps a period."""
     per_step = reach(motion_model(scene), 1.0 / rate)
     return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
-
-
-def stable_substeps(scene: Scene, method: Method, rest: Equilibrium, rate: float) -> int:
-    """Fewest steps a sample at which `method` is stable in the quasi-static position `rest` at t = 0."""
-    longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
-    return max(1, math.ceil(1.0 / (rate * longest) - 1e-9))
-
-
-def _instability(method: Method, rate: float, steps: int, least: int) -> str:
-    return (
-        f"{steps} step(s) a sample of {rate:.6g} Hz; {method.name} is stable up to |λ| h = {method.stability_limit:g} "
-        f"of {method.limits}, which here takes {least} steps a sample (at most {MOST_STABLE_SUBSTEPS} are made)"
-    )
 
 
 def oversampling(scene: Scene, rate: float) -> int:
@@ -134,7 +122,14 @@ def oversampling(scene: Scene, rate: float) -> int:
 
 
 def _check_request(
-    scene: Scene, rate: float, method: str, model: str, substeps: int | None, keeps: bool, accuracy: float
+    scene: Scene,
+    rate: float,
+    method: str,
+    model: str,
+    substeps: int | None,
+    keeps: bool,
+    accuracy: float,
+    least_error: float,
 ) -> None:
     problem = ""
     if method not in METHODS:
@@ -145,23 +140,18 @@ def _check_request(
         problem = f"rate = {rate!r} Hz; it must be above 0"
     elif round(scene.duration * rate) < 1:
         problem = f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
-    elif substeps is not None and (substeps != int(substeps) or substeps < 1):
+    elif substeps is not None and (not float(substeps).is_integer() or substeps < 1):
         problem = f"substeps = {substeps!r}; it must be a whole number, 1 or more"
     elif method == MODAL and substeps is not None:
         problem = f"substeps = {substeps!r}; the method {MODAL} chooses its own steps, give accuracy instead"
     elif not SMALLEST_ACCURACY <= accuracy <= LARGEST_ACCURACY:
         problem = f"accuracy = {accuracy!r}; it must lie from {SMALLEST_ACCURACY:g} to {LARGEST_ACCURACY:g}"
+    elif not 0.0 <= least_error < math.inf:
+        problem = f"least_error = {least_error!r} m/s²; it must be 0 or more, and finite"
     elif method == REFERENCE and keeps:
         problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
-
-
-def _starting_rest(scene: Scene) -> Equilibrium:
-    rest = equilibrium(scene, np.zeros(1))
-    if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
-        raise SimulationFailed(Outcome.NO_START, f"at t = 0 {rest.outcome(0).value} of {scene.operation.load:g} N")
-    return rest
 
 
 def _pilot(
@@ -198,17 +188,18 @@ def _relative_error(coarse: Array, fine: Array) -> float:
     return float(np.sqrt(np.mean((coarse - fine) ** 2)) / size / (1.0 - 2.0**-PILOT_ORDER))
 
 
-def _lowered(trace: Trace, rate: float, factor: int) -> Trace:
-    """The trace at `rate`, a `factor` below the one it was marched at."""
+def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:
+    """The first `samples` of a trace at `rate`, a `factor` below the one it was marched at."""
+    time = np.arange(samples) / rate
     if factor == 1:
-        return replace(trace, rate=rate, time=np.arange(trace.time.size) / rate)
+        return replace(trace, rate=rate, time=time)
     return replace(
         trace,
         rate=rate,
-        time=np.arange(trace.time.size // factor) / rate,
-        acceleration=decimate(trace.acceleration, factor),
-        state=None if trace.state is None else trace.state[::factor],
-        contact_force=None if trace.contact_force is None else trace.contact_force[::factor],
+        time=time,
+        acceleration=decimate(trace.acceleration, factor)[:samples],
+        state=None if trace.state is None else trace.state[::factor][:samples],
+        contact_force=None if trace.contact_force is None else trace.contact_force[::factor][:samples],
         outer_displacement=_decimated(trace.outer_displacement, factor),
         outer_velocity=_decimated(trace.outer_velocity, factor),
         outer_acceleration=_decimated(trace.outer_acceleration, factor),

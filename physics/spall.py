@@ -95,6 +95,8 @@ class Spall:
         )
         for value in depth:
             require_between("table_depth", value, -1e-2, 1e-2, "m")
+        for value in angle:
+            require_between("table_angle", value, -0.5 * self.extent, 0.5 * self.extent, "rad")
 
     @property
     def travel_sign(self) -> int:

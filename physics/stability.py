@@ -1,4 +1,4 @@
-"""The longest step at which an explicit method is stable, from the fastest modes of the linearised scene."""
+"""How long a step may be for an explicit method to be stable, from the fastest modes of the linearised scene."""
 
 from __future__ import annotations
 
@@ -9,10 +9,15 @@ from numpy.typing import NDArray
 
 from physics.integrators.method import ALL_MODES, CONTACT_MODES, Method
 from physics.modes import coupled_matrix
+from physics.outcome import Outcome, SimulationFailed
 from physics.rig import Rig
+from physics.scene import Scene
+from physics.statics import Equilibrium
 from physics.stiffness import matrix
 
 Array = NDArray[np.float64]
+
+MOST_STABLE_SUBSTEPS = 1024
 
 
 def fastest_rate(rig: Rig, limits: str, stiffness: Array, damping: Array) -> float:
@@ -44,3 +49,20 @@ def longest_stable_step(rig: Rig, method: Method, stiffness: Array, damping: Arr
     """Longest stable step (s) of `method` for a bearing of this `stiffness` and `damping` (3,); may be infinite."""
     rate = fastest_rate(rig, method.limits, stiffness, damping)
     return method.stability_limit / rate if rate > 0.0 else math.inf
+
+
+def stable_substeps(scene: Scene, method: Method, rest: Equilibrium, rate: float) -> int:
+    """Fewest steps a sample at which `method` is stable in the quasi-static position `rest` at t = 0."""
+    longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
+    return max(1, math.ceil(1.0 / (rate * longest) - 1e-9))
+
+
+def require_stable(method: Method, rate: float, substeps: int, least: int) -> None:
+    """Raise SimulationFailed if `substeps` a sample of `rate` (Hz) are fewer than `least`, or more than are made."""
+    if substeps < least or substeps > MOST_STABLE_SUBSTEPS:
+        raise SimulationFailed(
+            Outcome.UNSTABLE_STEP,
+            f"{substeps} step(s) a sample of {rate:.6g} Hz; {method.name} is stable up to |λ| h = "
+            f"{method.stability_limit:g} of {method.limits}, which here takes {least} steps a sample (at most "
+            f"{MOST_STABLE_SUBSTEPS} are made)",
+        )

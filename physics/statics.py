@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from physics._jit import njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact import COMPRESSION, FORCE, Law, of_ball, set_time
-from physics.outcome import StaticOutcome
+from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.rest import LOADED, NO_EQUILIBRIUM, NOT_LOADED, NOT_UNIQUE, direction, solve_at
 from physics.scene import Scene
 from physics.track import Track
@@ -75,6 +76,22 @@ def load_vector(scene: Scene, time: Array) -> Array:
     share = 1.0 + run.load_fluctuation * np.cos(turn + run.fluctuation_phase) if run.load_fluctuation else 1.0
     load[:, 1] -= run.load * share
     return load
+
+
+def carried(scene: Scene, time: Array) -> Equilibrium:
+    """The `equilibrium` at the times (T,), s; raises SimulationFailed where no position carries the load."""
+    rest = equilibrium(scene, time)
+    lost = np.flatnonzero(rest.status == NO_EQUILIBRIUM)
+    if lost.size:
+        refuse(scene, float(time[lost[0]]))
+    return rest
+
+
+def refuse(scene: Scene, time: float) -> NoReturn:
+    """Raise SimulationFailed: no position carries the load at `time` (s)."""
+    load = math.hypot(*load_vector(scene, np.array([time]))[0])
+    problem = f"at t = {time:g} s {StaticOutcome.NO_EQUILIBRIUM.value} of {load:.6g} N"
+    raise SimulationFailed(Outcome.NO_START, problem)
 
 
 @njit_lean

@@ -164,7 +164,8 @@ def passed_kinks(stops: Stops, place: int, time: float) -> int:
 def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
     """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`.
 
-    A ball out of contact does not feel its kinks, but may make contact before a later one: none is dropped here.
+    A ball out of contact feels a kink only where it makes contact there, which is located like any other change; as it
+    may make contact before a later one, none is dropped here.
     """
     while place < stops.time.size and stops.time[place] < finish:
         if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:

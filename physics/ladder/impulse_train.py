@@ -22,7 +22,7 @@ from physics.passages import passages
 from physics.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics import carried
 from physics.stiffness import matrix
 from physics.trace import ContactChanges, Trace
 
@@ -45,7 +45,7 @@ class Edges(NamedTuple):
 def _healthy(scene: Scene) -> tuple[Array, Array, Array]:
     """Position (2,), stiffness (2, 2) and film damping (2, 2) of the bearing without spalls at t = 0."""
     sound = replace(scene, spalls=(), imperfections=Imperfections())
-    rest = equilibrium(sound, np.zeros(1))
+    rest = carried(sound, np.zeros(1))
     return rest.displacement[0], matrix(rest.stiffness[0]), matrix(rest.damping[0])
 
 
@@ -53,15 +53,15 @@ def _edges_of(scene: Scene, index: int, position: Array) -> list[Edges]:
     """The entry edge and the exit edge of every pass over one spall."""
     spall, bearing = scene.spalls[index], scene.rig.bearing
     depth = build_path(spall, bearing).largest_depth
-    race_speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
-    speed = abs(scene.cage.mean_speed - race_speed)
+    speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+    alpha = math.cos(bearing.contact_angle)
     ends = ((-1.0, spall.entry_taper), (1.0, spall.exit_taper))
     found = []
     for sign, taper in ends:
         crossed = passages(scene, index, sign * (spall.extent - taper) / 2.0, 0.0, scene.duration)
         angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
-        compression = position[0] * np.cos(angle) + position[1] * np.sin(angle) - bearing.clearance
-        before, inside = np.maximum(compression, 0.0), np.maximum(compression - depth, 0.0)
+        radial = position[0] * np.cos(angle) + position[1] * np.sin(angle) - bearing.clearance
+        before, inside = np.maximum(radial * alpha, 0.0), np.maximum((radial - depth) * alpha, 0.0)
         lost = bearing.load_deflection * (before**bearing.exponent - inside**bearing.exponent)
         found.append(
             Edges(
@@ -78,9 +78,9 @@ def _edges_of(scene: Scene, index: int, position: Array) -> list[Edges]:
 
 
 def _ball_angle(scene: Scene, spall: Spall, ball: NDArray[np.int64], time: Array) -> Array:
-    cage = scene.cage if spall.row == 1 or scene.second_cage is None else scene.second_cage
     bearing = scene.rig.bearing
-    return np.asarray(cage.angle(time) + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
+    turned = scene.cage_of(spall.row).angle(time)
+    return np.asarray(turned + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
 
 
 def _edges(scene: Scene, position: Array) -> Edges:
@@ -116,7 +116,8 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
     """Response of `scene` at the instants k / rate (Hz) to the steps of force at the edges of its spalls.
 
     A healthy scene gives zero. Contact changes are the middles of those edges at which the ball loses all its load;
-    otherwise balls count as touching, also outside the load zone.
+    otherwise balls count as touching, also outside the load zone. Raises SimulationFailed where no position carries the
+    load.
     """
     samples, rig = round(scene.duration * rate), scene.rig
     position, stiffness, film = _healthy(scene)
@@ -161,5 +162,6 @@ IMPULSE_TRAIN = Model(
     computes="the ringing of the linear modes after each edge of each spall",
     holds_where="times of edges and the lines they make in spectra; levels to within some decibels for line spalls",
     leaves_out="release and regain other than the edges, variation of stiffness, hardening, and healthy vibration",
+    rings=True,
     respond=impulse_response,
 )

@@ -21,6 +21,7 @@ from physics.cage import CagePath
 from physics.contact import ACTIVE, ContactModel, Law, press, reset_contact, set_time
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.exponential_rk4 import step_exponential_rk4
+from physics.integrators.methods import METHODS
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, power_series, set_step
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
@@ -28,7 +29,8 @@ from physics.motion import MotionModel, motion_model, resonator_acceleration, st
 from physics.outcome import Outcome, SimulationFailed
 from physics.rest import NO_EQUILIBRIUM, solve_at
 from physics.scene import Scene
-from physics.statics import load_vector
+from physics.stability import require_stable, stable_substeps
+from physics.statics import carried, load_vector, refuse
 from physics.trace import Trace
 from physics.track import Track, cage_at
 
@@ -36,6 +38,7 @@ Array = NDArray[np.float64]
 
 NODES_PER_SPACING = 4096
 NODES_PER_SAMPLE = 2
+METHOD = "exponential_rk4"
 # Columns of the table: force at zero displacement and velocity, stiffness xx, xy, yx, yy, damping xx, xy, yy.
 COLUMNS = 9
 
@@ -161,7 +164,7 @@ def _table(
     loads = load_vector(scene, time)
     table, first, touching, lost = _linearise(model.balls, model.frames, model.law, model.track, time, loads)
     if lost >= 0:
-        raise SimulationFailed(Outcome.NO_START, f"no position carries {scene.operation.load:g} N")
+        refuse(scene, float(time[lost]))
     return time, table, first, touching
 
 
@@ -185,26 +188,32 @@ def linear_response(scene: Scene, rate: float) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), linearised around its quasi-static positions.
 
     Contact changes are those of the quasi-static positions, known to half a sample. Raises SimulationFailed where no
-    position carries the load.
+    position carries the load, or the contacts are too stiff for the steps that can be made.
     """
     samples = round(scene.duration * rate)
     model, motion = assemble(scene), motion_model(scene)
+    substeps = stable_substeps(scene, METHODS[METHOD], carried(scene, np.zeros(1)), rate)
+    require_stable(METHODS[METHOD], rate, substeps, substeps)
     time, table, _, touching = _table(scene, model, samples, rate)
     repeats = repeats_with_the_balls(scene)
     width = scene.rig.bearing.spacing / NODES_PER_SPACING if repeats else float(time[1])
     place = Place(model.track, scene.rig.bearing.spacing if repeats else 0.0, width)
     now = _linearise(model.balls, model.frames, model.law, model.track, np.zeros(1), load_vector(scene, np.zeros(1)))[1]
     state = np.zeros((samples, 12))
-    series = power_series(motion, 1.0 / rate)
-    acceleration = _march(table, place, motion, series, 1, starting_state(motion, now), state)
+    series = power_series(motion, 1.0 / (rate * substeps))
+    acceleration = _march(table, place, motion, series, substeps, starting_state(motion, now), state)
+    if not np.isfinite(acceleration).all():
+        raise SimulationFailed(
+            Outcome.NOT_FINITE, f"the response stopped being finite with steps of {series.step:.3g} s"
+        )
     return Trace(
         rate=rate,
         time=np.arange(samples) / rate,
         acceleration=acceleration,
         changes=changes_between_samples(_touching(scene, model, touching, samples, rate), rate),
         model=LINEAR_TIME_VARYING.name,
-        method="exponential_rk4",
-        step=1.0 / rate,
+        method=METHOD,
+        step=series.step,
         error_estimate=math.nan,
         tension_share=math.nan,
         state=state,
@@ -216,5 +225,6 @@ LINEAR_TIME_VARYING = Model(
     computes="acceleration and motion around the quasi-static positions under their changing stiffness",
     holds_where="healthy bearings and spalls over which contact forces stay within about a tenth of the static loads",
     leaves_out="contact lost or made by vibration, and the hardening of the contacts under impacts",
+    rings=True,
     respond=linear_response,
 )

@@ -14,11 +14,12 @@ class Model:
     """One model of the ladder: `respond(scene, rate)` gives its Trace.
 
     `computes` says what its response holds, `holds_where` in which scenes that is near the nonlinear model's, and
-    `leaves_out` what it cannot show.
+    `leaves_out` what it cannot show; `rings` if its response has the modes, which take a rate that holds them.
     """
 
     name: str
     computes: str
     holds_where: str
     leaves_out: str
+    rings: bool
     respond: Callable[[Scene, float], Trace]

@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
-from physics.outcome import Outcome, SimulationFailed
-from physics.rest import NO_EQUILIBRIUM
 from physics.scene import Scene
-from physics.statics import equilibrium, load_vector
+from physics.statics import carried, load_vector
 from physics.trace import Trace
 
 Array = NDArray[np.float64]
@@ -26,12 +24,7 @@ def quasi_static_response(scene: Scene, rate: float) -> Trace:
     a sample. Raises SimulationFailed where no position carries the load.
     """
     time = np.arange(round(scene.duration * rate)) / rate
-    rest = equilibrium(scene, time)
-    lost = np.flatnonzero(rest.status == NO_EQUILIBRIUM)
-    if lost.size:
-        raise SimulationFailed(
-            Outcome.NO_START, f"at t = {time[lost[0]]:g} s no position carries {scene.operation.load:g} N"
-        )
+    rest = carried(scene, time)
     rig, turn = scene.rig, scene.operation.shaft_speed
     support = np.array([rig.support_stiffness_x, rig.support_stiffness_y])
     steady = np.array([0.0, -scene.operation.load])
@@ -57,5 +50,6 @@ QUASI_STATIC = Model(
     computes="ball loads, positions and stiffness without inertia; acceleration only of a load that turns",
     holds_where="stiffness and ball loads of slow, shallow or extended spalls, where contact forces stay near them",
     leaves_out="every vibration that contacts excite, so its acceleration is no stand-in for a sensor's",
+    rings=False,
     respond=quasi_static_response,
 )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from kernels import press, reset_contact, set_time
 
-from physics.assembly import assemble, race_speed
+from physics.assembly import assemble
 from physics.cage import CagePath, draw_slip_knots
 from physics.contact import (
     BALL_ROWS,
@@ -81,5 +81,5 @@ def test_the_kernels_read_the_cage_path_even_where_one_cage_has_fewer_knots(gear
 
 def test_a_race_turns_with_the_shaft_or_not_at_all(gearbox, build_scene):
     scene = build_scene(gearbox)
-    assert race_speed(scene, "outer") == 0.0
-    assert race_speed(scene, "inner") == pytest.approx(2 * math.pi * 7.0)
+    assert scene.race_speed("outer") == 0.0
+    assert scene.race_speed("inner") == pytest.approx(2 * math.pi * 7.0)

@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from physics.imperfections import Imperfections
-from physics.ladder.impulse_train import impulse_response
+from physics.ladder.impulse_train import _edges, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.models import SIMPLER_MODELS
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.outcome import Outcome, SimulationFailed
 from physics.passages import passages
 from physics.simulate import simulate
+from physics.statics import equilibrium
 from physics.stiffness import stiffness_at, stiffness_trace
 
 RATE = 65536.0
@@ -43,6 +44,39 @@ def test_an_unknown_model_is_refused_with_the_known_ones(reference_scene):
     ) as failure:
         simulate(reference_scene("G1", 0.05), RATE, model="spice")
     assert failure.value.outcome is Outcome.BAD_REQUEST
+
+
+@pytest.mark.parametrize("rate", [1000.0, 6000.0, 16384.0])
+def test_models_that_ring_keep_their_size_at_rates_too_low_for_their_modes(rate, reference_scene):
+    scene = reference_scene("G1", 0.3)
+    for name in ("linear time-varying", "impulse train"):
+        low, high = simulate(scene, rate, model=name), simulate(scene, RATE, model=name)
+        assert low.acceleration.shape == (round(0.3 * rate), 2)
+        below = np.abs(np.fft.rfft(high.acceleration[:, 1]))[: round(0.4 * 0.3 * rate)] / RATE
+        kept = np.abs(np.fft.rfft(low.acceleration[:, 1]))[: below.size] / rate
+        assert rms(kept) == pytest.approx(rms(below), rel=0.02)  # ripple of the filter, and the ends of the record
+
+
+def test_the_linear_model_of_stiff_contacts_takes_steps_that_are_stable_or_says_so(reference_scene):
+    scene = reference_scene("G1", 0.02)
+    light = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, inner_mass=1e-3))
+    trace = simulate(light, RATE, model="linear time-varying")
+    assert trace.step < 1.0 / RATE
+    assert np.isfinite(trace.acceleration).all()
+    nothing = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, inner_mass=1e-12))
+    with pytest.raises(SimulationFailed, match="is stable up to") as failure:
+        simulate(nothing, RATE, model="linear time-varying")
+    assert failure.value.outcome is Outcome.UNSTABLE_STEP
+
+
+@pytest.mark.parametrize("name", SIMPLER_MODELS)
+def test_no_model_gives_a_trace_where_no_position_carries_the_load(name, reference_scene):
+    scene = reference_scene("G1", 0.02)
+    soft = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, load_deflection=1e5))
+    crushed = dataclasses.replace(scene, rig=soft, operation=dataclasses.replace(scene.operation, load=1e7))
+    with pytest.raises(SimulationFailed, match=r"of 1e\+07 N") as failure:
+        simulate(crushed, RATE, model=name)
+    assert failure.value.outcome is Outcome.NO_START
 
 
 # Contact forces stay near the static ones: the range that the model states. Larger on the fan rig's line spall.
@@ -149,6 +183,20 @@ def test_the_impulse_train_has_the_size_of_the_nonlinear_response_on_line_spalls
         scene = reference_scene(name, 0.15)
         ratio = rms(simulate(scene, RATE, model="impulse train").acceleration) / rms(nonlinear(scene).acceleration)
         assert 0.5 < ratio < 2.0  # within 6 dB, as the model states
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, 0.6])
+def test_an_edge_takes_off_the_load_that_the_ball_carries(angle, reference_scene):
+    scene = reference_scene("G1s", 0.05)
+    bearing = dataclasses.replace(scene.rig.bearing, contact_angle=angle)
+    deep = dataclasses.replace(scene.spalls[0], depth=1e-4, entry_taper=0.0, exit_taper=0.0)
+    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(deep,))
+    sound = dataclasses.replace(scene, spalls=())
+    edges = _edges(scene, equilibrium(sound, np.zeros(1)).displacement[0])
+    carried = equilibrium(sound, edges.time).ball_load[np.arange(edges.time.size), edges.row - 1, edges.ball - 1]
+    assert edges.all.any()
+    # The impulse train takes the shaft to stay where it is at t = 0.
+    assert np.abs(edges.change[edges.all]) == pytest.approx(carried[edges.all], rel=0.03)
 
 
 def test_impulses_of_an_inner_spall_are_modulated_by_the_load_zone(reference_scene):

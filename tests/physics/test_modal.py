@@ -291,9 +291,11 @@ def variants(reference_scene):
     roller = dataclasses.replace(bearing, exponent=10.0 / 9.0, load_deflection=bearing.load_deflection * 4e-3)
     waves = (Waviness("outer", 11, 2e-7, 0.3), Waviness("inner", 5, 3e-7, 1.0))
     uneven = tuple(tuple(1e-7 * math.sin(3 * ball + row) for ball in range(bearing.balls)) for row in range(2))
+    sharp = dataclasses.replace(scene.spalls[0], entry_taper=0.0, exit_taper=0.0)
     return {
         "without tension": dataclasses.replace(scene, contact_law="no_tension"),
         "rollers": dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=roller)),
+        "edges without tapers": dataclasses.replace(scene, spalls=(sharp,)),
         "two cages": dataclasses.replace(scene, second_cage=scene.cage),
         "turning loads": dataclasses.replace(
             scene, operation=dataclasses.replace(scene.operation, unbalance_force=30.0, load_fluctuation=0.2)
@@ -305,7 +307,15 @@ def variants(reference_scene):
 
 @pytest.mark.parametrize(
     "name",
-    ["without tension", "rollers", "two cages", "turning loads", "waves and unequal balls", "an overdamped resonator"],
+    [
+        "without tension",
+        "rollers",
+        "edges without tapers",
+        "two cages",
+        "turning loads",
+        "waves and unequal balls",
+        "an overdamped resonator",
+    ],
 )
 def test_the_accuracy_is_kept_on_scenes_of_every_kind(name, reference_scene):
     scene = variants(reference_scene)[name]

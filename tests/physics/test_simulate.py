@@ -40,6 +40,10 @@ def with_bearing(scene, **changes):
         ({"substeps": 0}, "substeps = 0; it must be"),
         ({"substeps": -3}, "substeps = -3; it must be"),
         ({"substeps": 1.5}, r"substeps = 1\.5; it must be"),
+        ({"substeps": math.nan}, "substeps = nan; it must be"),
+        ({"least_error": math.nan}, r"least_error = nan m/s²; it must be 0 or more"),
+        ({"least_error": -1.0}, r"least_error = -1\.0 m/s²"),
+        ({"least_error": math.inf}, r"least_error = inf m/s²"),
     ],
 )
 def test_a_bad_request_is_refused_with_the_argument_and_its_value(request_made, told, reference_scene):
@@ -54,7 +58,7 @@ def test_a_load_that_no_position_carries_is_told_with_the_load(reference_scene):
     soft = with_bearing(reference_scene("G0", 0.02), load_deflection=1e5)
     scene = dataclasses.replace(soft, operation=Operation(44.0, 1e7))
     with pytest.raises(
-        SimulationFailed, match=r"at t = 0 no position of the shaft carries the load of 1e\+07 N"
+        SimulationFailed, match=r"at t = 0 s no position of the shaft carries the load of 1e\+07 N"
     ) as caught:
         simulate(scene, RATE)
     assert caught.value.outcome is Outcome.NO_START

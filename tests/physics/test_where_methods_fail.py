@@ -11,8 +11,8 @@ from physics.integrators.methods import MARCHES, METHODS
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response import respond
-from physics.simulate import simulate, stable_substeps
-from physics.stability import fastest_rate, longest_stable_step
+from physics.simulate import simulate
+from physics.stability import fastest_rate, longest_stable_step, stable_substeps
 from physics.statics import equilibrium
 
 RATE = 65536.0

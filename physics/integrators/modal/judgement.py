@@ -69,14 +69,18 @@ def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
 def meet_change(
     law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
 ) -> None:
-    """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression."""
+    """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression.
+
+    A loss is put on the grid if the film's force that it ends is small enough; contact may be made at a jump of the
+    path, where the elastic force begins at any size.
+    """
     clock, marks = memory.clock, memory.marks
     unit = grid.interval / UNITS
     allowed = CHANGE_SHARE * clock[TOLERANCE]
     clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
     clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
-    if marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
+    if losing and marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
         left = unit * max(1, int(left / unit + 0.5))
     marks[BALL], clock[LEFT] = ball, left
     if not losing:

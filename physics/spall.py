@@ -95,8 +95,10 @@ class Spall:
         )
         for value in depth:
             require_between("table_depth", value, -1e-2, 1e-2, "m")
+        # Beyond its ends the table would be cut off by a wall; halves of degrees may differ in their last digit.
+        half = 0.5 * self.extent * (1.0 + 1e-9)
         for value in angle:
-            require_between("table_angle", value, -0.5 * self.extent, 0.5 * self.extent, "rad")
+            require_between("table_angle", value, -half, half, "rad")
 
     @property
     def travel_sign(self) -> int:

@@ -135,7 +135,7 @@ def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[st
     """Labels of scene, run and place in the corpus."""
     values = label_values(scenario.scene)
     return values | {
-        "validity": "; ".join(filter(None, [str(values["validity"]), _chaos(trace)])),
+        "validity": "; ".join(filter(None, [str(values["validity"]), _chaos(trace), _unlocated(trace)])),
         "record": scenario.record,
         "part": scenario.part,
         **dict.fromkeys(RECORDING_LABELS, ""),
@@ -161,6 +161,16 @@ def _chaos(trace: Trace) -> str:
     return (
         f"bouncing balls multiply errors {trace.sensitivity:.0f} times: the response is chaotic, and its spectra hold "
         "but not its single points"
+    )
+
+
+def _unlocated(trace: Trace) -> str:
+    """What changes of contact that crowd within a step mean for the reader; empty if there are none."""
+    if trace.unlocated_changes == 0:
+        return ""
+    return (
+        f"{trace.unlocated_changes} changes of contact crowd within single steps and were taken at their ends: release "
+        "and regain are that much less sure there"
     )
 
 

@@ -112,6 +112,8 @@ def test_each_race_has_its_own_conformity():
     ring = dataclasses.replace(SIMPLE, inner_conformity=0.515, outer_conformity=3.2)
     assert (ring.conformity("inner"), ring.conformity("outer")) == (0.515, 3.2)
     assert SIMPLE.conformity("inner") == SIMPLE.conformity("outer") == 0.52
+    with pytest.raises(InvalidParameter, match='race = "cage"'):
+        ring.conformity("cage")
 
 
 @pytest.mark.parametrize(

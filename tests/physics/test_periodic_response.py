@@ -108,3 +108,5 @@ def test_a_polynomial_of_degree_five_is_read_exactly_anywhere():
     rows = np.column_stack([grid**5 - 3.0 * grid**2, 2.0 - grid**3])
     expected = np.column_stack([place**5 - 3.0 * place**2, 2.0 - place**3])
     assert read_at(rows, place) == pytest.approx(expected, rel=1e-10, abs=1e-6)
+    with pytest.raises(ValueError, match="5 samples"):
+        read_at(rows[:5], place)

@@ -75,6 +75,7 @@ def test_an_impossible_spall_is_refused_by_field_and_value(change, field, messag
     [
         ({"table_angle": (-0.05, 0.05, 0.0)}, "table_angle must be finite and rise"),
         ({"table_angle": (-0.05, 0.0, math.inf)}, "table_angle must be finite and rise"),
+        ({"table_angle": (-0.06, 0.0, 0.05)}, "table_angle = -0.06 rad; allowed: -0.05 to 0.05 rad"),
         ({"table_depth": (0.0, 0.02, 0.0)}, "table_depth = 0.02 m; allowed: -0.01 to 0.01 m"),
     ],
 )

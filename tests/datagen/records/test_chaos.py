@@ -46,3 +46,11 @@ def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
 def test_a_tame_record_is_not(scenario):
     tame = draw_scenario(load_recipe("gearbox_rig"), 0)
     assert "chaotic" not in make_record(tame).labels["validity"]
+
+
+def test_changes_of_contact_that_could_not_be_located_are_told(scenario, monkeypatch):
+    def crowded(*scene, **choices):
+        return replace(simulate(*scene, **choices), unlocated_changes=3)
+
+    monkeypatch.setattr("datagen.records.record.simulate", crowded)
+    assert "3 changes of contact crowd within single steps" in make_record(scenario).labels["validity"]

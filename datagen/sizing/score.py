@@ -9,8 +9,9 @@ from typing import Any
 from datagen.corpora.index import read_index
 from datagen.errors import BadInput
 from datagen.sizing.estimators import find_estimator
-from datagen.sizing.scored_record import ScoredRecord, score_record
-from datagen.sizing.sized_records import sized_records
+from datagen.sizing.record_scores import score_record, unsized_row
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.sized_records import sized_records, unsized_records
 from datagen.sizing.summary import summarise
 from labels.schema import SPLITS
 
@@ -32,15 +33,19 @@ class SizeScores:
 def score_sizes(
     folder: Path, estimator: str | None, load_known: bool, split: str | None, workers: int = 1
 ) -> SizeScores:
-    """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for)."""
+    """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for).
+
+    A record that cannot be sized has a row that says why; BadInput if that holds of all.
+    """
     from joblib import Parallel, delayed
 
     chosen = _split(folder, split)
     find_estimator(estimator)
     splits = None if chosen == ALL else (chosen,)
+    unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
     records = sized_records(folder, load_known=load_known, splits=splits)
     made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_score)(one, estimator) for one in records)
-    scored = sorted(made, key=lambda one: one.record)
+    scored = sorted([*made, *unsized], key=lambda one: one.record)
     known = [one for one in scored if one.known_truth]
     summary = summarise(known, load_known) if known else None
     return SizeScores(str(folder), estimator or "spallgen", chosen, load_known, scored, summary)

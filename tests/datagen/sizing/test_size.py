@@ -20,7 +20,8 @@ from datagen.runs.workers import Engine
 from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
-from datagen.sizing.sized_records import SPEED_ERROR, sized_records
+from datagen.sizing.sized_records import sized_records
+from datagen.sizing.stated_situation import SPEED_ERROR
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
@@ -112,7 +113,64 @@ def test_the_command_writes_report_table_and_picture(sized_corpus: Path, tmp_pat
     rows = list(csv.DictReader((tmp_path / "out" / "estimates.csv").open()))
     assert [row["outcome"] for row in rows[:3]] == ["estimated"] * 3
     assert (tmp_path / "out" / "size_report.png").stat().st_size > 20_000
-    assert len(json.loads((tmp_path / "s.json").read_text())["records"]) == 4
+    assert json.loads((tmp_path / "s.json").read_text()) == report
+    assert not list((tmp_path / "out").glob(".*"))  # nothing half-written
+    assert "reason" in rows[3]
+    assert rows[3]["reason"] == report["records"][3]["reason"] != ""
+
+
+def test_a_told_record_says_its_size_in_every_unit_with_intervals_and_when_its_balls_passed(sized_corpus: Path) -> None:
+    gap = score_sizes(sized_corpus, None, True, "all").records[0]
+    assert (gap.found_race, gap.reason) == ("outer", "")
+    assert "Hertz" in gap.method
+    assert gap.lag_low < gap.lag < gap.lag_high
+    for name in ("extent", "estimated_deg", "estimated_mm"):
+        low, value, high = (getattr(gap, name + end) for end in ("_low", "", "_high"))
+        assert low < value < high
+        assert low / value == pytest.approx(gap.extent_low / gap.extent, rel=1e-12)  # one interval in three units
+    assert gap.estimated_deg == pytest.approx(math.degrees(gap.extent), rel=1e-12)
+    radius_mm = gap.extent_mm / gap.true_extent  # the label says both
+    assert gap.estimated_mm == pytest.approx(radius_mm * gap.extent, rel=1e-9)
+    spacing = 2.0 * math.pi / 12.0
+    assert np.diff(gap.candidates) == pytest.approx(spacing, rel=1e-9)
+    assert gap.candidates_mm == pytest.approx([radius_mm * arc for arc in gap.candidates], rel=1e-9)
+    assert np.diff(gap.event_times, axis=1) == pytest.approx(gap.lag, rel=1e-9)
+    assert 30 <= len(gap.event_times) <= 40  # 98 passes a second for 0.4 s, but for those cut off or not heard
+
+
+def test_event_times_are_in_the_json_and_counted_in_the_table(sized_corpus: Path, tmp_path: Path) -> None:
+    assert run("size", sized_corpus, "--split", "all", "--out", tmp_path)[0] == 0
+    report = json.loads((tmp_path / "size_report.json").read_text())
+    rows = list(csv.DictReader((tmp_path / "estimates.csv").open()))
+    assert [int(row["passes_heard"]) for row in rows] == [len(one["event_times"]) for one in report["records"]]
+    assert all(len(pair) == 2 for pair in report["records"][0]["event_times"])
+    assert rows[0]["candidates_deg"].split()[0] == format(float(rows[0]["estimated_deg"]), ".6g")
+
+
+@pytest.mark.parametrize("place", ["file", "file/report", "file/deep/report"])
+def test_a_report_that_cannot_be_written_is_refused_before_any_work(
+    sized_corpus: Path, tmp_path: Path, place: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("mine")
+    monkeypatch.setattr("datagen.sizing.score.score_sizes", lambda *_: pytest.fail("it was at work already"))
+    code, said, complaint = run("size", sized_corpus, "--out", tmp_path / place)
+    assert (code, said, complaint.count("\n")) == (2, "", 1)
+    assert "--out" in complaint
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_a_report_that_cannot_be_finished_ends_with_2_and_leaves_the_old_one(
+    sized_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, data: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("datagen.sizing.report.write_atomically", full)
+    (tmp_path / "estimates.csv").write_text("old")
+    code, _, complaint = run("size", sized_corpus, "--split", "all", "--out", tmp_path)
+    assert code == 2
+    assert "No space left" in complaint
+    assert (tmp_path / "estimates.csv").read_text() == "old"
 
 
 def test_users_bring_their_own_estimator(sized_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -139,12 +197,16 @@ def test_an_unknown_split_is_bad_input_and_writes_nothing(sized_corpus: Path, tm
 def scored(**changes: object) -> ScoredRecord:
     """A record told exactly, 10 dB, with what the test changes."""
     exact = ScoredRecord(
-        record=0, bearing_id="b", rig="r", race="outer", profile="tukey", split="test",
+        record=0, recording="", channel="", bearing_id="b", rig="r", race="outer", profile="tukey", split="test",
         snr_db=10.2, speed_rpm=600.0, load_n=100.0,
         extent_mm=2.0, extent_spacing=0.2, rate=RATE, pass_period=0.02, true_lag=0.004, true_extent=0.1,
-        outcome="estimated", found_race="outer", trust=0.9, lag=0.004, lag_low=0.003, lag_high=0.005, lag_arc=0.08,
-        extent=0.1, extent_low=0.09, extent_high=0.12, estimated_mm=2.0, candidates=(0.1, 0.6), static_arc=0.1,
-        envelope_arc=0.05, seconds=0.1, events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=True,
+        outcome="estimated", reason="", method="m", found_race="outer", trust=0.9,
+        lag=0.004, lag_low=0.003, lag_high=0.005, lag_arc=0.08,
+        extent=0.1, extent_low=0.09, extent_high=0.12, estimated_deg=5.73, estimated_deg_low=5.16,
+        estimated_deg_high=6.88, estimated_mm=2.0, estimated_mm_low=1.8, estimated_mm_high=2.4, candidates=(0.1, 0.6),
+        candidates_deg=(5.73, 34.4), candidates_mm=(2.0, 12.0), static_arc=0.1, envelope_arc=0.05,
+        known_size_factor=1.0, seconds=0.1, event_times=np.zeros((0, 2)),
+        events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=True,
     )  # fmt: skip
     return replace(exact, **changes)  # type: ignore[arg-type]
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from rich.markup import escape
 from rich.table import Table
 
+from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord
 
 
@@ -55,3 +57,15 @@ def _spall(one: ScoredRecord) -> tuple[str, str, str]:
 
 def _with_interval(value: float, low: float, high: float) -> str:
     return f"{value:.3g} [{low:.3g}, {high:.3g}]"
+
+
+def known_size_sentence(known: KnownSize) -> str:
+    """What the known size of a record changed."""
+    change = 100.0 * (known.factor - 1.0)
+    sentence = (
+        f"record {known.record} is known to have {known.known_mm:g} mm and was estimated at {known.estimated_mm:.3g} "
+        f"mm, which changes the sizes of {known.corrected} other records of {known.machine} by {change:+.2f} %"
+    )
+    if math.isnan(known.arc_error_without):
+        return sentence
+    return f"{sentence}; their arc error: {known.arc_error_without:.2%} without it, {known.arc_error_with:.2%} with it"

@@ -18,11 +18,13 @@ from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.sizing.estimators import default_estimator, find_estimator
+from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import SPEED_ERROR
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
+from datagen.sizing.tables import known_size_sentence
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation
@@ -234,6 +236,17 @@ def test_the_summary_is_what_it_is_by_hand() -> None:
     assert figure(summary, "abstention where there is no event") == pytest.approx(0.5)
     assert figure(summary, "90 % interval of the arc holds the truth") == pytest.approx(0.5)
     assert summary["long"] == {"records": 1, "told": 1, "error_of_nearest_candidate": 0.0, "median": 0.0}
+
+
+def test_what_a_known_size_did_to_the_errors_of_other_records_is_told() -> None:
+    known = KnownSize(record=0, machine="b", known_mm=2.2, estimated_mm=2.0, factor=1.1)
+    other = scored(record=1, extent=0.11, known_size_factor=1.1)  # 0.1 without it, which is the truth
+    silent = scored(record=2, extent=math.nan, outcome="no_event_pair")
+    (told,) = with_effect([known], [scored(), other, silent, scored(record=3, bearing_id="c", extent=0.3)])
+    assert told.corrected == 1
+    assert told.arc_error_without == pytest.approx(0.0, abs=1e-12)  # rounding
+    assert told.arc_error_with == pytest.approx(0.1)
+    assert "0.00% without it, 10.00% with it" in known_size_sentence(told)
 
 
 def test_between_two_and_five_samples_nothing_is_scored() -> None:

@@ -36,7 +36,7 @@ def reason_against(labels: Mapping[str, Any]) -> str:
 
 def situation_of(labels: Mapping[str, Any], contact: tuple[float, float] | None, record: int, seed: int) -> Situation:
     """What an estimator is told: geometry, roughly the speed, and with `contact` (K, n) the load; never the race."""
-    wrong = 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "operation").random()) - 1.0)
+    wrong = 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
     speed = float(labels["speed_rpm"]) * 2.0 * math.pi / 60.0
     load = float(labels.get("load_n", math.nan))
     known = contact is not None and math.isfinite(load) and load >= 0.0

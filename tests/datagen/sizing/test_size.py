@@ -17,12 +17,13 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
+from datagen.scenarios.streams import PURPOSES, stream
 from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from datagen.sizing.sized_records import sized_records
-from datagen.sizing.stated_situation import SPEED_ERROR
+from datagen.sizing.stated_situation import SPEED_ERROR, situation_of
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
 from datagen.sizing.tables import known_size_sentence
 from labels.spall_size.calibration import Calibration
@@ -247,6 +248,27 @@ def test_what_a_known_size_did_to_the_errors_of_other_records_is_told() -> None:
     assert told.arc_error_without == pytest.approx(0.0, abs=1e-12)  # rounding
     assert told.arc_error_with == pytest.approx(0.1)
     assert "0.00% without it, 10.00% with it" in known_size_sentence(told)
+
+
+def test_intervals_are_of_a_bootstrap_over_virtual_bearings() -> None:
+    wrong = [scored(bearing_id="bad", lag=0.0044) for _ in range(40)]  # 10 % wrong, all of one bearing
+    rows = [*wrong, *(scored(bearing_id=f"good {k // 4}") for k in range(40))]  # ten bearings told exactly
+    (lag,) = (one for one in summarise(rows, True)["figures"] if one.name == "lag error, 10 dB")
+    assert lag.value == pytest.approx(0.05)
+    # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad bearing makes 0, 50, 69 or 79 % of the
+    # records; over records drawn singly the interval would be within 0.04 and 0.06.
+    assert lag.low == 0.0
+    assert lag.high == pytest.approx(0.1 * 120 / 152)
+
+
+def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the_recipe() -> None:
+    labels = {"record": 0, "balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3,
+              "speed_rpm": 600.0, "contact_angle": 0.0}  # fmt: skip
+    stated = [situation_of(labels, None, k, 0).shaft_speed / (20.0 * math.pi) - 1.0 for k in range(200)]
+    for purpose in PURPOSES:
+        other = [float(stream(0, "record", k, purpose).random()) for k in range(200)]  # of a recipe with the seed 0
+        # Of 200 independent pairs |correlation| exceeds 0.3 once in 60 000 times.
+        assert abs(np.corrcoef(stated, other)[0, 1]) < 0.3 or purpose == "stated_speed"
 
 
 def test_between_two_and_five_samples_nothing_is_scored() -> None:

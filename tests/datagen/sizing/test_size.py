@@ -304,6 +304,10 @@ def test_noise_alone_is_told_no_size() -> None:
     assert told.event_times.shape == (0, 2)
 
 
-def test_a_record_of_a_few_passes_is_too_short() -> None:
-    told = default_estimator().estimate(np.ones(500), RATE, Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 7.0))
-    assert told.outcome is SizeOutcome.TOO_SHORT
+def test_a_record_of_fewer_than_six_passes_is_too_short() -> None:
+    machine = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 7.0)
+    six = 6.0 * min(machine.pass_periods().values()) * RATE
+    short, enough = (default_estimator().estimate(np.ones(round(share * six)), RATE, machine) for share in (0.99, 1.01))
+    assert short.outcome is SizeOutcome.TOO_SHORT
+    assert "fewer than six" in short.reason
+    assert enough.outcome is SizeOutcome.NO_PASSES

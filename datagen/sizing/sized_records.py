@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
 from datagen.errors import BadInput
-from datagen.sizing.stated_situation import reason_against, situation_of
+from datagen.sizing.stated_situation import reason_against, situation_of, wrong_speed
 from labels.spall_size.event_truth import EventTruth, event_truth
 from labels.spall_size.situation import Situation
 
@@ -60,7 +60,8 @@ def sized_records(
 ) -> Iterator[SizedRecord]:
     """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
 
-    The stated shaft speed is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean on it.
+    The stated shaft speed of simulated records is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean
+    on it; that of recordings is as wrong as it is.
     """
     import netCDF4
 
@@ -91,7 +92,8 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
 
 def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
     position, record = int(labels["position"]), int(labels["record"])
-    clean = file.variables.get("acceleration_clean")
+    clean, simulated = file.variables.get("acceleration_clean"), "scenario" in file.variables
+    contact = _stiffness(file, position) if load_known and simulated else None
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),
@@ -99,17 +101,15 @@ def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> Siz
         clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),
         labels=labels,
         situation=replace(
-            situation_of(labels, _stiffness(file, position) if load_known else None, record, seed),
-            polarity_known="scenario" in file.variables,  # where a sensor looked is not told with a recording
+            situation_of(labels, contact, wrong_speed(seed, record) if simulated else 1.0),
+            polarity_known=simulated,  # where a sensor looked is not told with a recording
         ),
         truth=_truth(file, record, labels),
     )
 
 
 def _stiffness(file: Any, position: int) -> tuple[float, float] | None:
-    """Hertz factor and exponent from the scenario; None for a recording, which has none."""
-    if "scenario" not in file.variables:
-        return None
+    """Hertz factor and exponent from the scenario; None if it does not tell them."""
     try:
         parameters = json.loads(str(file.variables["scenario"][position]))["parameters"]
         return float(parameters["K"]), float(parameters["n"])

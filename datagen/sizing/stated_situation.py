@@ -28,15 +28,24 @@ def reason_against(labels: Mapping[str, Any]) -> str:
     if float(labels["speed_rpm"]) <= 0.0:
         return f"the machine stood still: speed_rpm = {float(labels['speed_rpm']):g}"
     try:
-        situation_of(labels, None, int(labels["record"]), 0)
+        situation_of(labels)
     except InvalidParameter as problem:
         return f"no such bearing: {problem}"
     return ""
 
 
-def situation_of(labels: Mapping[str, Any], contact: tuple[float, float] | None, record: int, seed: int) -> Situation:
-    """What an estimator is told: geometry, roughly the speed, and with `contact` (K, n) the load; never the race."""
-    wrong = 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
+def wrong_speed(seed: int, record: int) -> float:
+    """Stated over true speed of a record, within ±2 % of 1."""
+    return 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
+
+
+def situation_of(
+    labels: Mapping[str, Any], contact: tuple[float, float] | None = None, speed_factor: float = 1.0
+) -> Situation:
+    """What an estimator is told: geometry, speed times `speed_factor`, and with `contact` (K, n) load; never the race.
+
+    Raises InvalidParameter.
+    """
     speed = float(labels["speed_rpm"]) * 2.0 * math.pi / 60.0
     load = float(labels.get("load_n", math.nan))
     known = contact is not None and math.isfinite(load) and load >= 0.0
@@ -45,7 +54,7 @@ def situation_of(labels: Mapping[str, Any], contact: tuple[float, float] | None,
         rows=int(labels["rows"]) if math.isfinite(float(labels.get("rows", 1))) else 1,
         pitch_diameter=float(labels["pitch_diameter"]),
         ball_diameter=float(labels["ball_diameter"]),
-        shaft_speed=speed * wrong,
+        shaft_speed=speed * speed_factor,
         contact_angle=float(labels["contact_angle"]) if math.isfinite(float(labels["contact_angle"])) else 0.0,
         load=load if known else None,
         load_deflection=contact[0] if known and contact else None,

@@ -15,6 +15,7 @@ from datagen.cli import app
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.score import score_sizes
+from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import reason_against
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -106,6 +107,13 @@ def test_where_no_record_can_be_sized_one_message_says_why_and_nothing_is_writte
     assert "none of its 2 records can be sized: 1 (the machine stood still: speed_rpm = 0), 1 (not known" in complaint
     assert not (tmp_path / "s.json").exists()
     assert not (tmp_path / "out").exists()
+
+
+def test_the_speed_stated_with_a_recording_is_taken_as_it_is(tmp_path: Path) -> None:
+    (one,) = sized_records(imported(tmp_path, noise=noise(2)), load_known=True)
+    assert one.situation.shaft_speed == pytest.approx(2.0 * math.pi * 20.0, rel=1e-12)  # 1200 rpm
+    assert one.situation.load is None
+    assert not one.situation.polarity_known
 
 
 def test_geometry_that_no_bearing_can_have_is_a_reason_and_no_crash() -> None:

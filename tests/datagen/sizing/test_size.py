@@ -23,7 +23,7 @@ from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from datagen.sizing.sized_records import sized_records
-from datagen.sizing.stated_situation import SPEED_ERROR, situation_of
+from datagen.sizing.stated_situation import SPEED_ERROR, wrong_speed
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
 from datagen.sizing.tables import known_size_sentence
 from labels.spall_size.calibration import Calibration
@@ -262,9 +262,7 @@ def test_intervals_are_of_a_bootstrap_over_virtual_bearings() -> None:
 
 
 def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the_recipe() -> None:
-    labels = {"record": 0, "balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3,
-              "speed_rpm": 600.0, "contact_angle": 0.0}  # fmt: skip
-    stated = [situation_of(labels, None, k, 0).shaft_speed / (20.0 * math.pi) - 1.0 for k in range(200)]
+    stated = [wrong_speed(0, k) for k in range(200)]
     for purpose in PURPOSES:
         other = [float(stream(0, "record", k, purpose).random()) for k in range(200)]  # of a recipe with the seed 0
         # Of 200 independent pairs |correlation| exceeds 0.3 once in 60 000 times.

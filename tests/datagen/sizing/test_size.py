@@ -159,6 +159,7 @@ def test_a_report_that_cannot_be_written_is_refused_before_any_work(
     code, said, complaint = run("size", sized_corpus, "--out", tmp_path / place)
     assert (code, said, complaint.count("\n")) == (2, "", 1)
     assert "--out" in complaint
+    assert "in the way" in complaint
     assert (tmp_path / "file").read_text() == "mine"
 
 

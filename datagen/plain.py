@@ -10,7 +10,7 @@ from typing import Any
 
 
 def plain_json(result: Any) -> str:
-    """JSON text of dataclasses, mappings, sequences and numbers; NaN and infinities, which JSON lacks, become null."""
+    """JSON text of dataclasses, mappings, sequences, arrays, numbers; NaN and infinities, which it lacks, are null."""
     return json.dumps(_plain(result), indent=1, allow_nan=False) + "\n"
 
 
@@ -21,6 +21,8 @@ def _plain(value: Any) -> Any:
         return {str(key): _plain(held) for key, held in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(held) for held in value]
+    if hasattr(value, "tolist"):  # of NumPy
+        return _plain(value.tolist())
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value

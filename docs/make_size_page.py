@@ -126,7 +126,8 @@ def main(folders: list[str]) -> None:
     summaries = [json.loads((Path(folder) / "size_report.json").read_text())["summary"] for folder in folders]
     test, test_blind, fresh, fresh_blind = summaries
     text = [
-        "Errors are |error| / true where told, in per cent with 90 % intervals.", "", *targets(summaries), "",
+        "Errors are |error| / true where told, in per cent with 90 % intervals (bootstrap over virtual bearings).", "",
+        *targets(summaries), "",
         f"Test split: {extent(test)}.", "", *by_noise(test, test_blind), "",
         f"Fresh ladder: {extent(fresh)}.", "", *by_noise(fresh, fresh_blind), "", *sentences(fresh), "",
         "The fresh ladder by what errors depend on, with load and Hertz factor, in per cent:", "",

@@ -128,13 +128,14 @@ def _solved_row(one: Solved) -> Sequence[object]:
 
 
 def _loading(facts: Facts) -> Iterable[str]:
+    first = facts.kinds[0]
     yield "## Load it\n"
     yield "```python"
     yield "from datagen.corpus import Corpus"
     yield 'corpus = Corpus("FOLDER")'
-    yield f"signal, labels = corpus.signal({facts.kinds[0].first}), corpus.labels"
+    yield f"acceleration, labels = corpus.waveform({first.first}), corpus.labels  # (time, axes), m/s²"
     yield "```\n"
-    yield 'or, without spallgen, `xarray.open_dataset("shards/shard_000000.nc")`.\n'
+    yield f'or, without spallgen, `xarray.open_dataset("{first.shard}")`.\n'
     yield (
         "`index.csv` has all labels, one row a record. Beside this card, `labels_bearing_datasets.csv` "
         "has them in the words of the package `bearing-datasets`, one row a signal, and `croissant.json` describes the "

@@ -19,13 +19,14 @@ SPLIT_ORDER = ("train", "validation", "test", "unknown")
 
 @dataclass(frozen=True)
 class Kind:
-    """Records of one condition and location: how many in each split, and the first of them."""
+    """Records of one condition and location: how many in each split, the first of them and the shard that holds it."""
 
     condition: str
     location: str
     records: int
     by_split: dict[str, int]
     first: int
+    shard: str
 
 
 @dataclass(frozen=True)
@@ -101,6 +102,7 @@ def _kinds(table: pandas.DataFrame) -> list[Kind]:
             records=len(rows),
             by_split={str(split): int(count) for split, count in rows["split"].value_counts().items()},
             first=int(rows["record"].min()),
+            shard=str(rows.loc[rows["record"].idxmin(), "shard"]),
         )
         for (condition, location), rows in table.groupby(["condition", "location"])
     ]

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
-from datagen.errors import BadInput
 
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
 
 Estimator = Annotated[str | None, typer.Option("--estimator", metavar="module:Class", help="Another estimator.")]
+KnownSizes = Annotated[
+    list[str] | None,
+    typer.Option("--known-size", metavar="RECORD=MM", help="Measured spall of a record; may be given again."),
+]
 OutFolder = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for report, table and pictures.")]
 
 
@@ -27,34 +30,40 @@ def size(
     split: Annotated[
         str | None, typer.Option(metavar="SPLIT", help="train, validation, test or all; test if there is one.")
     ] = None,
+    known_size: KnownSizes = None,
     workers: Annotated[int, typer.Option(metavar="N", min=1, help="Processes.")] = 1,
     out: OutFolder = None,
     json_file: JsonFile = None,
 ) -> None:
     """Estimate the size of the spall in every record and score lag, arc, abstention and intervals."""
-    from datagen.sizing.report import summary_table, write_report
+    from datagen.sizing.known_sizes import parse_known_sizes
+    from datagen.sizing.report import check_folder, write_report
     from datagen.sizing.score import score_sizes
 
-    if out is not None and out.exists() and not out.is_dir():
-        raise BadInput("it is a file", field="--out", value=str(out), allowed="a folder")
-    scores = score_sizes(folder, estimator, load_known, split, workers)
+    if out is not None:
+        check_folder(out)
+    sizes = parse_known_sizes(known_size or ())
+    scores = score_sizes(folder, estimator, load_known, split, workers, sizes)
     write_json(json_file, scores)
     if out is not None:
         write_report(scores, out)
     _tell(scores)
-    if scores.summary is not None:
-        show_tables([summary_table(scores.summary)])
     if out is not None:
         print(f"report, table and pictures are in {out}")
 
 
 def _tell(scores: SizeScores) -> None:
-    told = sum(one.found for one in scores.records)
-    print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {told} with an estimate")
-    if scores.summary is not None:
+    from datagen.sizing.tables import estimates_table, known_size_sentence, summary_table
+
+    told, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)
+    silent = "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be asked for one"
+    print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {told} with an estimate{silent}")
+    for known in scores.known_sizes:
+        print(known_size_sentence(known))
+    if scores.summary is None:
+        show_tables([estimates_table(scores.records)])
         return
     for one in scores.records:
-        answer = (
-            f"{one.estimated_mm:.2f} mm on the {one.found_race} race" if one.found else f"no estimate: {one.outcome}"
-        )
-        print(f"record {one.record}: {answer}")
+        if not one.asked:
+            print(f"record {one.record}: no estimate, {one.reason}")
+    show_tables([summary_table(scores.summary)])

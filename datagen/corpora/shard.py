@@ -133,7 +133,7 @@ def read_sidecar(path: Path) -> Sidecar | None:
 
 
 def is_whole(folder: Path, sidecar: Sidecar) -> bool:
-    """True if the shard's file is there with the size its sidecar states (`verify` reads it all)."""
+    """True if the shard's file is there with the size its sidecar states (`spallgen check` reads it all)."""
     if not sidecar.records:
         return True
     path = shard_path(folder, sidecar.shard)

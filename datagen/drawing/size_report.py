@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import io
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)
 
 
-def draw_size_report(scores: SizeScores, path: Path) -> None:
-    """Draw the report of a corpus with known truth into `path`."""
-    summary = scores.summary
+def size_report_png(scores: SizeScores) -> bytes:
+    """The picture of a corpus scored against a known truth, as the bytes of a PNG file; empty without one."""
+    summary, picture = scores.summary, io.BytesIO()
     if summary is None:
-        return
+        return b""
     with house_style():
         figure, axes = plt.subplots(4, 3, figsize=(11.5, 13.0), layout="constrained")
         panels = axes.ravel()
@@ -37,8 +37,9 @@ def draw_size_report(scores: SizeScores, path: Path) -> None:
         for panel, name in zip(panels[3:11], dependences, strict=True):
             _bars(panel, summary["by"][name], name[0].upper() + name[1:])
         _abstention(panels[11], scores.records)
-        figure.savefig(path, dpi=130)
+        figure.savefig(picture, dpi=130, format="png")
         plt.close(figure)
+    return picture.getvalue()
 
 
 def _against_truth(axes: Axes, told: list[ScoredRecord], what: str) -> None:

@@ -34,6 +34,8 @@ PURPOSES = (
     "design",
     "balance_machines",
     "balance_records",
+    "stated_speed",
+    "bootstrap",
 )
 RULE = "numpy.random.default_rng(SeedSequence(seed, spawn_key=(scope, index, purpose, attempt, item)))"
 LARGEST_INDEX = 2**32 - 1

@@ -30,7 +30,7 @@ class AnyEstimator(Protocol):
 
 @cache
 def default_estimator() -> SizeEstimator:
-    """The estimator with the calibration fitted to datasets/size_training and size_ladder, but for its test split."""
+    """The estimator as fitted to datasets/size_training, size_imperfect and size_ladder but for its test split."""
     with np.load(CALIBRATION_FILE) as file:
         arrays: Mapping[str, NDArray[np.generic]] = {name: file[name] for name in file.files}
     return SizeEstimator(Calibration.from_arrays(dict(arrays)))

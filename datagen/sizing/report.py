@@ -3,54 +3,56 @@
 from __future__ import annotations
 
 import csv
+import io
+import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
+from datagen.corpora.atomic import write_atomically
+from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.sizing.score import SizeScores
 
-if TYPE_CHECKING:
-    from rich.table import Table
+LISTS = ("candidates", "candidates_deg", "candidates_mm")
+
+
+def check_folder(folder: Path) -> None:
+    """Raise BadInput if `folder` can neither be written into nor made; nothing is made yet."""
+    nearest = next(path for path in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(path))
+    if not nearest.is_dir():
+        raise BadInput(f"{nearest.name} is in the way and no folder", field="--out", value=str(folder))
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise BadInput(f"cannot write into {nearest}", field="--out", value=str(folder))
 
 
 def write_report(scores: SizeScores, folder: Path) -> None:
-    """Write `size_report.json`, `estimates.csv` and, where the truth is known, `size_report.png` into `folder`."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "size_report.json").write_text(plain_json({"summary": scores.summary, "split": scores.split,
-                                                         "estimator": scores.estimator}))  # fmt: skip
-    _write_rows(scores, folder / "estimates.csv")
+    """Write `size_report.json`, `estimates.csv` and, where the truth is known, `size_report.png` into `folder`.
+
+    BadInput if that cannot be.
+    """
+    files = {"size_report.json": plain_json(scores).encode(), "estimates.csv": estimates_csv(scores).encode()}
     if scores.summary is not None:
-        from datagen.drawing.size_report import draw_size_report
+        from datagen.drawing.size_report import size_report_png
 
-        draw_size_report(scores, folder / "size_report.png")
+        files["size_report.png"] = size_report_png(scores)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            write_atomically(folder / name, content)
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
 
 
-def _write_rows(scores: SizeScores, path: Path) -> None:
+def estimates_csv(scores: SizeScores) -> str:
+    """The table of all records as CSV; `passes_heard` counts the passes whose event times the JSON has."""
     rows = [one.to_dict() for one in scores.records]
     for row in rows:
-        row["candidates"] = " ".join(format(value, ".6g") for value in row["candidates"])
+        row |= {name: " ".join(format(value, ".6g") for value in row[name]) for name in LISTS}
+        row["passes_heard"] = len(row.pop("event_times"))
         for kind in ("events_in_time", "events_in_arc"):
             events = row.pop(kind)
             row |= {f"{kind}_matched": events.matched, f"{kind}_found": events.found, f"{kind}_true": events.true}
-    with path.open("w", newline="", encoding="utf-8") as file:
-        if rows:
-            writer = csv.DictWriter(file, list(rows[0]))
-            writer.writeheader()
-            writer.writerows(rows)
-
-
-def summary_table(summary: dict[str, Any]) -> Table:
-    """Every figure with its interval, its number of records and its target."""
-    from rich.table import Table
-
-    table = Table(title=f"{summary['records']} records with known truth, {summary['scorable']} to be told a size")
-    for name in ("figure", "value", "90 % interval", "records", "target", "met"):
-        table.add_column(name, justify="left" if name == "figure" else "right")
-    for figure in summary["figures"]:
-        if figure.count:
-            met = "" if figure.met is None else "yes" if figure.met else "NO"
-            interval = f"{figure.low:.3f} to {figure.high:.3f}"
-            table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
-    for name, events in summary["events"].items():
-        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", "", str(events["true"]), "", "")
-    return table
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from datagen.corpora.index import read_index
 from datagen.errors import BadInput
 from datagen.sizing.estimators import find_estimator
-from datagen.sizing.scored_record import ScoredRecord, score_record
-from datagen.sizing.sized_records import sized_records
+from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
+from datagen.sizing.record_scores import score_record, unsized_row
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.sized_records import SizedRecord, sized_records, unsized_records
 from datagen.sizing.summary import summarise
 from labels.schema import SPLITS
 
 ALL = "all"
+NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -27,27 +32,46 @@ class SizeScores:
     load_known: bool
     records: list[ScoredRecord]
     summary: dict[str, Any] | None
+    known_sizes: list[KnownSize]
 
 
 def score_sizes(
-    folder: Path, estimator: str | None, load_known: bool, split: str | None, workers: int = 1
+    folder: Path,
+    estimator: str | None,
+    load_known: bool,
+    split: str | None,
+    workers: int = 1,
+    sizes: Mapping[int, float] = NONE_KNOWN,
 ) -> SizeScores:
-    """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for)."""
+    """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for).
+
+    A record that cannot be sized has a row that says why; BadInput if that holds of all. Known `sizes` (mm) of records
+    correct those of the other records of their machines.
+    """
     from joblib import Parallel, delayed
 
     chosen = _split(folder, split)
-    find_estimator(estimator)
     splits = None if chosen == ALL else (chosen,)
+    unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
+    known = known_sizes(folder, sizes, find_estimator(estimator), load_known)
     records = sized_records(folder, load_known=load_known, splits=splits)
-    made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_score)(one, estimator) for one in records)
-    scored = sorted(made, key=lambda one: one.record)
-    known = [one for one in scored if one.known_truth]
-    summary = summarise(known, load_known) if known else None
-    return SizeScores(str(folder), estimator or "spallgen", chosen, load_known, scored, summary)
+    made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(
+        delayed(_score)(one, estimator, _factor(one, known)) for one in records
+    )
+    scored = sorted([*made, *unsized], key=lambda one: one.record)
+    true = [one for one in scored if one.known_truth]
+    summary = summarise(true, load_known) if true else None
+    told_of = estimator or "spallgen"
+    return SizeScores(str(folder), told_of, chosen, load_known, scored, summary, with_effect(known, scored))
 
 
-def _score(sized: Any, estimator: str | None) -> ScoredRecord:
-    return score_record(sized, find_estimator(estimator))
+def _score(sized: SizedRecord, estimator: str | None, factor: float) -> ScoredRecord:
+    return score_record(sized, find_estimator(estimator), factor)
+
+
+def _factor(sized: SizedRecord, known: list[KnownSize]) -> float:
+    machine = machine_of(str(sized.labels["bearing_id"]), str(sized.labels["rig"]))
+    return factor_for(known, sized.record, machine)
 
 
 def _split(folder: Path, asked: str | None) -> str:

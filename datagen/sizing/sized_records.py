@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
-from datagen.scenarios.streams import stream
+from datagen.errors import BadInput
+from datagen.sizing.stated_situation import reason_against, situation_of, wrong_speed
 from labels.spall_size.event_truth import EventTruth, event_truth
 from labels.spall_size.situation import Situation
 
+if TYPE_CHECKING:
+    import pandas
+
 Array = NDArray[np.float64]
 PASS_COLUMNS = ("exit_time", "release_time", "regain_time", "fall_time", "rise_time")
-SPEED_ERROR = 0.02
 LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
-NEEDED = ("balls", "pitch_diameter", "ball_diameter", "speed_rpm", "rate_hz")
 
 
 @dataclass(frozen=True)
@@ -40,18 +42,32 @@ class SizedRecord:
     truth: EventTruth | None
 
 
-def sized_records(
-    folder: Path, *, load_known: bool, splits: tuple[str, ...] | None = None, seed: int = 0
-) -> Iterator[SizedRecord]:
-    """The records of a corpus whose geometry and speed are known, in order, one in memory at a time.
+@dataclass(frozen=True)
+class UnsizedRecord:
+    """The labels of a record that cannot be sized, and the reason in words."""
 
-    The stated shaft speed is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean on it.
+    labels: dict[str, Any]
+    reason: str
+
+
+def sized_records(
+    folder: Path,
+    *,
+    load_known: bool,
+    splits: tuple[str, ...] | None = None,
+    seed: int = 0,
+    only: Collection[int] | None = None,
+) -> Iterator[SizedRecord]:
+    """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
+
+    The stated shaft speed of simulated records is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean
+    on it; that of recordings is as wrong as it is.
     """
     import netCDF4
 
-    table = read_index(folder)
-    chosen = table if splits is None else table[table["split"].isin(splits)]
-    chosen = chosen[np.array([_geometry_known(labels) for labels in chosen.to_dict("records")], dtype=np.bool_)]
+    table = _rows(folder, splits)
+    able = [not reason_against(labels) for labels in table.to_dict("records")]
+    chosen = table[np.array(able, dtype=np.bool_) & (table["record"].isin(only) if only is not None else True)]
     for shard, rows in chosen.groupby("shard", sort=True):
         with netCDF4.Dataset(folder / str(shard)) as file:
             file.set_auto_mask(False)
@@ -59,13 +75,25 @@ def sized_records(
                 yield _read(file, {str(key): value for key, value in labels.items()}, load_known, seed)
 
 
-def _geometry_known(labels: Mapping[Any, Any]) -> bool:
-    return all(math.isfinite(float(labels.get(name, math.nan))) for name in NEEDED)
+def unsized_records(folder: Path, splits: tuple[str, ...] | None = None) -> list[UnsizedRecord]:
+    """The records of a corpus that cannot be sized, in order; BadInput if all are like that."""
+    rows = [{str(key): value for key, value in row.items()} for row in _rows(folder, splits).to_dict("records")]
+    reasons = [reason_against(labels) for labels in rows]
+    if not all(reasons):
+        return [UnsizedRecord(labels, reason) for labels, reason in zip(rows, reasons, strict=True) if reason]
+    counts = ", ".join(f"{count} ({reason})" for reason, count in Counter(reasons).most_common())
+    raise BadInput(f"none of its {len(rows)} records can be sized: {counts}", str(folder))
+
+
+def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
+    table = read_index(folder)
+    return table if splits is None else table[table["split"].isin(splits)]
 
 
 def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
     position, record = int(labels["position"]), int(labels["record"])
-    clean = file.variables.get("acceleration_clean")
+    clean, simulated = file.variables.get("acceleration_clean"), "scenario" in file.variables
+    contact = _stiffness(file, position) if load_known and simulated else None
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),
@@ -73,36 +101,15 @@ def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> Siz
         clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),
         labels=labels,
         situation=replace(
-            situation_of(labels, _stiffness(file, position) if load_known else None, record, seed),
-            polarity_known="scenario" in file.variables,  # where a sensor looked is not told with a recording
+            situation_of(labels, contact, wrong_speed(seed, record) if simulated else 1.0),
+            polarity_known=simulated,  # where a sensor looked is not told with a recording
         ),
         truth=_truth(file, record, labels),
     )
 
 
-def situation_of(labels: dict[str, Any], contact: tuple[float, float] | None, record: int, seed: int) -> Situation:
-    """What an estimator is told: geometry, roughly the speed, and with `contact` (K, n) the load; never the race."""
-    wrong = 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "operation").random()) - 1.0)
-    speed = float(labels["speed_rpm"]) * 2.0 * math.pi / 60.0
-    load = float(labels.get("load_n", math.nan))
-    known = contact is not None and math.isfinite(load) and load >= 0.0
-    return Situation(
-        balls=int(labels["balls"]),
-        rows=int(labels["rows"]) if math.isfinite(float(labels.get("rows", 1))) else 1,
-        pitch_diameter=float(labels["pitch_diameter"]),
-        ball_diameter=float(labels["ball_diameter"]),
-        shaft_speed=speed * wrong,
-        contact_angle=float(labels["contact_angle"]) if math.isfinite(float(labels["contact_angle"])) else 0.0,
-        load=load if known else None,
-        load_deflection=contact[0] if known and contact else None,
-        exponent=contact[1] if known and contact else 1.5,
-    )
-
-
 def _stiffness(file: Any, position: int) -> tuple[float, float] | None:
-    """Hertz factor and exponent from the scenario; None for a recording, which has none."""
-    if "scenario" not in file.variables:
-        return None
+    """Hertz factor and exponent from the scenario; None if it does not tell them."""
     try:
         parameters = json.loads(str(file.variables["scenario"][position]))["parameters"]
         return float(parameters["K"]), float(parameters["n"])

@@ -8,11 +8,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from datagen.scenarios.streams import stream
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from labels.event_scores import EventScores
 from labels.spall_size.known_size import known_size_factor
 
+Array = NDArray[np.float64]
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
 CLEAN_DB = 60.0
 RESAMPLES = 2000
@@ -20,7 +23,8 @@ RESAMPLES = 2000
 
 @dataclass(frozen=True)
 class Figure:
-    """A measured number with its 90 % bootstrap interval over `count` records, and its target if there is one."""
+    """A measured mean over `count` records with its 90 % interval of a bootstrap over their virtual bearings, and its
+    target if there is one."""
 
     name: str
     value: float
@@ -92,43 +96,54 @@ def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
         name = noise_name(level) + ("" if level == math.inf else " dB")
         own = [one for one in told if noise_level(one) == level]
         asked = [one for one in scorable if noise_level(one) == level]
-        figures.append(_figure(f"lag error, {name}", map(lag_error, own), {math.inf: 0.05, 10.0: 0.10}.get(level)))
+        figures.append(_figure(f"lag error, {name}", own, lag_error, {math.inf: 0.05, 10.0: 0.10}.get(level)))
         arc_target = {math.inf: 0.10, 10.0: 0.15}.get(level) if load_known else None
-        figures.append(_figure(f"arc error, {name}", map(extent_error, own), arc_target))
-        figures += [_figure(f"arc error by rule: {rule}, {name}", map(error, own)) for rule, error in RULES.items()]
-        unanswered = (float(not one.found) for one in asked)
-        figures.append(_figure(f"no estimate, {name}", unanswered, 0.05 if level == math.inf else None))
-    silent = (float(not one.found) for one in records if one.without_event)
-    figures.append(_figure("abstention where there is no event", silent, 0.95, at_least=True))
-    for what, inside in (
-        ("lag", [one.lag_low <= one.true_lag <= one.lag_high for one in told]),
-        ("arc", [one.extent_low <= one.true_extent <= one.extent_high for one in told]),
-    ):
-        figures.append(_coverage(what, [float(value) for value in inside]))
+        figures.append(_figure(f"arc error, {name}", own, extent_error, arc_target))
+        figures += [_figure(f"arc error by rule: {rule}, {name}", own, error) for rule, error in RULES.items()]
+        figures.append(_figure(f"no estimate, {name}", asked, _silent, 0.05 if level == math.inf else None))
+    eventless = [one for one in records if one.without_event]
+    figures.append(_figure("abstention where there is no event", eventless, _silent, 0.95, at_least=True))
+    figures.append(_coverage("lag", told, lambda one: float(one.lag_low <= one.true_lag <= one.lag_high)))
+    figures.append(_coverage("arc", told, lambda one: float(one.extent_low <= one.true_extent <= one.extent_high)))
     return figures
 
 
-def _figure(name: str, values: Iterable[float], target: float | None = None, *, at_least: bool = False) -> Figure:
-    sample = np.array([value for value in values if math.isfinite(value)])
-    if sample.size == 0:
+def _silent(one: ScoredRecord) -> float:
+    return float(not one.found)
+
+
+def _figure(
+    name: str,
+    records: list[ScoredRecord],
+    value: Callable[[ScoredRecord], float],
+    target: float | None = None,
+    *,
+    at_least: bool = False,
+) -> Figure:
+    values = np.array([value(one) for one in records])
+    kept = np.isfinite(values)
+    if not kept.any():
         return Figure(name, math.nan, math.nan, math.nan, 0)
-    value, (low, high) = float(sample.mean()), _bootstrap(sample)
+    low, high = _bootstrap(values[kept], np.array([one.bearing_id for one in records])[kept])
+    mean, count = float(values[kept].mean()), int(kept.sum())
     if target is None:
-        return Figure(name, value, low, high, sample.size)
-    met = value >= target if at_least else value <= target
-    return Figure(name, value, low, high, sample.size, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
+        return Figure(name, mean, low, high, count)
+    met = mean >= target if at_least else mean <= target
+    return Figure(name, mean, low, high, count, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
 
 
-def _coverage(what: str, inside: list[float]) -> Figure:
-    plain = _figure(f"90 % interval of the {what} holds the truth", inside)
+def _coverage(what: str, told: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
+    plain = _figure(f"90 % interval of the {what} holds the truth", told, inside)
     return Figure(plain.name, plain.value, plain.low, plain.high, plain.count, "0.85 to 0.95",
                   bool(0.85 <= plain.value <= 0.95))  # fmt: skip
 
 
-def _bootstrap(sample: np.ndarray) -> tuple[float, float]:
-    generator = np.random.default_rng(sample.size)
-    means = sample[generator.integers(sample.size, size=(RESAMPLES, sample.size))].mean(axis=1)
-    low, high = np.quantile(means, [0.05, 0.95])
+def _bootstrap(values: Array, bearing: NDArray[np.str_]) -> tuple[float, float]:
+    """Interval of the mean of `values` (N,) over virtual bearings drawn anew, each with all its records."""
+    _, group = np.unique(bearing, return_inverse=True)
+    total, count = np.bincount(group, values), np.bincount(group)
+    drawn = stream(0, "part", 0, "bootstrap").integers(count.size, size=(RESAMPLES, count.size))
+    low, high = np.quantile(total[drawn].sum(axis=1) / count[drawn].sum(axis=1), [0.05, 0.95])
     return float(low), float(high)
 
 

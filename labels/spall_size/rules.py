@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import find_peaks, hilbert
 
+from labels.spall_size.estimator import LOAD_AXIS
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -47,7 +48,7 @@ class EnvelopeLagRule:
 
         If the race is not known, it is taken for the outer one.
         """
-        signal = acceleration if acceleration.ndim == 1 else acceleration[:, -1]
+        signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
         race = situation.race or "outer"
         period, bearing = situation.pass_periods()[race], situation.bearing()
         lag = envelope_lag(signal, rate, LONGEST_SHARE * period)

@@ -19,7 +19,7 @@ class SizeOutcome(Enum):
     """How an estimate ended."""
 
     ESTIMATED = "estimated"
-    TOO_SHORT = "the record holds fewer than four ball passes"
+    TOO_SHORT = "the record holds fewer than six ball passes"
     NO_PASSES = "no ball passes stand out of the record"
     NO_EVENT_PAIR = "the passes show no two events that could be trusted to be entry and exit"
 
@@ -29,10 +29,11 @@ class SizeEstimate:
     """Size of the spall of one record.
 
     `lag` between the events in s, `lag_arc` the arc of the race that a ball covers in it, `extent` of the spall (rad)
-    and `extent_mm` along its race, each with an interval that holds the truth in 90 % of cases. `candidates` (rad):
-    the extents that give the same timing, `extent` the first, the others whole ball spacings longer. `event_times`
-    (K, 2), s: both events of each pass that was heard. `trust` is 1 less the relative
-    error to be expected of the lag, between 0 and 1. Without an estimate the numbers are NaN and `reason` says why.
+    and `extent_mm` along its race, each with an interval that held the truth in 90 % of the training records that were
+    told a size; of those that were not it says nothing. `candidates` (rad): the extents that give the same timing,
+    `extent` the first, the others whole ball spacings longer. `event_times` (K, 2), s: both events of each pass that
+    was heard. `trust` is 1 less the relative error to be expected of the lag, between 0 and 1. Without an estimate the
+    numbers are NaN and `reason` says why.
     """
 
     outcome: SizeOutcome
@@ -59,8 +60,3 @@ class SizeEstimate:
     def reason(self) -> str:
         """Why there is no estimate; empty if there is one."""
         return "" if self.found else self.outcome.value
-
-    @property
-    def lag_degrees(self) -> float:
-        """Arc of the race covered between the events, degrees."""
-        return math.degrees(self.lag_arc)

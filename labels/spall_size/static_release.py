@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from physics.bearing import Bearing
 from physics.rolling import hanging_reach
 
@@ -22,17 +20,6 @@ def release_arc(bearing: Bearing, race: str, load: float) -> float:
     return hanging_reach(race, bearing.raceway_radius(race), bearing.ball_radius, static_compression(bearing, load))
 
 
-def arc_of_lag(lag: float, shaft_speed: float, race: str, bearing: Bearing) -> float:
-    """Arc (rad) of a race that a ball covers in `lag` (s) at the nominal cage speed of `shaft_speed` (rad/s)."""
-    cage = bearing.cage_speed(shaft_speed)
-    return lag * (cage if race == "outer" else shaft_speed - cage)
-
-
 def arc_with_static_release(lag_arc: float, bearing: Bearing, race: str, load: float) -> float:
     """Arc of a spall (rad): that between the events plus twice the static release arc (MODEL.md, point 4)."""
     return lag_arc + 2.0 * release_arc(bearing, race, load)
-
-
-def spacing_share(arc: float, bearing: Bearing) -> float:
-    """An arc (rad) in ball spacings."""
-    return arc / (2.0 * math.pi / bearing.balls)

@@ -5,10 +5,12 @@ import hashlib
 import json
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import scipy.io
+import xarray
 from typer.testing import CliRunner
 
 from datagen.cards.croissant import croissant_text
@@ -136,6 +138,44 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
     assert [row["fault_type"] for row in rows] == ["outer", "normal"]
     assert [row["fault_origin"] for row in rows] == ["unknown", "none"]
     assert "speed_rpm" not in rows[0]
+
+
+def run_example(card: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
+    """Do what a card says under "Load it" in the corpus's `folder`; gives the acceleration that it loads."""
+    section = card.partition("## Load it")[2].partition("## Terms")[0]
+    code = section.partition("```python")[2].partition("```")[0].replace("FOLDER", ".")
+    monkeypatch.chdir(folder)
+    names: dict[str, Any] = {}
+    exec(code, names)
+    call = section.partition("or, without spallgen, `")[2].partition("`")[0]
+    with eval(call, {"xarray": xarray}) as shard:
+        assert "acceleration" in shard
+    assert len(names["labels"]) > 0
+    names["corpus"].close()
+    return np.asarray(names["acceleration"])
+
+
+def test_the_example_of_a_card_can_be_run(tiny_corpus: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
+    card = (Path(report.folder) / CARD).read_text()
+    assert run_example(card, tiny_corpus, monkeypatch).shape == (1638, 2)
+
+
+def test_so_can_that_of_a_corpus_without_y_and_without_a_first_shard(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for seed, rate in enumerate((4000, 8000)):
+        np.save(tmp_path / f"at_{rate}.npy", np.random.default_rng(seed).standard_normal(2000))
+    entry = (
+        '[[recording]]\nname = "{0}"\nfiles = "at_{0}.npy"\nunit = "g"\nrate_hz = {0}\nx = "data"\nlocation = "{1}"\n'
+    )
+    # Conditions come in alphabetical order, so the healthy records, which the second shard holds, are the first kind.
+    text = 'name = "x"\n' + entry.format(4000, "outer") + entry.format(8000, "none")
+    (tmp_path / "spec.toml").write_text(text)
+    import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+    written = write_report(tmp_path / "corpus")
+    assert "shard_000001.nc" in (Path(written.folder) / CARD).read_text()
+    card = (Path(written.folder) / CARD).read_text()
+    assert run_example(card, tmp_path / "corpus", monkeypatch).shape == (2000, 1)
 
 
 def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured: Path, tmp_path: Path) -> None:

@@ -33,7 +33,7 @@ def test_the_stream_is_the_documented_seed_sequence() -> None:
 
 def test_scopes_and_purposes_only_ever_grow_at_their_end() -> None:
     assert SCOPES[:3] == ("record", "machine", "part")
-    assert PURPOSES[:23] == (
+    assert PURPOSES[:25] == (
         "machine",
         "signal",
         "imperfections",
@@ -57,6 +57,8 @@ def test_scopes_and_purposes_only_ever_grow_at_their_end() -> None:
         "design",
         "balance_machines",
         "balance_records",
+        "stated_speed",
+        "bootstrap",
     )
 
 

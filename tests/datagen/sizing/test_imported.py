@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import csv
+import json
+import math
 from pathlib import Path
 
 import numpy as np
+import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.score import score_sizes
+from datagen.sizing.sized_records import sized_records
+from datagen.sizing.stated_situation import reason_against
+from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
 SPEC = """
 name = "mine"
@@ -26,18 +34,118 @@ y = "data"
 """
 
 
+def imported(folder: Path, spec: str = SPEC, **signals: np.ndarray) -> Path:
+    """A corpus of recordings, one a signal (T,) at 20 kHz."""
+    for name, signal in signals.items():
+        np.save(folder / f"{name}.npy", signal)
+    (folder / "spec.toml").write_text(spec)
+    import_recordings(load_spec(folder / "spec.toml"), folder / "corpus")
+    return folder / "corpus"
+
+
+def noise(seed: int) -> np.ndarray:
+    """A second of it."""
+    return np.random.default_rng(seed).standard_normal(20000)
+
+
+def size(*arguments: object) -> tuple[int, str, str]:
+    done = CliRunner().invoke(app, ["size", *map(str, arguments)], catch_exceptions=False)
+    return done.exit_code, " ".join(done.stdout.split()), done.stderr
+
+
 def test_recordings_are_told_sizes_or_not_without_being_scored(tmp_path: Path) -> None:
-    generator = np.random.default_rng(2)
-    np.save(tmp_path / "noise.npy", generator.standard_normal(20000))
-    (tmp_path / "spec.toml").write_text(SPEC)
-    import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
-    scores = score_sizes(tmp_path / "corpus", None, True, None)
+    corpus = imported(tmp_path, noise=noise(2))
+    scores = score_sizes(corpus, None, True, None)
     assert scores.summary is None
     (only,) = scores.records
     assert not only.known_truth
     assert not only.found
-    said = CliRunner().invoke(app, ["size", str(tmp_path / "corpus"), "--out", str(tmp_path / "out")])
-    assert said.exit_code == 0
-    assert "record 0: no estimate" in said.stdout
+    code, said, _ = size(corpus, "--out", tmp_path / "out")
+    assert code == 0
+    assert "1 records, 0 with an estimate" in said
+    assert "│ 0 │ noise │ │ │ │" in said
     assert (tmp_path / "out" / "estimates.csv").read_text().count("\n") == 2  # a line of names and one record
     assert not (tmp_path / "out" / "size_report.png").exists()
+
+
+TABLE = """
+name = "mine"
+[defaults]
+unit = "m/s2"
+rate_hz = 20000
+bearing = "koyo_1205"
+[[recording]]
+name = "all"
+files = "*.npy"
+y = "data"
+table = "speeds.csv"
+"""
+
+
+def test_a_machine_at_rest_or_of_unknown_speed_gets_no_estimate_and_the_others_do(tmp_path: Path) -> None:
+    (tmp_path / "speeds.csv").write_text("file,speed_rpm\nrest.npy,0\nruns.npy,1200\nunsaid.npy,\n")
+    corpus = imported(tmp_path, TABLE, rest=noise(1), runs=noise(2), unsaid=noise(3))
+    code, said, _ = size(corpus, "--json", tmp_path / "s.json", "--out", tmp_path / "out")
+    assert code == 0
+    assert "3 records, 0 with an estimate, 2 could not be asked for one" in said
+    rows = {row["recording"]: row for row in json.loads((tmp_path / "s.json").read_text())["records"]}
+    assert rows["rest"]["outcome"] == rows["unsaid"]["outcome"] == "not_asked"
+    assert rows["rest"]["reason"] == "the machine stood still: speed_rpm = 0"
+    assert rows["unsaid"]["reason"] == "not known: shaft speed"
+    assert rows["runs"]["outcome"] != "not_asked"
+    assert "the machine stood still" in said
+    listed = list(csv.DictReader((tmp_path / "out" / "estimates.csv").open()))
+    assert [row["reason"] for row in listed] == [rows[row["recording"]]["reason"] for row in listed]
+    assert len(listed) == 3
+
+
+def test_where_no_record_can_be_sized_one_message_says_why_and_nothing_is_written(tmp_path: Path) -> None:
+    (tmp_path / "speeds.csv").write_text("file,speed_rpm\nrest.npy,0\nunsaid.npy,\n")
+    corpus = imported(tmp_path, TABLE, rest=noise(1), unsaid=noise(3))
+    code, said, complaint = size(corpus, "--json", tmp_path / "s.json", "--out", tmp_path / "out")
+    assert (code, said, complaint.count("\n")) == (2, "", 1)
+    assert "none of its 2 records can be sized: 1 (the machine stood still: speed_rpm = 0), 1 (not known" in complaint
+    assert not (tmp_path / "s.json").exists()
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_speed_stated_with_a_recording_is_taken_as_it_is(tmp_path: Path) -> None:
+    (one,) = sized_records(imported(tmp_path, noise=noise(2)), load_known=True)
+    assert one.situation.shaft_speed == pytest.approx(2.0 * math.pi * 20.0, rel=1e-12)  # 1200 rpm
+    assert one.situation.load is None
+    assert not one.situation.polarity_known
+
+
+def test_geometry_that_no_bearing_can_have_is_a_reason_and_no_crash() -> None:
+    labels = {"record": 0, "balls": 40, "rows": 1, "pitch_diameter": 38e-3, "ball_diameter": 8e-3, "rate_hz": 2e4,
+              "contact_angle": math.nan, "speed_rpm": 600.0}  # fmt: skip
+    assert "40 balls of 8.000 mm do not fit" in reason_against(labels)
+    assert reason_against(labels | {"balls": 12}) == ""
+    assert reason_against(labels | {"balls": math.nan, "ball_diameter": math.nan}) == (
+        "not known: number of balls, ball diameter"
+    )
+
+
+class Tells:
+    """An estimator that tells one spall of every record."""
+
+    def estimate(self, acceleration: np.ndarray, rate: float, situation: Situation) -> SizeEstimate:
+        return SizeEstimate(
+            SizeOutcome.ESTIMATED, "constant", "inner", lag=1e-3, lag_interval=(9e-4, 2e-3), lag_arc=0.05, extent=0.1,
+            extent_interval=(0.08, 0.12), extent_mm=2.0, extent_mm_interval=(1.6, 2.4), candidates=(0.1, 0.6),
+            trust=0.8, event_times=np.array([[0.1, 0.101], [0.2, 0.201]]),
+        )  # fmt: skip
+
+
+def test_the_table_of_recordings_tells_race_size_intervals_and_trust(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    code, said, _ = size(imported(tmp_path, noise=noise(2)), "--json", tmp_path / "s.json")
+    assert code == 0
+    # 0.1 rad is 5.73 degrees, its interval 4.58 to 6.88.
+    assert "│ 0 │ noise │ inner │ 5.73 [4.58, 6.88] │ 2 [1.6, 2.4] │ 0.80 │ │" in said
+    (row,) = json.loads((tmp_path / "s.json").read_text())["records"]
+    assert row["event_times"] == [[0.1, 0.101], [0.2, 0.201]]
+    assert (row["method"], row["lag_low"], row["lag_high"]) == ("constant", 9e-4, 2e-3)
+    assert row["candidates_mm"] == pytest.approx([2.0, 12.0])

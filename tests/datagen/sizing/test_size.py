@@ -17,11 +17,15 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
+from datagen.scenarios.streams import PURPOSES, stream
 from datagen.sizing.estimators import default_estimator, find_estimator
+from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
-from datagen.sizing.sized_records import SPEED_ERROR, sized_records
+from datagen.sizing.sized_records import sized_records
+from datagen.sizing.stated_situation import SPEED_ERROR, wrong_speed
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
+from datagen.sizing.tables import known_size_sentence
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation
@@ -112,7 +116,65 @@ def test_the_command_writes_report_table_and_picture(sized_corpus: Path, tmp_pat
     rows = list(csv.DictReader((tmp_path / "out" / "estimates.csv").open()))
     assert [row["outcome"] for row in rows[:3]] == ["estimated"] * 3
     assert (tmp_path / "out" / "size_report.png").stat().st_size > 20_000
-    assert len(json.loads((tmp_path / "s.json").read_text())["records"]) == 4
+    assert json.loads((tmp_path / "s.json").read_text()) == report
+    assert not list((tmp_path / "out").glob(".*"))  # nothing half-written
+    assert "reason" in rows[3]
+    assert rows[3]["reason"] == report["records"][3]["reason"] != ""
+
+
+def test_a_told_record_says_its_size_in_every_unit_with_intervals_and_when_its_balls_passed(sized_corpus: Path) -> None:
+    gap = score_sizes(sized_corpus, None, True, "all").records[0]
+    assert (gap.found_race, gap.reason) == ("outer", "")
+    assert "Hertz" in gap.method
+    assert gap.lag_low < gap.lag < gap.lag_high
+    for name in ("extent", "estimated_deg", "estimated_mm"):
+        low, value, high = (getattr(gap, name + end) for end in ("_low", "", "_high"))
+        assert low < value < high
+        assert low / value == pytest.approx(gap.extent_low / gap.extent, rel=1e-12)  # one interval in three units
+    assert gap.estimated_deg == pytest.approx(math.degrees(gap.extent), rel=1e-12)
+    radius_mm = gap.extent_mm / gap.true_extent  # the label says both
+    assert gap.estimated_mm == pytest.approx(radius_mm * gap.extent, rel=1e-9)
+    spacing = 2.0 * math.pi / 12.0
+    assert np.diff(gap.candidates) == pytest.approx(spacing, rel=1e-9)
+    assert gap.candidates_mm == pytest.approx([radius_mm * arc for arc in gap.candidates], rel=1e-9)
+    assert np.diff(gap.event_times, axis=1) == pytest.approx(gap.lag, rel=1e-9)
+    assert 30 <= len(gap.event_times) <= 40  # 98 passes a second for 0.4 s, but for those cut off or not heard
+
+
+def test_event_times_are_in_the_json_and_counted_in_the_table(sized_corpus: Path, tmp_path: Path) -> None:
+    assert run("size", sized_corpus, "--split", "all", "--out", tmp_path)[0] == 0
+    report = json.loads((tmp_path / "size_report.json").read_text())
+    rows = list(csv.DictReader((tmp_path / "estimates.csv").open()))
+    assert [int(row["passes_heard"]) for row in rows] == [len(one["event_times"]) for one in report["records"]]
+    assert all(len(pair) == 2 for pair in report["records"][0]["event_times"])
+    assert rows[0]["candidates_deg"].split()[0] == format(float(rows[0]["estimated_deg"]), ".6g")
+
+
+@pytest.mark.parametrize("place", ["file", "file/report", "file/deep/report"])
+def test_a_report_that_cannot_be_written_is_refused_before_any_work(
+    sized_corpus: Path, tmp_path: Path, place: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("mine")
+    monkeypatch.setattr("datagen.sizing.score.score_sizes", lambda *_: pytest.fail("it was at work already"))
+    code, said, complaint = run("size", sized_corpus, "--out", tmp_path / place)
+    assert (code, said, complaint.count("\n")) == (2, "", 1)
+    assert "--out" in complaint
+    assert "in the way" in complaint
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_a_report_that_cannot_be_finished_ends_with_2_and_leaves_the_old_one(
+    sized_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, data: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("datagen.sizing.report.write_atomically", full)
+    (tmp_path / "estimates.csv").write_text("old")
+    code, _, complaint = run("size", sized_corpus, "--split", "all", "--out", tmp_path)
+    assert code == 2
+    assert "No space left" in complaint
+    assert (tmp_path / "estimates.csv").read_text() == "old"
 
 
 def test_users_bring_their_own_estimator(sized_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -139,12 +201,16 @@ def test_an_unknown_split_is_bad_input_and_writes_nothing(sized_corpus: Path, tm
 def scored(**changes: object) -> ScoredRecord:
     """A record told exactly, 10 dB, with what the test changes."""
     exact = ScoredRecord(
-        record=0, bearing_id="b", rig="r", race="outer", profile="tukey", split="test",
+        record=0, recording="", channel="", bearing_id="b", rig="r", race="outer", profile="tukey", split="test",
         snr_db=10.2, speed_rpm=600.0, load_n=100.0,
         extent_mm=2.0, extent_spacing=0.2, rate=RATE, pass_period=0.02, true_lag=0.004, true_extent=0.1,
-        outcome="estimated", found_race="outer", trust=0.9, lag=0.004, lag_low=0.003, lag_high=0.005, lag_arc=0.08,
-        extent=0.1, extent_low=0.09, extent_high=0.12, estimated_mm=2.0, candidates=(0.1, 0.6), static_arc=0.1,
-        envelope_arc=0.05, seconds=0.1, events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=True,
+        outcome="estimated", reason="", method="m", found_race="outer", trust=0.9,
+        lag=0.004, lag_low=0.003, lag_high=0.005, lag_arc=0.08,
+        extent=0.1, extent_low=0.09, extent_high=0.12, estimated_deg=5.73, estimated_deg_low=5.16,
+        estimated_deg_high=6.88, estimated_mm=2.0, estimated_mm_low=1.8, estimated_mm_high=2.4, candidates=(0.1, 0.6),
+        candidates_deg=(5.73, 34.4), candidates_mm=(2.0, 12.0), static_arc=0.1, envelope_arc=0.05,
+        known_size_factor=1.0, seconds=0.1, event_times=np.zeros((0, 2)),
+        events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=True,
     )  # fmt: skip
     return replace(exact, **changes)  # type: ignore[arg-type]
 
@@ -172,6 +238,36 @@ def test_the_summary_is_what_it_is_by_hand() -> None:
     assert figure(summary, "abstention where there is no event") == pytest.approx(0.5)
     assert figure(summary, "90 % interval of the arc holds the truth") == pytest.approx(0.5)
     assert summary["long"] == {"records": 1, "told": 1, "error_of_nearest_candidate": 0.0, "median": 0.0}
+
+
+def test_what_a_known_size_did_to_the_errors_of_other_records_is_told() -> None:
+    known = KnownSize(record=0, machine="b", known_mm=2.2, estimated_mm=2.0, factor=1.1)
+    other = scored(record=1, extent=0.11, known_size_factor=1.1)  # 0.1 without it, which is the truth
+    silent = scored(record=2, extent=math.nan, outcome="no_event_pair")
+    (told,) = with_effect([known], [scored(), other, silent, scored(record=3, bearing_id="c", extent=0.3)])
+    assert told.corrected == 1
+    assert told.arc_error_without == pytest.approx(0.0, abs=1e-12)  # rounding
+    assert told.arc_error_with == pytest.approx(0.1)
+    assert "0.00% without it, 10.00% with it" in known_size_sentence(told)
+
+
+def test_intervals_are_of_a_bootstrap_over_virtual_bearings() -> None:
+    wrong = [scored(bearing_id="bad", lag=0.0044) for _ in range(40)]  # 10 % wrong, all of one bearing
+    rows = [*wrong, *(scored(bearing_id=f"good {k // 4}") for k in range(40))]  # ten bearings told exactly
+    (lag,) = (one for one in summarise(rows, True)["figures"] if one.name == "lag error, 10 dB")
+    assert lag.value == pytest.approx(0.05)
+    # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad bearing makes 0, 50, 69 or 79 % of the
+    # records; over records drawn singly the interval would be within 0.04 and 0.06.
+    assert lag.low == 0.0
+    assert lag.high == pytest.approx(0.1 * 120 / 152)
+
+
+def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the_recipe() -> None:
+    stated = [wrong_speed(0, k) for k in range(200)]
+    for purpose in PURPOSES:
+        other = [float(stream(0, "record", k, purpose).random()) for k in range(200)]  # of a recipe with the seed 0
+        # Of 200 independent pairs |correlation| exceeds 0.3 once in 60 000 times.
+        assert abs(np.corrcoef(stated, other)[0, 1]) < 0.3 or purpose == "stated_speed"
 
 
 def test_between_two_and_five_samples_nothing_is_scored() -> None:
@@ -207,6 +303,10 @@ def test_noise_alone_is_told_no_size() -> None:
     assert told.event_times.shape == (0, 2)
 
 
-def test_a_record_of_a_few_passes_is_too_short() -> None:
-    told = default_estimator().estimate(np.ones(500), RATE, Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 7.0))
-    assert told.outcome is SizeOutcome.TOO_SHORT
+def test_a_record_of_fewer_than_six_passes_is_too_short() -> None:
+    machine = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 7.0)
+    six = 6.0 * min(machine.pass_periods().values()) * RATE
+    short, enough = (default_estimator().estimate(np.ones(round(share * six)), RATE, machine) for share in (0.99, 1.01))
+    assert short.outcome is SizeOutcome.TOO_SHORT
+    assert "fewer than six" in short.reason
+    assert enough.outcome is SizeOutcome.NO_PASSES

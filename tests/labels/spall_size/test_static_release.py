@@ -8,7 +8,6 @@ import pytest
 from labels.spall_size.situation import Situation
 from labels.spall_size.static_release import (
     USUAL_SHARE_OF_PEAK,
-    arc_of_lag,
     arc_with_static_release,
     release_arc,
     static_compression,
@@ -37,14 +36,6 @@ def test_the_spall_of_the_models_example_shows_0_47_of_itself():
     extent = 0.8e-3 / GEARBOX.raceway_radius("outer")
     full = release_arc(GEARBOX, "outer", 346.0 / USUAL_SHARE_OF_PEAK**1.5)
     assert (extent - 2.0 * full) / extent == pytest.approx(0.47, abs=0.01)
-
-
-def test_arc_and_lag_are_those_of_a_ball_on_its_race():
-    speed = 2.0 * math.pi * 7.0
-    period = 2.0 * math.pi / (GEARBOX.bpfo * speed)
-    assert arc_of_lag(period, speed, "outer", GEARBOX) == pytest.approx(GEARBOX.spacing, rel=1e-12)
-    period = 2.0 * math.pi / (GEARBOX.bpfi * speed)
-    assert arc_of_lag(period, speed, "inner", GEARBOX) == pytest.approx(GEARBOX.spacing, rel=1e-12)
 
 
 def test_more_load_means_a_longer_spall_for_the_same_lag():

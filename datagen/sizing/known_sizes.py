@@ -1,0 +1,131 @@
+"""Records whose spall was measured, and what they say of the other records of their machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from datagen.corpora.index import read_index
+from datagen.errors import BadInput
+from datagen.sizing.estimators import AnyEstimator
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.sized_records import SizedRecord, sized_records
+from datagen.sizing.stated_situation import reason_against
+from labels.schema import UNKNOWN
+from labels.spall_size.known_size import known_size_factor
+
+FIELD = "--known-size"
+ALLOWED = "RECORD=MM, the index of a record and the length of its spall in mm, above 0"
+
+
+@dataclass(frozen=True)
+class KnownSize:
+    """The spall of `record` on `machine` is `known_mm` long and was estimated as `estimated_mm`; so the sizes of
+    `corrected` other records there were multiplied by `factor`, which all known sizes of a machine share.
+
+    `arc_error_without`, `arc_error_with`: mean |error| / true of these, where the truth is known; else NaN.
+    """
+
+    record: int
+    machine: str
+    known_mm: float
+    estimated_mm: float
+    factor: float
+    corrected: int = 0
+    arc_error_without: float = math.nan
+    arc_error_with: float = math.nan
+
+
+def parse_known_sizes(texts: Iterable[str]) -> dict[int, float]:
+    """Lengths (mm) by record from texts like "3=1.5"; BadInput if one is no such text or a record has two."""
+    sizes: dict[int, float] = {}
+    for text in texts:
+        record, _, length = text.partition("=")
+        try:
+            own, millimetres = int(record), float(length)
+        except ValueError:
+            own, millimetres = -1, math.nan
+        if own < 0 or not (math.isfinite(millimetres) and millimetres > 0.0):
+            raise BadInput(field=FIELD, value=text, allowed=ALLOWED)
+        if own in sizes:
+            raise BadInput("this record has a size already", field=FIELD, value=text, allowed="one size a record")
+        sizes[own] = millimetres
+    return sizes
+
+
+def machine_of(bearing_id: str, rig: str) -> str:
+    """The name by which records of one machine are known: the virtual bearing's, else the rig's; empty without both."""
+    return next((name for name in (bearing_id, rig) if name not in ("", UNKNOWN)), "")
+
+
+def known_sizes(folder: Path, sizes: Mapping[int, float], estimator: AnyEstimator, load_known: bool) -> list[KnownSize]:
+    """What each record with a known size (mm) says of its machine.
+
+    BadInput if one is not in the corpus, gets no estimate, or is of a machine that nobody knows.
+    """
+    _check(folder, sizes)
+    records = sized_records(folder, load_known=load_known, only=sizes)
+    return shared_factors([_known_size(folder, one, sizes[one.record], estimator) for one in records])
+
+
+def _check(folder: Path, sizes: Mapping[int, float]) -> None:
+    if not sizes:
+        return
+    table = read_index(folder)
+    rows = {int(row["record"]): row for row in table[table["record"].isin(sizes)].to_dict("records")}
+    for record in sizes:
+        if record not in rows:
+            allowed = f"{table['record'].min()} to {table['record'].max()}"
+            raise BadInput("not in this corpus", str(folder), f"{FIELD}: record", record, allowed)
+        if reason := reason_against({str(name): value for name, value in rows[record].items()}):
+            raise BadInput(f"it gets no estimate: {reason}", str(folder), f"{FIELD}: record", record)
+        if not machine_of(str(rows[record]["bearing_id"]), str(rows[record]["rig"])):
+            allowed = "a record whose bearing_id or rig is known"
+            raise BadInput("its machine is not known", str(folder), f"{FIELD}: record", record, allowed)
+
+
+def _known_size(folder: Path, one: SizedRecord, known_mm: float, estimator: AnyEstimator) -> KnownSize:
+    told = estimator.estimate(one.acceleration, one.rate, one.situation)
+    if not told.found:
+        raise BadInput(f"it gets no estimate: {told.reason}", str(folder), f"{FIELD}: record", one.record)
+    machine = machine_of(str(one.labels["bearing_id"]), str(one.labels["rig"]))
+    return KnownSize(one.record, machine, known_mm, told.extent_mm, known_size_factor(told.extent_mm, known_mm))
+
+
+def shared_factors(known: list[KnownSize]) -> list[KnownSize]:
+    """The same with one factor a machine: the geometric mean of what its known sizes say."""
+    logarithms = {
+        one.machine: [math.log(each.factor) for each in known if each.machine == one.machine] for one in known
+    }
+    return [replace(one, factor=math.exp(float(np.mean(logarithms[one.machine])))) for one in known]
+
+
+def factor_for(known: list[KnownSize], record: int, machine: str) -> float:
+    """What known sizes multiply the size of a record by: 1 if it has one itself, or no other of its machine has."""
+    if any(one.record == record for one in known):
+        return 1.0
+    return next((one.factor for one in known if one.machine == machine), 1.0)
+
+
+def with_effect(known: list[KnownSize], records: list[ScoredRecord]) -> list[KnownSize]:
+    """The known sizes with how many of the scored `records` they corrected, and what that did to their errors."""
+    return [_with_effect(one, [each for each in records if _is_corrected(each, one, known)]) for one in known]
+
+
+def _is_corrected(record: ScoredRecord, one: KnownSize, known: list[KnownSize]) -> bool:
+    own = machine_of(record.bearing_id, record.rig) == one.machine
+    return own and record.found and record.record not in {each.record for each in known}
+
+
+def _with_effect(one: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
+    scored = [each for each in corrected if each.known_truth and each.scorable]
+    without = [abs(each.extent / each.known_size_factor / each.true_extent - 1.0) for each in scored]
+    given = [abs(each.extent / each.true_extent - 1.0) for each in scored]
+    if not scored:
+        return replace(one, corrected=len(corrected))
+    means = float(np.mean(without)), float(np.mean(given))
+    return replace(one, corrected=len(corrected), arc_error_without=means[0], arc_error_with=means[1])

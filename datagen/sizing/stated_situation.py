@@ -1,0 +1,62 @@
+"""What an estimator is told of the machine behind a record, and why a record may not be sized at all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from datagen.scenarios.streams import stream
+from labels.spall_size.situation import Situation
+from physics.checks import InvalidParameter
+
+SPEED_ERROR = 0.02
+NEEDED = {
+    "balls": "number of balls",
+    "pitch_diameter": "pitch diameter",
+    "ball_diameter": "ball diameter",
+    "speed_rpm": "shaft speed",
+    "rate_hz": "sampling rate",
+}
+
+
+def reason_against(labels: Mapping[str, Any]) -> str:
+    """Why a record with these `labels` cannot be sized, in words; empty if it can."""
+    unknown = [words for name, words in NEEDED.items() if not math.isfinite(float(labels.get(name, math.nan)))]
+    if unknown:
+        return f"not known: {', '.join(unknown)}"
+    if float(labels["speed_rpm"]) <= 0.0:
+        return f"the machine stood still: speed_rpm = {float(labels['speed_rpm']):g}"
+    try:
+        situation_of(labels)
+    except InvalidParameter as problem:
+        return f"no such bearing: {problem}"
+    return ""
+
+
+def wrong_speed(seed: int, record: int) -> float:
+    """Stated over true speed of a record, within ±2 % of 1."""
+    return 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
+
+
+def situation_of(
+    labels: Mapping[str, Any], contact: tuple[float, float] | None = None, speed_factor: float = 1.0
+) -> Situation:
+    """What an estimator is told: geometry, speed times `speed_factor`, and with `contact` (K, n) load; never the race.
+
+    Raises InvalidParameter.
+    """
+    speed = float(labels["speed_rpm"]) * 2.0 * math.pi / 60.0
+    load = float(labels.get("load_n", math.nan))
+    known = contact is not None and math.isfinite(load) and load >= 0.0
+    return Situation(
+        balls=int(labels["balls"]),
+        rows=int(labels["rows"]) if math.isfinite(float(labels.get("rows", 1))) else 1,
+        pitch_diameter=float(labels["pitch_diameter"]),
+        ball_diameter=float(labels["ball_diameter"]),
+        shaft_speed=speed * speed_factor,
+        contact_angle=float(labels["contact_angle"]) if math.isfinite(float(labels["contact_angle"])) else 0.0,
+        load=load if known else None,
+        load_deflection=contact[0] if known and contact else None,
+        exponent=contact[1] if known and contact else 1.5,
+    )

@@ -1,0 +1,71 @@
+"""What `spallgen size` prints: the figures of a scored corpus, or the estimates where no truth is known."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rich.markup import escape
+from rich.table import Table
+
+from datagen.sizing.known_sizes import KnownSize
+from datagen.sizing.scored_record import ScoredRecord
+
+
+def summary_table(summary: dict[str, Any]) -> Table:
+    """Every figure with its interval, its number of records and its target."""
+    table = Table(title=f"{summary['records']} records with known truth, {summary['scorable']} to be told a size")
+    for name in ("figure", "value", "90 % interval", "records", "target", "met"):
+        table.add_column(name, justify="left" if name == "figure" else "right")
+    for figure in summary["figures"]:
+        if figure.count:
+            met = "" if figure.met is None else "yes" if figure.met else "NO"
+            interval = f"{figure.low:.3f} to {figure.high:.3f}"
+            table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
+    for name, events in summary["events"].items():
+        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", "", str(events["true"]), "", "")
+    return table
+
+
+def estimates_table(records: list[ScoredRecord]) -> Table:
+    """Size of the spall of every record with its 90 % intervals, or in words why none is told."""
+    table = Table(
+        caption="In brackets 90 % intervals. Trust: 1 less the relative error to be expected of the time between the "
+        "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files."
+    )
+    for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
+        table.add_column(name, justify="right" if name in ("record", "trust") else "left")
+    for one in records:
+        trust = f"{one.trust:.2f}" if one.asked else ""
+        table.add_row(str(one.record), escape(_source(one)), *_spall(one), trust, escape(one.reason))
+    return table
+
+
+def _source(one: ScoredRecord) -> str:
+    return " ".join(part for part in (one.recording, one.channel) if part)
+
+
+def _spall(one: ScoredRecord) -> tuple[str, str, str]:
+    if not one.found:
+        return "", "", ""
+    return (
+        one.found_race,
+        _with_interval(one.estimated_deg, one.estimated_deg_low, one.estimated_deg_high),
+        _with_interval(one.estimated_mm, one.estimated_mm_low, one.estimated_mm_high),
+    )
+
+
+def _with_interval(value: float, low: float, high: float) -> str:
+    return f"{value:.3g} [{low:.3g}, {high:.3g}]"
+
+
+def known_size_sentence(known: KnownSize) -> str:
+    """What the known size of a record changed."""
+    change = 100.0 * (known.factor - 1.0)
+    sentence = (
+        f"record {known.record} is known to have {known.known_mm:g} mm and was estimated at {known.estimated_mm:.3g} "
+        f"mm, which changes the sizes of {known.corrected} other records of {known.machine} by {change:+.2f} %"
+    )
+    if math.isnan(known.arc_error_without):
+        return sentence
+    return f"{sentence}; their arc error: {known.arc_error_without:.2%} without it, {known.arc_error_with:.2%} with it"

@@ -15,9 +15,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.integrators.march import STEPS, Grid, Output
 from physics.integrators.methods import MODAL
 from physics.integrators.modal.memory import STRIDES, Stride
+from physics.integrators.output import STEPS, Grid, Output
 from physics.modal_case import USUAL_PUSHES, Case, Kept, March, case_of
 from physics.response import trace_of
 from physics.scene import Scene

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from physics.contact import ContactModel
-from physics.integrators.march import Stops
+from physics.integrators.stops import Stops
 from physics.passages import crossings
 from physics.scene import Scene
 from physics.track import CAGE, FIRST_BALL, FIRST_BREAK, PIECES

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from physics.assembly import assemble
 from physics.contact import ContactModel
-from physics.integrators.adaptive_march import OUT_OF_STEPS
-from physics.integrators.march import LOG_FULL, NOT_FINITE, Output, Stops
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.memory import Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
+from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Output
+from physics.integrators.stops import Stops
 from physics.kinks import known_kinks
 from physics.motion import MotionModel, motion_model
 from physics.outcome import Outcome, SimulationFailed

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.adaptive_response import PILOT_SAMPLES, respond_accurately, rms
-from physics.integrators.march import Output
 from physics.integrators.modal.flow import slowest_decay
 from physics.integrators.modal.memory import Stride
+from physics.integrators.output import Output
 from physics.modal_case import March
 from physics.profile import is_rough
 from physics.resampling import POINTS, read_at

@@ -9,9 +9,19 @@ from numpy.typing import NDArray
 
 from physics.assembly import assemble
 from physics.contact import ContactModel
-from physics.integrators.adaptive_march import OUT_OF_STEPS
-from physics.integrators.march import HELD, LOG_FULL, LOGGED, NOT_FINITE, PULLED, TALLY_ENTRIES, UNLOCATED, Grid, Output
 from physics.integrators.methods import MARCHES
+from physics.integrators.output import (
+    HELD,
+    LOG_FULL,
+    LOGGED,
+    NOT_FINITE,
+    OUT_OF_STEPS,
+    PULLED,
+    TALLY_ENTRIES,
+    UNLOCATED,
+    Grid,
+    Output,
+)
 from physics.integrators.propagator import power_series
 from physics.kinks import known_kinks
 from physics.motion import motion_model, resonator_acceleration
@@ -25,7 +35,7 @@ MODEL = "nonlinear 6-DOF"
 FIRST_CHANGE_LOG = 4096
 LARGEST_CHANGE_LOG = 2_097_152
 # No bearing changes its contacts this often all along: what does, does not converge.
-MOST_CHANGES_PER_STEP = 4
+LOGGED_CHANGES_PER_STEP = 4
 
 
 def respond(
@@ -45,7 +55,7 @@ def respond(
     contact, motion = assemble(scene), motion_model(scene)
     series, stops = power_series(motion, grid.step), known_kinks(scene, contact)
     capacity = FIRST_CHANGE_LOG
-    largest = min(LARGEST_CHANGE_LOG, max(FIRST_CHANGE_LOG, MOST_CHANGES_PER_STEP * grid.samples * grid.substeps))
+    largest = min(LARGEST_CHANGE_LOG, max(FIRST_CHANGE_LOG, LOGGED_CHANGES_PER_STEP * grid.samples * grid.substeps))
     status = LOG_FULL
     while status == LOG_FULL:
         if capacity > largest and capacity > FIRST_CHANGE_LOG:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.adaptive_response import ACCELERATION_ALONE, respond_accurately
-from physics.integrators.march import Grid
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
+from physics.integrators.output import Grid
 from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
 from physics.modal_case import Kept

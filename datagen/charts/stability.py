@@ -14,9 +14,9 @@ from datagen.charts.measure import made_with
 from physics.adaptive_response import respond_accurately
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
-from physics.integrators.march import Grid
 from physics.integrators.method import NO_MODES
 from physics.integrators.methods import MARCHES, METHODS, MODAL
+from physics.integrators.output import Grid
 from physics.modal_case import Kept
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import Law, count_changes, set_time
+from physics.contact import Law, set_time
+from physics.contact_set import count_changes
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import press_state
 from physics.motion import MotionModel

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.contact import ACTIVE, Law, compression_of, law_power, of_ball, touches
+from physics.contact import ACTIVE, Law, compression_of, law_power, of_ball
+from physics.contact_set import touches
 from physics.motion import MotionModel, outer_load, relative_acceleration
 from physics.track import Track
 

@@ -20,10 +20,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline
-from physics.contact import ACTIVE, Law, count_changes, set_time
+from physics.contact import ACTIVE, Law, set_time
+from physics.contact_set import count_changes
 from physics.integrators.exponential_rk4 import OUTER_STATE, flow_component, step_exponential_rk4
-from physics.integrators.march import Grid, Output, Stops, bind_method, press_state
+from physics.integrators.march import bind_method, press_state
+from physics.integrators.output import Grid, Output
 from physics.integrators.propagator import CUBE, FIRST, LAST, MIDDLE, WHOLE, PowerSeries
+from physics.integrators.stops import Stops
 from physics.motion import MotionModel, outer_load
 from physics.track import Track
 

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline
-from physics.contact import Law, count_changes, move_to, press
+from physics.contact import Law, move_to, press
+from physics.contact_set import count_changes
 from physics.integrators.march import bind_method
 from physics.integrators.propagator import FIRST, HALF, LAST, MIDDLE, TO_2_3, TO_3_4, TO_4, WHOLE
 from physics.motion import MotionModel, outer_load

@@ -16,7 +16,8 @@ from scipy.integrate import DOP853, RK45
 
 from physics._jit import njit, specialise
 from physics.assembly import assemble
-from physics.contact import Law, count_changes, reset_contact, set_time
+from physics.contact import Law, set_time
+from physics.contact_set import count_changes, reset_contact
 from physics.integrators.accelerations import accelerations
 from physics.integrators.ball_by_ball import ball_by_ball_slopes
 from physics.integrators.march import press_state

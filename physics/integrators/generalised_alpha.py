@@ -17,11 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import Law, count_changes, press, set_time
+from physics.contact import Law, press, set_time
+from physics.contact_set import count_changes
 from physics.integrators.accelerations import accelerations
 from physics.integrators.contact_tangent import contact_tangent
-from physics.integrators.march import Grid, Output, Stops, bind_method, press_state
+from physics.integrators.march import bind_method, press_state
+from physics.integrators.output import Grid, Output
 from physics.integrators.propagator import PowerSeries
+from physics.integrators.stops import Stops
 from physics.motion import MotionModel, outer_load
 from physics.track import Track
 

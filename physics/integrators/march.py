@@ -8,67 +8,29 @@ there. Times at which a ball crosses an edge of its path are known beforehand an
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit, njit_lean, specialise
-from physics.contact import ACTIVE, FORCE, Law, count_changes, of_ball, press, reset_contact, set_time
+from physics._jit import njit, specialise
+from physics.contact import ACTIVE, Law, of_ball, press, set_time
+from physics.contact_set import count_changes, reset_contact
 from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
+from physics.integrators.output import DONE, LOG_FULL, LOGGED, NOT_FINITE, UNLOCATED, Grid, Output, record, toggle
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
-from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
+from physics.integrators.stops import Stops, next_kink, passed_kinks
+from physics.motion import MotionModel
 from physics.track import Track
 
 Array = NDArray[np.float64]
 
-DONE, NOT_FINITE, LOG_FULL = 0, 1, 2
 SMALLEST_STEP_SHARE = 1e-7
 # A step ends this much before a kink and the next one starts as much after it, so that each reads its own side.
 KINK_NUDGE_SHARE = 1e-8
 MOST_CHANGES_PER_STEP = 100
 # Contact starts and ends like |t − t0|^n: steps shrink to this share of the full one next to it.
 SHORTEST_GRADED_SHARE = 1.0 / 16.0
-LARGEST_ACCELERATION = 1e12
-
-# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension, steps;
-# and for the next sample, balls in contact and in tension at the last.
-LOGGED, UNLOCATED, HELD, PULLED, STEPS, HELD_BEFORE, PULLED_BEFORE = range(7)
-TALLY_ENTRIES = 7
-
-
-class Grid(NamedTuple):
-    """`samples` instants, `substeps` steps of `step` (s) apart, from t = 0."""
-
-    samples: int
-    substeps: int
-    step: float
-
-
-class Stops(NamedTuple):
-    """Known kinks in time order: `time` (S,) s and the `ball` (S,), numbered as in the contact model, that crosses."""
-
-    time: Array
-    ball: NDArray[np.int64]
-
-
-class Output(NamedTuple):
-    """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
-    (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
-    `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
-    contact set; `tally` (7,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are wrong, if the
-    method knows."""
-
-    acceleration: Array
-    state: Array
-    force: Array
-    outer: Array
-    change_time: Array
-    change_ball: NDArray[np.int64]
-    change_made: NDArray[np.bool_]
-    initial: Array
-    tally: NDArray[np.int64]
-    budget: Array
 
 
 @njit
@@ -109,69 +71,6 @@ def locate(
 def press_state(balls: Array, frames: Array, law: Law, state: Array) -> tuple[float, float]:
     """Net force (N) of the contact set in `state` (12,)."""
     return press(balls, frames, law, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
-
-
-@njit_lean
-def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
-    """Move `ball` to the other side of the contact set and log it."""
-    made = of_ball(balls, ACTIVE, ball) < 0.5
-    balls[ball // balls.shape[2], ACTIVE, ball % balls.shape[2]] = 1.0 if made else 0.0
-    place = output.tally[LOGGED]
-    if place < output.change_time.size:
-        output.change_time[place] = time
-        output.change_ball[place] = ball
-        output.change_made[place] = made
-        output.tally[LOGGED] += 1
-
-
-@njit
-def record(
-    balls: Array, motion: MotionModel, state: Array, net_force: tuple[float, float], sample: int, output: Output
-) -> bool:
-    """Write one sample; False if the response is no longer finite."""
-    output.acceleration[sample, 0] = resonator_acceleration(motion, state, 0)
-    output.acceleration[sample, 1] = resonator_acceleration(motion, state, 1)
-    if output.outer.shape[0] > 0:
-        for axis in range(2):
-            output.outer[sample, axis] = state[2 + axis]
-            output.outer[sample, 2 + axis] = state[8 + axis]
-            output.outer[sample, 4 + axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
-    if output.state.shape[0] > 0:
-        output.state[sample] = state[:12]
-    if output.force.shape[0] > 0:
-        for ball in range(output.force.shape[1]):
-            output.force[sample, ball] = of_ball(balls, FORCE, ball)
-    held, pulled = 0, 0
-    for cage in range(balls.shape[0]):
-        for j in range(balls.shape[2]):
-            held += balls[cage, ACTIVE, j] > 0.5
-            pulled += balls[cage, FORCE, j] < 0.0
-    output.tally[HELD] += held
-    output.tally[PULLED] += pulled
-    size = abs(output.acceleration[sample, 0]) + abs(output.acceleration[sample, 1])
-    return size < LARGEST_ACCELERATION
-
-
-@njit_lean
-def passed_kinks(stops: Stops, place: int, time: float) -> int:
-    """Index of the first kink after `time`, counting on from `place`."""
-    while place < stops.time.size and stops.time[place] <= time:
-        place += 1
-    return place
-
-
-@njit_lean
-def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
-    """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`.
-
-    A ball out of contact feels a kink only where it makes contact there, which is located like any other change; as it
-    may make contact before a later one, none is dropped here.
-    """
-    while place < stops.time.size and stops.time[place] < finish:
-        if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
-            return stops.time[place]
-        place += 1
-    return finish
 
 
 def _unbound(*_arguments: object) -> Any:
@@ -333,7 +232,14 @@ def _step(
 
 
 def bind_method(name: str, step: Callable[..., int]) -> Callable[..., int]:
-    """The march with `step` built in, compiled and cached under the method's `name`."""
+    """The march with `step` built in, compiled and cached under the method's `name`.
+
+    `step(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)` makes one step of `step`
+    (s) from `time` (s) with the contact set frozen: from the state `start` (12,), where `balls` stand and the contacts'
+    net `force` (N, N) is known, to `end` (12,), leaving `balls` moved to the end of the step but not pressed there.
+    `weights` (2, 13, 4) are the propagator's for this length and `stage` (4, 6) is scratch; a method need not use
+    either. It returns how many balls contradict the contact set at a stage inside the step, 0 if it does not look.
+    """
     called = specialise(_step, f"step_{name}_called", step_pasted=step)
     crossing = specialise(_cross, f"cross_{name}", step_called=called)
     return specialise(_march, f"march_{name}", step_pasted=step, cross=crossing)

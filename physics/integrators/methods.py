@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from physics.integrators.adaptive_march import march_dormand_prince
+from physics.integrators.dormand_prince_march import march_dormand_prince
 from physics.integrators.exponential_adams import ORDERS, march_of_order
 from physics.integrators.exponential_rk4 import march_exponential_rk4
 from physics.integrators.generalised_alpha import march_generalised_alpha

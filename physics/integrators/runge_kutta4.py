@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.contact import Law, count_changes, move_to, press
+from physics.contact import Law, move_to, press
+from physics.contact_set import count_changes
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import bind_method
 from physics.motion import MotionModel

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from physics._jit import njit, njit_inline, specialise, uncompiled
 from physics.assembly import assemble
 from physics.cage import CagePath
-from physics.contact import ACTIVE, ContactModel, Law, press, reset_contact, set_time
+from physics.contact import ACTIVE, ContactModel, Law, press, set_time
+from physics.contact_set import reset_contact
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.exponential_rk4 import step_exponential_rk4
 from physics.integrators.methods import METHODS

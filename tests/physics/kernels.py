@@ -5,7 +5,7 @@ from typing import Any
 
 import numba
 
-from physics import contact, rest
+from physics import contact, contact_set, rest
 from physics.integrators.modal import carried, flow, grazing, weights
 
 
@@ -19,12 +19,12 @@ def from_python(kernel: Callable[..., Any]) -> Callable[..., Any]:
     return handed_on
 
 
-count_changes = from_python(contact.count_changes)
+count_changes = from_python(contact_set.count_changes)
 of_ball = from_python(contact.of_ball)
 press = from_python(contact.press)
-reset_contact = from_python(contact.reset_contact)
+reset_contact = from_python(contact_set.reset_contact)
 set_time = from_python(contact.set_time)
-touches = from_python(contact.touches)
+touches = from_python(contact_set.touches)
 elastic = from_python(rest.elastic)
 foretell = from_python(carried.foretell)
 through_middle = from_python(carried.through_middle)

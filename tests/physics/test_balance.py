@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import simpson
 
 from physics.cage import CagePath
-from physics.integrators.march import Grid
+from physics.integrators.output import Grid
 from physics.operation import Operation
 from physics.response import respond
 from physics.simulate import simulate

@@ -10,7 +10,6 @@ from scipy.linalg import expm
 
 from physics.assembly import assemble
 from physics.imperfections import Imperfections, Waviness
-from physics.integrators.march import DONE, LOGGED
 from physics.integrators.modal.flow import (
     AMPLITUDES,
     AXIS,
@@ -42,6 +41,7 @@ from physics.integrators.modal.weights import (
     set_inside,
     set_step,
 )
+from physics.integrators.output import DONE, LOGGED
 from physics.kinks import known_kinks
 from physics.modal_case import March, case_of, mean_flow, resting
 from physics.motion import motion_model, starting_state

@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import expm
 
 from physics.cage import CagePath
-from physics.integrators.march import Grid
+from physics.integrators.output import Grid
 from physics.integrators.propagator import (
     FIRST,
     HALF,

@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from physics.integrators.march import Grid
 from physics.integrators.methods import MARCHES, METHODS
+from physics.integrators.output import Grid
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response import respond

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_pasted
-from physics.contact import Law, count_changes, move_to, press
+from physics.contact import Law, move_to, press
+from physics.contact_set import count_changes
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import (
     AT_END,

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inner
-from physics.contact import ACTIVE, Law, count_changes, of_ball, reset_contact, set_time
-from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, UNLOCATED, Output, toggle
+from physics.contact import ACTIVE, Law, of_ball, set_time
+from physics.contact_set import count_changes, reset_contact
+from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.judgement import meet_change
 from physics.integrators.modal.location import locate
@@ -24,6 +25,7 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
+from physics.integrators.output import UNLOCATED, Output, toggle
 from physics.track import Track
 
 Array = NDArray[np.float64]

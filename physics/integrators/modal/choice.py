@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_pasted
-from physics.contact import count_ahead
-from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE, Stops, next_kink
+from physics.contact_set import count_ahead
+from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
     BALL,
     CAREFUL,
@@ -25,6 +25,7 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
+from physics.integrators.stops import Stops, next_kink
 
 Array = NDArray[np.float64]
 

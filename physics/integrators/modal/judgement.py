@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, count_dips, law_power
+from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
+from physics.contact_set import count_dips
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,

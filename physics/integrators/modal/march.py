@@ -13,20 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean, njit_pasted
-from physics.contact import ACTIVE, Law, count_changes, note_motion, of_ball, reset_contact, restore_motion, set_time
-from physics.integrators.adaptive_march import OUT_OF_STEPS
-from physics.integrators.march import (
-    DONE,
-    LARGEST_ACCELERATION,
-    LOG_FULL,
-    LOGGED,
-    NOT_FINITE,
-    SMALLEST_STEP_SHARE,
-    STEPS,
-    Output,
-    Stops,
-    passed_kinks,
-)
+from physics.contact import ACTIVE, Law, of_ball, set_time
+from physics.contact_set import count_changes, note_motion, reset_contact, restore_motion
+from physics.integrators.march import SMALLEST_STEP_SHARE
 from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
 from physics.integrators.modal.choice import next_step
@@ -54,6 +43,17 @@ from physics.integrators.modal.memory import (
 from physics.integrators.modal.output import keep, record, remaining_force, write_inside
 from physics.integrators.modal.rk4 import step_modal_rk4
 from physics.integrators.modal.weights import set_step
+from physics.integrators.output import (
+    DONE,
+    LARGEST_ACCELERATION,
+    LOG_FULL,
+    LOGGED,
+    NOT_FINITE,
+    OUT_OF_STEPS,
+    STEPS,
+    Output,
+)
+from physics.integrators.stops import Stops, passed_kinks
 from physics.track import Track
 
 Array = NDArray[np.float64]

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact import ACTIVE, FORCE, Law, of_ball, press, set_time
-from physics.integrators.march import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
 from physics.integrators.modal.flow import (
     OUTER,
     OUTER_ACCELERATION,
@@ -30,6 +29,7 @@ from physics.integrators.modal.weights import (
     push,
     turn,
 )
+from physics.integrators.output import HELD, HELD_BEFORE, PULLED, PULLED_BEFORE, Output
 from physics.track import Track
 
 Array = NDArray[np.float64]

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inner, njit_pasted
-from physics.contact import Law, count_changes, note_motion, press, set_time
+from physics.contact import Law, press, set_time
+from physics.contact_set import count_changes, note_motion
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.weights import AT_END, AT_HALF, END, HALF, KICKS, OTHER, TURN, free_motion, push, turn
 from physics.track import Track

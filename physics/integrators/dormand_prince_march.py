@@ -13,34 +13,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import ACTIVE, Law, count_changes, of_ball, reset_contact, set_time
+from physics.contact import ACTIVE, Law, of_ball, set_time
+from physics.contact_set import count_changes, reset_contact
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
-from physics.integrators.march import (
+from physics.integrators.march import KINK_NUDGE_SHARE, MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, locate, press_state
+from physics.integrators.output import (
     DONE,
-    KINK_NUDGE_SHARE,
     LOG_FULL,
     LOGGED,
-    MOST_CHANGES_PER_STEP,
     NOT_FINITE,
-    SMALLEST_STEP_SHARE,
+    OUT_OF_STEPS,
     UNLOCATED,
     Grid,
     Output,
-    Stops,
-    locate,
-    next_kink,
-    passed_kinks,
-    press_state,
     record,
     toggle,
 )
 from physics.integrators.propagator import PowerSeries
+from physics.integrators.stops import Stops, next_kink, passed_kinks
 from physics.motion import MotionModel
 from physics.track import Track
 
 Array = NDArray[np.float64]
 
-OUT_OF_STEPS = 3
 LOOSEST_TOLERANCE = 2e-3
 FIRST_STEP_SHARE = 1e-3
 SAFETY, MOST_SHRINKING, MOST_GROWTH = 0.9, 0.2, 5.0

@@ -1,0 +1,90 @@
+"""What every march fills: samples, the log of contact changes, and how it ended."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit, njit_lean
+from physics.contact import ACTIVE, FORCE, of_ball
+from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
+
+Array = NDArray[np.float64]
+
+DONE, NOT_FINITE, LOG_FULL, OUT_OF_STEPS = range(4)
+LARGEST_ACCELERATION = 1e12
+
+# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension, steps;
+# and for the next sample, balls in contact and in tension at the last.
+LOGGED, UNLOCATED, HELD, PULLED, STEPS, HELD_BEFORE, PULLED_BEFORE = range(7)
+TALLY_ENTRIES = 7
+
+
+class Grid(NamedTuple):
+    """`samples` instants, `substeps` steps of `step` (s) apart, from t = 0."""
+
+    samples: int
+    substeps: int
+    step: float
+
+
+class Output(NamedTuple):
+    """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
+    (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
+    `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
+    contact set; `tally` (7,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are wrong, if the
+    method knows."""
+
+    acceleration: Array
+    state: Array
+    force: Array
+    outer: Array
+    change_time: Array
+    change_ball: NDArray[np.int64]
+    change_made: NDArray[np.bool_]
+    initial: Array
+    tally: NDArray[np.int64]
+    budget: Array
+
+
+@njit_lean
+def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
+    """Move `ball` to the other side of the contact set and log it."""
+    made = of_ball(balls, ACTIVE, ball) < 0.5
+    balls[ball // balls.shape[2], ACTIVE, ball % balls.shape[2]] = 1.0 if made else 0.0
+    place = output.tally[LOGGED]
+    if place < output.change_time.size:
+        output.change_time[place] = time
+        output.change_ball[place] = ball
+        output.change_made[place] = made
+        output.tally[LOGGED] += 1
+
+
+@njit
+def record(
+    balls: Array, motion: MotionModel, state: Array, net_force: tuple[float, float], sample: int, output: Output
+) -> bool:
+    """Write one sample; False if the response is no longer finite."""
+    output.acceleration[sample, 0] = resonator_acceleration(motion, state, 0)
+    output.acceleration[sample, 1] = resonator_acceleration(motion, state, 1)
+    if output.outer.shape[0] > 0:
+        for axis in range(2):
+            output.outer[sample, axis] = state[2 + axis]
+            output.outer[sample, 2 + axis] = state[8 + axis]
+            output.outer[sample, 4 + axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
+    if output.state.shape[0] > 0:
+        output.state[sample] = state[:12]
+    if output.force.shape[0] > 0:
+        for ball in range(output.force.shape[1]):
+            output.force[sample, ball] = of_ball(balls, FORCE, ball)
+    held, pulled = 0, 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            held += balls[cage, ACTIVE, j] > 0.5
+            pulled += balls[cage, FORCE, j] < 0.0
+    output.tally[HELD] += held
+    output.tally[PULLED] += pulled
+    size = abs(output.acceleration[sample, 0]) + abs(output.acceleration[sample, 1])
+    return size < LARGEST_ACCELERATION

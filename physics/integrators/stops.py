@@ -1,0 +1,42 @@
+"""Instants, known beforehand, at which a march has to end a step: a ball crosses an edge of its path."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_lean
+from physics.contact import ACTIVE, of_ball
+
+Array = NDArray[np.float64]
+
+
+class Stops(NamedTuple):
+    """Known kinks in time order: `time` (S,) s and the `ball` (S,), numbered as in the contact model, that crosses."""
+
+    time: Array
+    ball: NDArray[np.int64]
+
+
+@njit_lean
+def passed_kinks(stops: Stops, place: int, time: float) -> int:
+    """Index of the first kink after `time`, counting on from `place`."""
+    while place < stops.time.size and stops.time[place] <= time:
+        place += 1
+    return place
+
+
+@njit_lean
+def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
+    """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`.
+
+    A ball out of contact feels a kink only where it makes contact there, which is located like any other change; as it
+    may make contact before a later one, none is dropped here.
+    """
+    while place < stops.time.size and stops.time[place] < finish:
+        if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
+            return stops.time[place]
+        place += 1
+    return finish

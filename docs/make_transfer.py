@@ -21,9 +21,11 @@ ODD = {"197", "198", "199", "174", "201"}
 
 
 def interval(found: dict[str, Any]) -> str:
-    """A score with its interval; a dash where it is not defined."""
+    """A score with its interval if it has one; a dash where it is not defined."""
     if found["value"] is None:
         return "–"
+    if found["low"] is None:
+        return f"{found['value']:.3f}"
     return f"{found['value']:.3f} [{found['low']:.3f}, {found['high']:.3f}]"
 
 

@@ -18,6 +18,7 @@ from labels.classifier import decide, location_probability
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
 from labels.rule import STRENGTHS, Rule
+from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
     import pandas
@@ -41,7 +42,7 @@ class Verdicts:
 
 @dataclass(frozen=True)
 class Tested:
-    """A corpus with what was said of each of its R records."""
+    """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw."""
 
     folder: Path
     labels: pandas.DataFrame
@@ -50,6 +51,11 @@ class Tested:
     reasons: NDArray[np.str_]
     verdicts: tuple[Verdicts, ...]
     imported: bool
+
+    @property
+    def owner(self) -> NDArray[np.int64]:
+        """The record (R,) that each verdict is of: draws of one record are drawn together in a bootstrap."""
+        return self.labels["record"].to_numpy(np.int64)
 
 
 def judge(
@@ -64,7 +70,7 @@ def judge(
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels.
 
-    A record is rejected where it shows no running machine, has no rows, or where the likeliest location has a
+    A record is rejected where it shows no running machine, has no rows, or where what is said of its location has a
     probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
     """
     records = labels["record"].to_numpy(np.int64)
@@ -99,9 +105,10 @@ def _of_model(
     votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
     said = np.char.split(decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str))
     where = location_probability(votes)
-    rejected = missing | (reasons != "") | (where.max(axis=1) < doubt)
+    place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
+    rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < doubt)
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
-    location = np.where(rejected, REJECTED, np.array([words[1] if len(words) > 1 else "none" for words in said]))
+    location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(where[:, 1] >= where[:, 2], "outer", "inner")
     return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], votes)
 

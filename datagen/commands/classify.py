@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -35,7 +36,7 @@ def classify(
     first: Annotated[int | None, typer.Option(metavar="N", min=1, help="Learn from the first N records only.")] = None,
     doubt: Annotated[
         float,
-        typer.Option("--reject", min=0.0, max=1.0, help="Reject records whose likeliest location is less likely."),
+        typer.Option("--reject", min=0.0, max=1.0, help="Reject records of which what is said is less likely."),
     ] = 0.0,
     noise_db: Annotated[
         str, typer.Option(metavar="DB,DB", help="Also score recordings of faults with white noise at these ratios.")
@@ -92,9 +93,16 @@ def _tell(results: dict[str, Any]) -> None:
 
 def _line(scores: dict[str, Any]) -> str:
     parts = [
-        f"{word} {scores[key]['value']:.3f} [{scores[key]['low']:.3f}, {scores[key]['high']:.3f}]"
+        f"{word} {_interval(scores[key])}"
         for word, key in (("faults", "faults_balanced_accuracy"), ("race", "race_accuracy"), ("AUC", "detection_auc"))
     ]
     return ", ".join(
         [*parts, f"false alarms {scores['false_alarms']}/{scores['healthy']}", f"rejected {scores['rejected']}"]
     )
+
+
+def _interval(found: dict[str, float]) -> str:
+    if not math.isfinite(found["value"]):
+        return "–"
+    bracket = f" [{found['low']:.3f}, {found['high']:.3f}]" if math.isfinite(found["low"]) else ""
+    return f"{found['value']:.3f}{bracket}"

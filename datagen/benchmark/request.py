@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.classify import Benchmark
-from datagen.benchmark.training import load_estimator
 from datagen.errors import BadInput
+from datagen.own_code import load_own
 from labels.learners import LEARNERS
 
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
 MOST_SPEED_ERROR = 0.02
+SPOKEN = "module:Class, made without arguments, with predict_proba or predict; or module:function"
 
 
 def benchmark_of(train: Path, tests: tuple[Path, ...], options: dict[str, Any], curve: bool, workers: int) -> Benchmark:
@@ -27,7 +28,7 @@ def benchmark_of(train: Path, tests: tuple[Path, ...], options: dict[str, Any], 
         raise BadInput(field="--bandwidth", value=options["bandwidth"], allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
     if not 0.0 <= options["speed_error"] <= MOST_SPEED_ERROR:
         raise BadInput(field="--speed-error", value=options["speed_error"], allowed=f"0 to {MOST_SPEED_ERROR:g}")
-    own = load_estimator(options["estimator"]) if options["estimator"] else None
+    own = load_own(options["estimator"], SPOKEN) if options["estimator"] else None
     return Benchmark(
         train,
         tests,

@@ -35,8 +35,8 @@ def score_sizes(
     """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for)."""
     from joblib import Parallel, delayed
 
-    chosen = _split(folder, split)
     find_estimator(estimator)
+    chosen = _split(folder, split)
     splits = None if chosen == ALL else (chosen,)
     records = sized_records(folder, load_known=load_known, splits=splits)
     made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_score)(one, estimator) for one in records)

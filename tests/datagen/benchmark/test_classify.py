@@ -15,8 +15,6 @@ from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, window
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import (
     TrainingSet,
-    class_probability,
-    load_estimator,
     train_rule,
     training_records,
 )
@@ -25,28 +23,7 @@ from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampl
 from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from labels.classifier import CLASSES
 from labels.features.table import FEATURE_NAMES
-
-
-class Guesser:
-    """A scikit-learn estimator that learns shares only."""
-
-    def fit(self, X, y):
-        self.classes_, counts = np.unique(y, return_counts=True)
-        self.shares = counts / counts.sum()
-        self.columns = X.shape[1]
-        return self
-
-    def predict_proba(self, X):
-        assert X.shape[1] == self.columns
-        return np.tile(self.shares, (len(X), 1))
-
-
-def always_outer(table):
-    """A callable that has seen nothing."""
-    assert table.shape[1] in (len(FEATURE_NAMES), WINDOW_SAMPLES)
-    return np.full(len(table), "line outer")
 
 
 @pytest.fixture
@@ -157,19 +134,6 @@ def test_a_function_that_names_classes_is_scored_too(classify, inputs):
 )
 def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options):
     assert classify(*options)[0].exit_code == 2
-
-
-def test_probabilities_are_sorted_by_the_names_of_the_classes():
-    guess = Guesser().fit(np.zeros((3, 2)), np.array(["line outer", "healthy", "line outer"]))
-    found = class_probability(guess, np.zeros((1, 2)))
-    assert found[0, CLASSES.index("line outer")] == pytest.approx(2.0 / 3.0)
-    assert found[0, CLASSES.index("extended inner")] == 0.0
-    assert class_probability(always_outer, np.zeros((2, len(FEATURE_NAMES))))[:, 1].tolist() == [1.0, 1.0]
-
-
-def test_a_module_without_that_name_is_refused():
-    with pytest.raises(BadInput, match="module:Class"):
-        load_estimator("numpy")
 
 
 def test_votes_are_geometric_means_of_the_rows_of_a_record():

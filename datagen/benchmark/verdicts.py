@@ -98,12 +98,8 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
 def _of_model(
     model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], doubt: float
 ) -> Verdicts:
-    own = model.probability(rows.table) if len(rows.table) else np.empty((0, 5))
-    votes = joined(own, rows.record, records)
-    margin = averaged(logit(1.0 - own[:, 0]) - logit(model.alarms(rows.table)), rows.record, records)
-    missing = ~np.isfinite(votes[:, 0])
-    votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
-    said = np.char.split(decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str))
+    votes, called, missing = vote(model, rows.table, rows.record, records)
+    said = np.char.split(called)
     where = location_probability(votes)
     place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
     rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < doubt)
@@ -111,6 +107,19 @@ def _of_model(
     location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(where[:, 1] >= where[:, 2], "outer", "inner")
     return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], votes)
+
+
+def vote(
+    model: Model, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
+) -> tuple[Array, NDArray[np.str_], NDArray[np.bool_]]:
+    """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
+    is called, and whether it has no row; `owner` (N,) are the records of the rows."""
+    own = model.probability(table) if len(table) else np.empty((0, 5))
+    votes = joined(own, owner, records)
+    margin = averaged(logit(1.0 - own[:, 0]) - logit(model.alarms(table)), owner, records)
+    missing = ~np.isfinite(votes[:, 0])
+    votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
+    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), missing
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

@@ -73,9 +73,8 @@ def write_json(path: Path | None, result: Any) -> None:
     """Write a dataclass or a mapping as JSON; NaN becomes null."""
     if path is None:
         return
-    from datagen.plain import plain_json
-
     from datagen.corpora.atomic import write_atomically
+    from datagen.plain import plain_json
 
     text = plain_json(result)
     try:

@@ -144,6 +144,6 @@ def draw_curve(axes: Axes, results: dict[str, Any]) -> None:
         low, high = [point["low"] for point in points], [point["high"] for point in points]
         axes.fill_between(bearings, low, high, color=COLOURS[place + 1], alpha=0.15, linewidth=0)
     axes.set_xlabel("virtual bearings learned from")
-    axes.set_ylabel("balanced accuracy, rows")
+    axes.set_ylabel("balanced accuracy, records")
     axes.set_title("learning curve")
     axes.legend(loc="lower right")

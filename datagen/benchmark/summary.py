@@ -10,6 +10,7 @@ import numpy as np
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
 from labels.classifier import CLASSES, condition_probability, location_probability
 from labels.features.conditioning import Array
+from labels.reliability import calibration_error, equal_priors, reliability
 from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
 from labels.scores import (
     accuracy,
@@ -17,11 +18,8 @@ from labels.scores import (
     area_interval,
     balanced_accuracy,
     bootstrap,
-    calibration_error,
     confusion,
-    equal_priors,
     paired_difference,
-    reliability,
 )
 
 RACES = ("outer", "inner")

@@ -14,7 +14,7 @@ from labels.classifier import (
 )
 from labels.features.table import FEATURE_NAMES
 from labels.learners import LEARNERS, learner
-from labels.scores import calibration_error, equal_priors
+from labels.reliability import calibration_error, equal_priors
 from labels.stage import Stage
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.benchmark.importance import importances
+from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.machines import share_machines, unseen_records
@@ -81,8 +82,9 @@ class Benchmark:
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
     """The results as plain numbers, and what was said of every record; raises BadInput."""
     began = time.monotonic()
-    training, labels = _learned_from(benchmark, say)
+    labels = _training_labels(benchmark)
     chosen = [_tested_records(benchmark, folder, labels) for folder in benchmark.tests]
+    training = _learned_from(benchmark, labels, say)
     rule = train_rule(training)
     models = _models(benchmark, training, labels)
     results: dict[str, Any] = {
@@ -109,17 +111,22 @@ def _plain(alarm: Alarm | float) -> dict[str, float] | float:
     return asdict(alarm) if isinstance(alarm, Alarm) else alarm
 
 
-def _learned_from(benchmark: Benchmark, say: Say) -> tuple[TrainingSet, pandas.DataFrame | None]:
-    """The training set, and the labels of its records if it is a corpus."""
-    ingredients = ingredients_of(benchmark.train)
-    if ingredients is not None:
-        say("learning from plain impulse trains")
-        return impulse_training(ingredients, benchmark.training_reading(), benchmark.workers, benchmark.first), None
+def _training_labels(benchmark: Benchmark) -> pandas.DataFrame | None:
+    """Labels of the records to learn from; None for plain impulse trains."""
+    if ingredients_of(benchmark.train) is not None:
+        return None
     own = Corpus(benchmark.train)
     also_tested = any(share_machines(own, Corpus(folder)) for folder in benchmark.tests)
-    labels = training_records(benchmark.train, also_tested, benchmark.first)
+    return training_records(benchmark.train, also_tested, benchmark.first)
+
+
+def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, say: Say) -> TrainingSet:
+    reading, workers = benchmark.training_reading(), benchmark.workers
+    if labels is None:
+        say("learning from plain impulse trains")
+        return impulse_training(ingredients_of(benchmark.train) or Ingredients(), reading, workers, benchmark.first)
     say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
-    return training_set(benchmark.train, labels, benchmark.training_reading(), benchmark.workers), labels
+    return training_set(benchmark.train, labels, reading, workers)
 
 
 def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> list[Model]:

@@ -11,7 +11,7 @@ from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import ingredients_of
 from datagen.benchmark.score_log import log_path
 from datagen.benchmark.training import SPEED_ERROR
-from datagen.corpora.manifest import read_manifest
+from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import load_own
 from labels.learners import LEARNERS
@@ -70,7 +70,7 @@ def benchmark_of(
     asked.require()
     levels = asked.levels()
     own = load_own(asked.estimator, SPOKEN) if asked.estimator is not None else None
-    _require_folders(train, tests)
+    _require_folders(train, tests, asked.input == "windows")
     _require_place(out)
     return Benchmark(
         train,
@@ -90,11 +90,17 @@ def benchmark_of(
     )
 
 
-def _require_folders(train: Path, tests: tuple[Path, ...]) -> None:
-    if ingredients_of(train) is None and read_manifest(train).imported:
-        raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
+def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
+    if ingredients_of(train) is None:
+        if Corpus(train).manifest.imported:
+            raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
+    elif windows:
+        raise BadInput("plain impulse trains have features only", field="--input", value="windows", allowed="features")
     for folder in tests:
-        if read_manifest(folder).imported and not os.access(folder, os.W_OK):
+        corpus = Corpus(folder)
+        if corpus.labels.empty:
+            raise BadInput("this corpus has no records", str(folder), "--test")
+        if corpus.manifest.imported and not os.access(folder, os.W_OK):
             raise BadInput("runs on recordings are logged here, and it cannot be written", str(log_path(folder)))
 
 

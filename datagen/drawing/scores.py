@@ -133,7 +133,7 @@ def draw_importances(axes: NDArray[Any], results: dict[str, Any]) -> None:
 
 def draw_curve(axes: Axes, results: dict[str, Any]) -> None:
     """Balanced accuracy against the number of virtual bearings learned from."""
-    if "learning_curve" not in results:
+    if not results.get("learning_curve"):
         axes.axis("off")
         return
     for place, (name, points) in enumerate(results["learning_curve"].items()):

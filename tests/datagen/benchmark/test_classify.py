@@ -118,7 +118,8 @@ def test_a_copy_under_any_name_is_divided_like_the_corpus_itself(divided):
     assert not numbers[0] & numbers[1]
 
 
-def test_a_copy_without_a_split_test_is_refused(tiny_corpus, tmp_path):
+def test_a_copy_without_a_split_test_is_refused_before_anything_is_read(tiny_corpus, tmp_path, monkeypatch):
+    monkeypatch.setattr("datagen.benchmark.training.read_rows", None)
     copy = tmp_path / "copy"
     shutil.copytree(tiny_corpus, copy)
     for folder in (copy, tiny_corpus):
@@ -215,6 +216,13 @@ def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, op
     done, _ = classify(*options)
     assert done.exit_code == 2
     assert done.output.count("\n") == 1
+
+
+def test_impulse_trains_have_no_windows(tiny_corpus):
+    command = ["classify", "--train", "impulse-trains", "--test", str(tiny_corpus), "--input", "windows"]
+    done = CliRunner().invoke(app, [*command, "--estimator", "math:sqrt"])
+    assert done.exit_code == 2
+    assert "features only" in done.output
 
 
 def test_votes_are_geometric_means_of_the_rows_of_a_record():

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from scipy.stats import binomtest
 
+from labels.scores import FEWEST_A_SIDE
+
 PAGE = Path(__file__).with_name("transfer.md")
 BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
@@ -21,9 +23,11 @@ ODD = {"197", "198", "199", "174", "201"}
 
 
 def interval(found: dict[str, Any]) -> str:
-    """A score with its interval; a dash where it is not defined."""
+    """A score with its interval if it has one; a dash where it is not defined."""
     if found["value"] is None:
         return "–"
+    if found["low"] is None:
+        return f"{found['value']:.3f}"
     return f"{found['value']:.3f} [{found['low']:.3f}, {found['high']:.3f}]"
 
 
@@ -33,6 +37,12 @@ def counted(some: int, all_: int) -> str:
         return "–"
     share = binomtest(some, all_).proportion_ci()
     return f"{some} of {all_} [{share.low:.3f}, {share.high:.3f}]"
+
+
+def calibration(scores: dict[str, Any]) -> str:
+    """The calibration error; a dash for the rule, and with too few healthy records or faults to tell."""
+    few = min(scores["healthy"], sum(map(sum, scores["confusion"]["counts"][1:3]))) < FEWEST_A_SIDE
+    return "–" if few or "calibration_error" not in scores else f"{scores['calibration_error']:.3f}"
 
 
 def without_odd(test: dict[str, Any], model: str) -> str:
@@ -57,8 +67,8 @@ def main_table(report: dict[str, Any]) -> list[str]:
     """One row a corpus and model."""
     lines = [
         "| corpus | model | outer and inner, all records | without odd ones | race alone | AUC | minus rule | "
-        "false alarms | rejected | odd records |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "false alarms | calibration error | rejected | odd records |",
+        "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for test in report["tests"]:
         for name, scores in test["models"].items():
@@ -72,6 +82,7 @@ def main_table(report: dict[str, Any]) -> list[str]:
                 interval(scores["detection_auc"]),
                 interval(minus) if minus else "",
                 counted(scores["false_alarms"], scores["healthy"]),
+                calibration(scores),
                 str(scores["rejected"]),
                 odd_ones(test, name),
             )

@@ -55,8 +55,10 @@ def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDA
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise
-    does, not how often a record alarms.
+    does, not how often a record alarms. ValueError if all are noisy.
     """
+    if np.all(noisy):
+        raise ValueError("no healthy record without added noise to set the alarm on")
     level, clear = logit(spall), clearness(table)
     hidden = level[clear == 0.0] if np.sum(clear == 0.0) >= FEWEST_ROWS else level
     low = float(np.quantile(hidden, 1.0 - SHARE_IN_NOISE * share))

@@ -67,17 +67,17 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         noisy = np.zeros(len(y), dtype=bool) if noisy is None else np.asarray(noisy)
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
-        self.spall_ = self._stage(SIGNS).fit(_spall_columns(X), faulty, groups)
+        self.spall_ = self._stage(SIGNS).fit(_spall_columns(X), faulty, groups, noisy)
         self.alarm_ = fit_alarm(
             self.spall_.held_out[~faulty], X[~faulty], records[~faulty], noisy[~faulty], self.false_alarms
         )
-        faults, fault_groups = X[faulty], groups[faulty]
-        self.race_ = self._stage().fit(_race_columns(faults), _ends_with(y[faulty], "inner"), fault_groups)
+        faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
+        inner = _ends_with(y[faulty], "inner")
+        self.race_ = self._stage().fit(_race_columns(faults), inner, fault_groups, fault_noisy)
         extended = np.char.startswith(y[faulty].astype(str), "extended")
         # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
-        self.length_ = (
-            self._stage().fit(faults, extended, fault_groups) if extended.any() and not extended.all() else None
-        )
+        asked = extended.any() and not extended.all()
+        self.length_ = self._stage().fit(faults, extended, fault_groups, fault_noisy) if asked else None
         self.always_extended_ = bool(extended.all())
         return self
 

@@ -1,4 +1,4 @@
-"""Scores of a classifier, each with the interval that a bootstrap over records gives it."""
+"""Scores of a classifier, each with the interval that a bootstrap over records gives it, or their number alone."""
 
 from __future__ import annotations
 
@@ -14,13 +14,18 @@ from labels.features.conditioning import Array
 DRAWS = 2000
 SEED = 1963
 LEVEL = 0.95
+FEWEST_A_SIDE = 5
+"""Records with and without a fault, below which an area under the ROC gets no interval."""
+SAME = 1e-9
+"""Spread of a score over the draws that is rounding alone."""
 Names = NDArray[Any]
+Stratum = list[NDArray[np.int64]]
 Score = Callable[..., float]
 
 
 @dataclass(frozen=True)
 class Interval:
-    """A score and the bootstrap interval (95 %) of it; NaN where it is not defined."""
+    """A score and its 95 % interval; NaN where it is not defined."""
 
     value: float
     low: float
@@ -55,34 +60,114 @@ def area_under_roc(positive: NDArray[np.bool_], score: Array) -> float:
     return float((ranks[positive].sum() - 0.5 * count * (count + 1)) / (count * other))
 
 
-def bootstrap(score: Score, *columns: Names, strata: Names | None = None, draws: int = DRAWS) -> Interval:
-    """`score` of the columns (N,) of records and its 95 % interval over records drawn anew, within each of `strata`."""
+def bootstrap(
+    score: Score,
+    *columns: Names,
+    strata: Names | None = None,
+    groups: Names | None = None,
+    draws: int = DRAWS,
+    limits: tuple[float, float] = (0.0, 1.0),
+) -> Interval:
+    """`score` of the columns (N,) of records and its 95 % interval over records drawn anew, within each of `strata`.
+
+    Rows of one of `groups` (N,) are drawn together and belong to the stratum of their first. Where every draw gives the
+    same, the interval is what the number of groups allows within the `limits` of the score.
+    """
     columns = tuple(np.asarray(column) for column in columns)
-    values = _drawn(score, columns, strata, draws)
-    return _interval(score(*columns), values)
+    if columns[0].size == 0:
+        return Interval(score(*columns), float("nan"), float("nan"))
+    members = _units(columns[0].size, strata, groups)
+    drawn = _drawn(score, columns, members, draws)
+    value = score(*columns)
+    if np.isfinite(drawn).any() and np.ptp(drawn[np.isfinite(drawn)]) < SAME:
+        slack = unseen_share([len(own) for own in members]) * _reach(score, columns, members, limits)
+        return Interval(value, max(value - slack, limits[0]), min(value + slack, limits[1]))
+    return _interval(value, drawn)
 
 
 def paired_difference(
-    score: Score, truth: Names, said: Names, rival: Names, strata: Names | None = None, draws: int = DRAWS
+    score: Score,
+    truth: Names,
+    said: Names,
+    rival: Names,
+    strata: Names | None = None,
+    groups: Names | None = None,
+    draws: int = DRAWS,
 ) -> Interval:
     """`score`(truth, said) minus `score`(truth, rival), with the interval over records drawn anew for both at once."""
 
     def difference(drawn: Names, own: Names, other: Names) -> float:
         return score(drawn, own) - score(drawn, other)
 
-    return bootstrap(difference, truth, said, rival, strata=strata, draws=draws)
+    return bootstrap(difference, truth, said, rival, strata=strata, groups=groups, draws=draws, limits=(-1.0, 1.0))
 
 
-def _drawn(score: Score, columns: tuple[Names, ...], strata: Names | None, draws: int) -> Array:
-    generator = np.random.default_rng(SEED)
-    size = columns[0].size
-    if size == 0:
-        return np.full(1, np.nan)
+def area_interval(
+    positive: NDArray[np.bool_],
+    score: Array,
+    rival: Array | None = None,
+    groups: Names | None = None,
+    draws: int = 500,
+) -> Interval:
+    """Area under the ROC of a score (N,), or by how much it exceeds that of a `rival`, drawn anew within either side.
+
+    Without an interval (NaN) where a side has fewer than five `groups`. Where every draw gives the same, positives and
+    negatives unlike those seen may each take as much as they can.
+    """
+    positive = np.asarray(positive, dtype=bool)
+    value = area_under_roc(positive, score) - (0.0 if rival is None else area_under_roc(positive, rival))
+    sides = [len(own) for own in _units(positive.size, positive, groups)] if positive.size else []
+    if len(sides) < 2 or min(sides) < FEWEST_A_SIDE:
+        return Interval(value, float("nan"), float("nan"))
+    if rival is None:
+        return bootstrap(area_under_roc, positive, score, strata=positive, groups=groups, draws=draws)
+    return paired_difference(area_under_roc, positive, score, rival, positive, groups, draws)
+
+
+def unseen_share(counts: Sequence[int]) -> float:
+    """Largest share (mean over strata of that many units) of units unlike all those seen, with 97.5 % certainty.
+
+    For one stratum the end of the exact binomial interval of 0 in n, 1 − 0.025^(1/n) [Clopper & Pearson 1934]; for
+    several the largest mean of shares under which seeing none still has a probability of 0.025.
+    """
+    numbers = np.sort(np.asarray(counts, dtype=np.float64))
+    found = 0.0
+    for some in range(1, numbers.size + 1):
+        own = numbers[:some]
+        # The seen shares p with the least sum and the product of p^n at 0.025 are proportional to n.
+        seen = own * np.exp((np.log((1.0 - LEVEL) / 2.0) - np.sum(own * np.log(own))) / own.sum())
+        if seen.max() <= 1.0:
+            found = max(found, float(np.sum(1.0 - seen)) / numbers.size)
+    return found
+
+
+def _reach(score: Score, columns: tuple[Names, ...], members: list[Stratum], limits: tuple[float, float]) -> float:
+    """By how much the strata may change the score, as a mean over them, if no record is like those seen."""
+
+    def room(value: float) -> float:
+        return max(value - limits[0], limits[1] - value)
+
+    alone = [score(*(column[np.concatenate(own)] for column in columns)) for own in members]
+    # What needs all strata at once, such as an area under the ROC, each of them may change as far as it goes.
+    return max(room(value) if np.isfinite(value) else len(members) * room(score(*columns)) for value in alone)
+
+
+def _units(size: int, strata: Names | None, groups: Names | None) -> list[Stratum]:
+    """The rows of each group, by stratum."""
     labels = np.zeros(size, dtype=np.int64) if strata is None else np.unique(strata, return_inverse=True)[1]
-    members = [np.flatnonzero(labels == label) for label in np.unique(labels)]
+    owners = np.arange(size) if groups is None else np.unique(groups, return_inverse=True)[1]
+    order = np.argsort(owners, kind="stable")
+    rows = np.split(order, np.flatnonzero(np.diff(owners[order])) + 1)
+    found = [[own for own in rows if labels[own[0]] == label] for label in np.unique(labels)]
+    return [stratum for stratum in found if stratum]
+
+
+def _drawn(score: Score, columns: tuple[Names, ...], members: list[Stratum], draws: int) -> Array:
+    generator = np.random.default_rng(SEED)
     found = np.empty(draws)
     for draw in range(draws):
-        rows = np.concatenate([generator.choice(own, own.size) for own in members])
+        chosen = [own[place] for own in members for place in generator.choice(len(own), len(own))]
+        rows = np.concatenate(chosen)
         found[draw] = score(*(column[rows] for column in columns))
     return found
 
@@ -102,34 +187,15 @@ def confusion(truth: Names, said: Names, rows: Sequence[str], columns: Sequence[
     return np.array(counts, dtype=np.int64)
 
 
-def reliability(positive: NDArray[np.bool_], probability: Array, bins: int = 10) -> dict[str, list[float]]:
-    """Of records by predicted probability in equal bins: the mean `predicted`, the share `observed` and their number
-    `records`; empty bins are left out."""
-    positive, probability = np.asarray(positive, dtype=bool), np.asarray(probability)
-    place = np.minimum((probability * bins).astype(np.int64), bins - 1)
-    used = [place == bin_ for bin_ in range(bins) if (place == bin_).any()]
-    return {
-        "predicted": [float(probability[rows].mean()) for rows in used],
-        "observed": [float(positive[rows].mean()) for rows in used],
-        "records": [float(rows.sum()) for rows in used],
-    }
-
-
-def calibration_error(positive: NDArray[np.bool_], probability: Array, bins: int = 10) -> float:
-    """Mean distance between predicted probability and observed share over the bins, weighted by records."""
-    curve = reliability(positive, probability, bins)
-    weights = np.array(curve["records"])
-    if weights.size == 0:
-        return float("nan")
-    gaps = np.abs(np.array(curve["predicted"]) - np.array(curve["observed"]))
-    return float((gaps * weights).sum() / weights.sum())
-
-
-def accuracy_against(quantity: Array, right: NDArray[np.bool_], bins: int = 5) -> list[dict[str, float]]:
-    """Accuracy with its interval in bins of equally many records of a `quantity` (N,), NaN left out."""
+def accuracy_against(
+    quantity: Array, right: NDArray[np.bool_], bins: int = 5, groups: Names | None = None
+) -> list[dict[str, float]]:
+    """Accuracy with its interval in bins of equally many records of a `quantity` (N,), NaN left out; rows of one of
+    `groups` (N,) are drawn together."""
     quantity, right = np.asarray(quantity, dtype=np.float64), np.asarray(right, dtype=bool)
     known = np.isfinite(quantity)
     quantity, right = quantity[known], right[known]
+    owners = np.flatnonzero(known) if groups is None else np.asarray(groups)[known]
     if quantity.size == 0:
         return []
     edges = np.unique(np.quantile(quantity, np.linspace(0.0, 1.0, bins + 1)))
@@ -137,7 +203,7 @@ def accuracy_against(quantity: Array, right: NDArray[np.bool_], bins: int = 5) -
     table = []
     for bin_ in np.unique(place):
         rows = place == bin_
-        found = bootstrap(lambda own: float(np.mean(own)), right[rows], draws=500)
+        found = bootstrap(lambda own: float(np.mean(own)), right[rows], groups=owners[rows], draws=500)
         middle = float(np.median(quantity[rows]))
         table.append(
             {"at": middle, "records": int(rows.sum()), "accuracy": found.value, "low": found.low, "high": found.high}

@@ -1,12 +1,10 @@
-"""Amplitude spectra of acceleration and velocity, their order axis and the height of a line."""
+"""Amplitude spectra, and the height of a line in them."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
-
-from physics.bearing import Bearing
 
 Array = NDArray[np.float64]
 
@@ -19,22 +17,6 @@ def amplitude_spectrum(signal: Array, rate: float, window: str = "hann") -> tupl
     The periodic Hann window is divided by its mean, so a line a cos(2π f t) on a bin has height a with either window.
     ValueError for an unknown window or fewer than two samples.
     """
-    frequency, coefficients = _windowed_fourier(signal, rate, window)
-    return frequency, np.abs(coefficients)
-
-
-def velocity_spectrum(acceleration: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:
-    """Frequencies (F,) in Hz and one-sided velocity amplitudes (F,) of an `acceleration` (T,), each over 2π f.
-
-    m/s for m/s²; the component at 0 Hz, which has no velocity, is 0.
-    """
-    frequency, coefficients = _windowed_fourier(acceleration, rate, window)
-    amplitude = np.zeros(frequency.size)
-    amplitude[1:] = np.abs(coefficients[1:]) / (2.0 * np.pi * frequency[1:])
-    return frequency, amplitude
-
-
-def _windowed_fourier(signal: Array, rate: float, window: str) -> tuple[Array, NDArray[np.complex128]]:
     signal = np.asarray(signal, dtype=np.float64)
     if window not in WINDOWS:
         raise ValueError(f'window = "{window}"; allowed: {", ".join(WINDOWS)}')
@@ -51,22 +33,7 @@ def _windowed_fourier(signal: Array, rate: float, window: str) -> tuple[Array, N
     if signal.size % 2 == 0:
         coefficients[-1] /= 2.0
     frequency = np.arange(coefficients.size) * (rate / signal.size)
-    return frequency, np.asarray(coefficients)
-
-
-def orders(frequency: Array, shaft_speed: float) -> Array:
-    """Frequencies (F,) in Hz as orders of the shaft, whose speed is in rad/s."""
-    return np.asarray(frequency) * (2.0 * np.pi / shaft_speed)
-
-
-def defect_orders(bearing: Bearing, location: str) -> dict[str, float]:
-    """Orders of the shaft at which a defect on `location` ("none", "outer" or "inner") shows and is modulated.
-
-    Keys are BPFO, BPFI, FTF and shaft; the defect's own comes first.
-    """
-    outer, inner = {"BPFO": bearing.bpfo}, {"BPFI": bearing.bpfi}
-    own = {"none": {**outer, **inner}, "outer": outer, "inner": inner}[location]
-    return {**own, "FTF": bearing.ftf, "shaft": 1.0}
+    return frequency, np.abs(coefficients)
 
 
 def line_amplitude(frequency: Array, amplitude: Array, target: float, tolerance: float) -> float:

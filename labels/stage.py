@@ -14,16 +14,26 @@ FOLDS = 5
 
 
 class Stage:
-    """A two-class learner with Platt's calibration; `held_out` (N,) are its calibrated held-out probabilities."""
+    """A two-class learner with Platt's calibration on rows as they are, without noise added.
+
+    `held_out` (N,) are its calibrated held-out probabilities.
+    """
 
     def __init__(self, estimator: Any, seed: int = 0) -> None:
         self.estimator = estimator
         self.seed = seed
 
-    def fit(self, table: Array, answer: NDArray[np.bool_], groups: NDArray[Any]) -> Stage:
+    def fit(
+        self,
+        table: Array,
+        answer: NDArray[np.bool_],
+        groups: NDArray[Any],
+        noisy: NDArray[np.bool_] | None = None,
+    ) -> Stage:
         """Learn the probability that `answer` (N,) is True from rows (N, F); rows of one group stay on one side.
 
-        ValueError if an answer is given by fewer than two groups.
+        Rows marked `noisy` (N,) are learned from and not calibrated on. ValueError if an answer is given by fewer than
+        two groups, or by noisy rows alone.
         """
         from sklearn.base import clone
         from sklearn.linear_model import LogisticRegression
@@ -31,9 +41,13 @@ class Stage:
         folds = min(FOLDS, *(len(np.unique(groups[answer == side])) for side in (False, True)))
         if folds < 2:
             raise ValueError("each answer must be given by two virtual bearings or more")
+        plain = np.ones(len(answer), dtype=bool) if noisy is None else ~noisy
+        if np.unique(answer[plain]).size < 2:
+            raise ValueError("each answer must be given by records without added noise too")
         raw = self._held_out(table, answer, groups, folds)
-        weight = np.where(answer, 1.0 / max(answer.mean(), 1e-9), 1.0 / max(1.0 - answer.mean(), 1e-9))
-        self.calibration = LogisticRegression(C=10.0).fit(logit(raw)[:, None], answer, sample_weight=weight)
+        own, share = answer[plain], answer[plain].mean()
+        weight = np.where(own, 1.0 / share, 1.0 / (1.0 - share))
+        self.calibration = LogisticRegression(C=10.0).fit(logit(raw[plain])[:, None], own, sample_weight=weight)
         self.held_out = self._calibrated(raw)
         self.estimator = clone(self.estimator).fit(table, answer)
         return self

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.benchmark.importance import importances
+from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.machines import share_machines, unseen_records
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.score_log import log_run, write_line
 from datagen.benchmark.summary import RACES, summarise
@@ -33,7 +35,6 @@ from datagen.benchmark.training import (
 from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
-from datagen.errors import BadInput
 from labels.alarm import Alarm
 from labels.rule import Rule
 
@@ -81,7 +82,9 @@ class Benchmark:
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
     """The results as plain numbers, and what was said of every record; raises BadInput."""
     began = time.monotonic()
-    training, labels = _learned_from(benchmark, say)
+    labels = _training_labels(benchmark)
+    chosen = [_tested_records(benchmark, folder, labels) for folder in benchmark.tests]
+    training = _learned_from(benchmark, labels, say)
     rule = train_rule(training)
     models = _models(benchmark, training, labels)
     results: dict[str, Any] = {
@@ -96,8 +99,8 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
         results["learning_curve"] = learning_curve(training, benchmark.learner)
     tested = []
     results["tests"] = []
-    for folder in benchmark.tests:
-        found, summary = _test(benchmark, folder, rule, models, say)
+    for folder, records in zip(benchmark.tests, chosen, strict=True):
+        found, summary = _test(benchmark, folder, records, rule, models, say)
         tested.append(found)
         results["tests"].append(summary)
     results["seconds"] = time.monotonic() - began
@@ -108,18 +111,22 @@ def _plain(alarm: Alarm | float) -> dict[str, float] | float:
     return asdict(alarm) if isinstance(alarm, Alarm) else alarm
 
 
-def _learned_from(benchmark: Benchmark, say: Say) -> tuple[TrainingSet, pandas.DataFrame | None]:
-    """The training set, and the labels of its records if it is a corpus."""
-    ingredients = ingredients_of(benchmark.train)
-    if ingredients is not None:
+def _training_labels(benchmark: Benchmark) -> pandas.DataFrame | None:
+    """Labels of the records to learn from; None for plain impulse trains."""
+    if ingredients_of(benchmark.train) is not None:
+        return None
+    own = Corpus(benchmark.train)
+    also_tested = any(share_machines(own, Corpus(folder)) for folder in benchmark.tests)
+    return training_records(benchmark.train, also_tested, benchmark.first)
+
+
+def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, say: Say) -> TrainingSet:
+    reading, workers = benchmark.training_reading(), benchmark.workers
+    if labels is None:
         say("learning from plain impulse trains")
-        return impulse_training(ingredients, benchmark.training_reading(), benchmark.workers, benchmark.first), None
-    places = [folder.resolve() for folder in benchmark.tests]
-    if Corpus(benchmark.train).manifest.imported:
-        raise BadInput("classifiers learn from simulated corpora only", str(benchmark.train), "--train")
-    labels = training_records(benchmark.train, benchmark.train.resolve() in places, benchmark.first)
+        return impulse_training(ingredients_of(benchmark.train) or Ingredients(), reading, workers, benchmark.first)
     say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
-    return training_set(benchmark.train, labels, benchmark.training_reading(), benchmark.workers), labels
+    return training_set(benchmark.train, labels, reading, workers)
 
 
 def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> list[Model]:
@@ -131,14 +138,18 @@ def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFram
     return [train_own(training, benchmark.estimator, benchmark.takes_windows)]
 
 
+def _tested_records(benchmark: Benchmark, folder: Path, learned: pandas.DataFrame | None) -> pandas.DataFrame:
+    if learned is None:
+        return Corpus(folder).labels
+    return unseen_records(Corpus(folder), Corpus(benchmark.train), learned["record"].to_numpy(np.int64))
+
+
 def _test(
-    benchmark: Benchmark, folder: Path, rule: Rule, models: list[Model], say: Say
+    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, rule: Rule, models: list[Model], say: Say
 ) -> tuple[Tested, dict[str, Any]]:
-    corpus = Corpus(folder)
-    imported = bool(corpus.manifest.imported)
+    imported = bool(Corpus(folder).manifest.imported)
     if imported:
         write_line(folder, {"began": benchmark.options, "train": str(benchmark.train)})
-    labels = tested_records(corpus, folder.resolve() == benchmark.train.resolve())
     say(f"testing on {len(labels)} records of {folder}")
     rows = _rows(folder, labels, benchmark.reading(), benchmark.workers)
     raw = None
@@ -152,15 +163,6 @@ def _test(
     if imported:
         log_run(folder, benchmark.train, benchmark.options, summary)
     return tested, summary
-
-
-def tested_records(corpus: Corpus, also_trained: bool) -> pandas.DataFrame:
-    """Labels of the records to test on: the split "test" where the corpus is also learned from, all if not."""
-    labels = corpus.labels
-    chosen = labels[labels["split"] == "test"] if also_trained else labels
-    if chosen.empty:
-        raise BadInput("no record of the split test to score", str(corpus.folder), "--test")
-    return chosen
 
 
 def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int) -> Rows:

@@ -7,33 +7,45 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.benchmark.training import TrainingSet, train_models
-from labels.classifier import HEALTHY, decide
-from labels.scores import balanced_accuracy, bootstrap
+from datagen.benchmark.training import Model, TrainingSet, train_models
+from datagen.benchmark.verdicts import vote
+from datagen.errors import BadInput
+from labels.classifier import HEALTHY
+from labels.scores import Interval, balanced_accuracy, bootstrap
 
 SHARES = (0.125, 0.25, 0.5, 1.0)
 HELD_OUT = 0.25
+FEWEST_BEARINGS = 10
 SEED = 31
 
 
 def learning_curve(training: TrainingSet, learner: str) -> dict[str, list[dict[str, Any]]]:
-    """By model: balanced accuracy of the location of single rows on a quarter of the bearings, learned from shares of
-    the others, with its interval."""
+    """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
+    from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out."""
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))
     cut = max(1, int(HELD_OUT * bearings.size))
-    held_out, others = np.isin(training.bearings, bearings[:cut]), bearings[cut:]
+    others = bearings[cut:]
+    held_out = _part(training, np.isin(training.bearings, bearings[:cut]) & ~training.noisy)
+    counts = {min(others.size, max(FEWEST_BEARINGS, round(share * others.size))) for share in SHARES}
     curve: dict[str, list[dict[str, Any]]] = {}
-    for share in SHARES:
-        chosen = np.isin(training.bearings, others[: max(10, round(share * others.size))])
-        part = _part(training, chosen)
-        for model in train_models(part, learner):
-            said = decide(model.probability(training.table[held_out]), model.alarms(training.table[held_out]))
-            truth, found = _locations(training.classes[held_out]), _locations(said)
-            score = bootstrap(balanced_accuracy, truth, found, draws=300)
-            point = {"bearings": int(np.unique(part.bearings).size), "value": score.value}
-            curve.setdefault(model.name, []).append(point | {"low": score.low, "high": score.high})
+    for count in sorted(counts):
+        try:
+            models = train_models(_part(training, np.isin(training.bearings, others[:count])), learner)
+        except BadInput:
+            continue
+        for model in models:
+            score = _score(model, held_out)
+            point = {"bearings": count, "value": score.value, "low": score.low, "high": score.high}
+            curve.setdefault(model.name, []).append(point)
     return curve
+
+
+def _score(model: Model, held_out: TrainingSet) -> Interval:
+    records, first = np.unique(held_out.records, return_index=True)
+    _, said, _ = vote(model, held_out.table, held_out.records, records)
+    truth = _locations(held_out.classes[first])
+    return bootstrap(balanced_accuracy, truth, _locations(said), groups=held_out.bearings[first], draws=300)
 
 
 def _part(training: TrainingSet, chosen: NDArray[np.bool_]) -> TrainingSet:
@@ -46,5 +58,5 @@ def _part(training: TrainingSet, chosen: NDArray[np.bool_]) -> TrainingSet:
     )
 
 
-def _locations(classes: np.ndarray) -> np.ndarray:
-    return np.array(["none" if name == HEALTHY else name.split()[1] for name in classes.tolist()])
+def _locations(classes: NDArray[np.str_]) -> NDArray[np.str_]:
+    return np.array(["none" if name == HEALTHY else name.split()[1] for name in classes.tolist()], dtype=np.str_)

@@ -2,52 +2,111 @@
 
 from __future__ import annotations
 
+import math
+import os
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from datagen.benchmark.classify import Benchmark
-from datagen.benchmark.training import load_estimator
+from datagen.benchmark.impulse_training import ingredients_of
+from datagen.benchmark.score_log import log_path
+from datagen.benchmark.training import SPEED_ERROR
+from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.own_code import load_own
 from labels.learners import LEARNERS
 
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
-MOST_SPEED_ERROR = 0.02
+LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
+SPOKEN = "module:Class, made without arguments, with predict_proba or predict; or module:function"
 
 
-def benchmark_of(train: Path, tests: tuple[Path, ...], options: dict[str, Any], curve: bool, workers: int) -> Benchmark:
-    """The benchmark of these options of the command line; raises BadInput for one that cannot be."""
-    if options["learner"] not in (*LEARNERS, "all"):
-        raise BadInput(field="--learner", value=options["learner"], allowed=", ".join((*LEARNERS, "all")))
-    if options["input"] not in INPUTS:
-        raise BadInput(field="--input", value=options["input"], allowed=", ".join(INPUTS))
-    if options["input"] == "windows" and not options["estimator"]:
-        raise BadInput("our learners take features", field="--input", value="windows", allowed="with --estimator")
-    if options["bandwidth"] is not None and not options["bandwidth"] >= LEAST_BANDWIDTH:
-        raise BadInput(field="--bandwidth", value=options["bandwidth"], allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
-    if not 0.0 <= options["speed_error"] <= MOST_SPEED_ERROR:
-        raise BadInput(field="--speed-error", value=options["speed_error"], allowed=f"0 to {MOST_SPEED_ERROR:g}")
-    own = load_estimator(options["estimator"]) if options["estimator"] else None
+@dataclass(frozen=True)
+class Asked:
+    """The options of the command line, as they are logged."""
+
+    learner: str = "all"
+    estimator: str | None = None
+    input: str = "features"
+    bandwidth: float | None = None
+    speed_error: float = SPEED_ERROR
+    first: int | None = None
+    reject: float = 0.0
+    noise_db: str = ""
+    noise_draws: int = 10
+
+    def require(self) -> None:
+        """Raise BadInput for an option that cannot be."""
+        if self.learner not in (*LEARNERS, "all"):
+            raise BadInput(field="--learner", value=self.learner, allowed=", ".join((*LEARNERS, "all")))
+        if self.input not in INPUTS:
+            raise BadInput(field="--input", value=self.input, allowed=", ".join(INPUTS))
+        if self.input == "windows" and not self.estimator:
+            raise BadInput("our learners take features", field="--input", value="windows", allowed="with --estimator")
+        if self.bandwidth is not None and not LEAST_BANDWIDTH <= self.bandwidth < math.inf:
+            raise BadInput(field="--bandwidth", value=self.bandwidth, allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
+        if not 0.0 <= self.speed_error <= SPEED_ERROR:
+            raise BadInput(field="--speed-error", value=self.speed_error, allowed=f"0 to {SPEED_ERROR:g}")
+        if not 0.0 <= self.reject <= 1.0:
+            raise BadInput(field="--reject", value=self.reject, allowed="0 to 1")
+
+    def levels(self) -> tuple[float, ...]:
+        """Signal over noise, dB, of the noise to add; raises BadInput for text that says none."""
+        allowed = f"numbers from {LEAST_NOISE_DB:g} to {MOST_NOISE_DB:g} dB with commas between them"
+        try:
+            found = tuple(float(part) for part in self.noise_db.split(",") if part.strip())
+        except ValueError:
+            raise BadInput(field="--noise-db", value=self.noise_db, allowed=allowed) from None
+        if not all(LEAST_NOISE_DB <= level <= MOST_NOISE_DB for level in found):
+            raise BadInput(field="--noise-db", value=self.noise_db, allowed=allowed)
+        return found
+
+
+def benchmark_of(
+    train: Path, tests: tuple[Path, ...], asked: Asked, curve: bool = False, workers: int = 2, out: Path | None = None
+) -> Benchmark:
+    """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be."""
+    asked.require()
+    levels = asked.levels()
+    own = load_own(asked.estimator, SPOKEN) if asked.estimator is not None else None
+    _require_folders(train, tests, asked.input == "windows")
+    _require_place(out)
     return Benchmark(
         train,
         tests,
-        options["learner"],
-        own,
-        options["input"] == "windows",
-        options["bandwidth"],
-        options["speed_error"],
-        options["first"],
-        options["reject"],
-        _levels(options["noise_db"]),
-        options["noise_draws"],
-        workers,
-        curve,
-        options,
+        learner=asked.learner,
+        estimator=own,
+        takes_windows=asked.input == "windows",
+        bandwidth=asked.bandwidth,
+        speed_error=asked.speed_error,
+        first=asked.first,
+        doubt=asked.reject,
+        noise_db=levels,
+        noise_draws=asked.noise_draws,
+        workers=workers,
+        curve=curve,
+        options=asdict(asked),
     )
 
 
-def _levels(text: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(part) for part in text.split(",") if part.strip())
-    except ValueError:
-        raise BadInput(field="--noise-db", value=text, allowed="numbers of dB with commas between them") from None
+def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
+    if ingredients_of(train) is None:
+        if Corpus(train).manifest.imported:
+            raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
+    elif windows:
+        raise BadInput("plain impulse trains have features only", field="--input", value="windows", allowed="features")
+    for folder in tests:
+        corpus = Corpus(folder)
+        if corpus.labels.empty:
+            raise BadInput("this corpus has no records", str(folder), "--test")
+        if corpus.manifest.imported and not os.access(folder, os.W_OK):
+            raise BadInput("runs on recordings are logged here, and it cannot be written", str(log_path(folder)))
+
+
+def _require_place(out: Path | None) -> None:
+    if out is None:
+        return
+    nearest = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
+    if not nearest.is_dir() or not os.access(nearest, os.W_OK):
+        raise BadInput("no folder can be made or written there", field="--out", value=str(out), allowed="a folder")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from datagen.benchmark.known import known_kinematics
 from datagen.corpus import Corpus
 from labels.features.analysis import analyse
-from labels.features.conditioning import COMMON_BANDWIDTH, Array
+from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES, Array, fast_length
 from labels.features.kinematics import Kinematics
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.liveness import DEAD, is_dead, liveness
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import pandas
 
 UNKNOWN_MACHINE = "no speed or no geometry"
+TOO_SHORT = "too few samples"
 LONGEST_WINDOW = 10.5
 """s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
 grows with the length of what is looked at; so what is longer than anything learned from is cut, and the pieces vote."""
@@ -117,15 +118,16 @@ def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Read
         return [], UNKNOWN_MACHINE
     rows: list[Row] = []
     reasons: list[str] = []
+    nothing = DEAD if len(signals) >= FEWEST_SAMPLES else TOO_SHORT
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
         found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis])
         rows += found
-        reasons += [row.reason for row in found] or [DEAD]
+        reasons += [row.reason for row in found] or [nothing]
     return rows, reasons[0] if reasons and all(reasons) else ""
 
 
 def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]) -> list[Row]:
-    """Rows of one axis (T,), none if no sensor was connected; `seed` sets the random numbers."""
+    """Rows of one axis (T,), none of pieces too short or without a signal; `seed` sets the random numbers."""
     if is_dead(signal):
         return []
     rows = []
@@ -135,7 +137,10 @@ def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Rea
         heard = _noisy(signal, reading, stream, copy)
         for piece in windows(_stretch(heard, rate, stream) if copy > 1 else heard, rate, reading.window):
             given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
-            analysis = analyse(piece, rate, given, _bandwidth(rate, reading, stream))
+            bandwidth = _bandwidth(rate, reading, stream)
+            if piece.size < FEWEST_SAMPLES or is_dead(piece[: fast_length(piece.size)]):
+                continue
+            analysis = analyse(piece, rate, given, bandwidth)
             rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece.size).reason))
     return rows
 

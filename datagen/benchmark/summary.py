@@ -10,17 +10,16 @@ import numpy as np
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
 from labels.classifier import CLASSES, condition_probability, location_probability
 from labels.features.conditioning import Array
+from labels.reliability import calibration_error, equal_priors, reliability
 from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
 from labels.scores import (
     accuracy,
     accuracy_against,
-    area_under_roc,
+    area_interval,
     balanced_accuracy,
     bootstrap,
-    calibration_error,
     confusion,
     paired_difference,
-    reliability,
 )
 
 RACES = ("outer", "inner")
@@ -48,20 +47,20 @@ def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
 
 
 def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
-    truth, scored = tested.truth, tested.truth != UNKNOWN
+    truth, scored, owner = tested.truth, tested.truth != UNKNOWN, tested.owner
     faulty, healthy = np.isin(truth, RACES), truth == "none"
     alarms = healthy & np.isin(said.location, RACES)
     found: dict[str, Any] = {
         "faults_balanced_accuracy": asdict(
-            bootstrap(race_balance, truth[faulty], said.location[faulty], strata=truth[faulty])
+            bootstrap(race_balance, truth[faulty], said.location[faulty], strata=truth[faulty], groups=owner[faulty])
         ),
         "location_balanced_accuracy": asdict(
-            bootstrap(balanced_accuracy, truth[scored], said.location[scored], strata=truth[scored])
+            bootstrap(
+                balanced_accuracy, truth[scored], said.location[scored], strata=truth[scored], groups=owner[scored]
+            )
         ),
-        "race_accuracy": asdict(bootstrap(accuracy, truth[faulty], said.race[faulty])),
-        "detection_auc": asdict(
-            bootstrap(area_under_roc, faulty[scored], said.score[scored], strata=faulty[scored], draws=500)
-        ),
+        "race_accuracy": asdict(bootstrap(accuracy, truth[faulty], said.race[faulty], groups=owner[faulty])),
+        "detection_auc": asdict(area_interval(faulty[scored], said.score[scored], groups=owner[scored])),
         "healthy": int(healthy.sum()),
         "false_alarms": int(alarms.sum()),
         "rejected": int((said.location == REJECTED).sum()),
@@ -80,31 +79,38 @@ def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, A
     """Paired differences of the model and the rule."""
     truth, scored = tested.truth, tested.truth != UNKNOWN
     faulty = np.isin(truth, RACES)
-    own = truth[faulty]
+    own, owner = truth[faulty], tested.owner[faulty]
     differences = {
         "faults_balanced_accuracy": paired_difference(
-            race_balance, own, said.location[faulty], rule.location[faulty], strata=own
+            race_balance, own, said.location[faulty], rule.location[faulty], strata=own, groups=owner
         ),
-        "race_accuracy": paired_difference(accuracy, own, said.race[faulty], rule.race[faulty]),
-        "detection_auc": paired_difference(
-            area_under_roc, faulty[scored], said.score[scored], rule.score[scored], strata=faulty[scored], draws=500
+        "race_accuracy": paired_difference(accuracy, own, said.race[faulty], rule.race[faulty], groups=owner),
+        "detection_auc": area_interval(
+            faulty[scored], said.score[scored], rule.score[scored], groups=tested.owner[scored]
         ),
     }
     return {"minus_rule": {name: asdict(difference) for name, difference in differences.items()}}
 
 
 def _calibration(tested: Tested, said: Verdicts) -> dict[str, Any]:
+    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned."""
     known = tested.classes != UNKNOWN
     if not known.any() or len(np.unique(tested.classes[known])) < 2:
         return {}
     spall = tested.classes[known] != CLASSES[0]
-    probability = 1.0 - said.probability[known, 0]
+    probability, weights = 1.0 - said.probability[known, 0], equal_priors(spall)
     conditions = np.array([name.split()[0] for name in tested.classes])
     return {
-        "reliability": reliability(spall, probability),
-        "calibration_error": calibration_error(spall, probability),
+        "reliability": reliability(spall, probability, weights),
+        "calibration_error": calibration_error(spall, probability, weights),
         "condition_balanced_accuracy": asdict(
-            bootstrap(balanced_accuracy, conditions[known], said.condition[known], strata=conditions[known])
+            bootstrap(
+                balanced_accuracy,
+                conditions[known],
+                said.condition[known],
+                strata=conditions[known],
+                groups=tested.owner[known],
+            )
         ),
         "condition_confusion": {
             "rows": list(CONDITIONS),
@@ -121,7 +127,7 @@ def _against(tested: Tested, said: Verdicts) -> dict[str, Any]:
     for name in AGAINST:
         quantity: Array = tested.labels[name].to_numpy(np.float64)[faulty]
         if np.unique(quantity[np.isfinite(quantity)]).size >= 2:
-            tables[name] = accuracy_against(quantity, right)
+            tables[name] = accuracy_against(quantity, right, groups=tested.owner[faulty])
     return tables
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.known import true_class
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.votes import averaged
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.own_code import own_code
 from labels.alarm import Alarm
 from labels.classifier import CLASSES, EVEN, HEALTHY, SpallClassifier
 from labels.features.conditioning import Array
@@ -29,6 +30,7 @@ LOWEST_BANDWIDTH = 5500.0
 COPIES_DB = (-18.0, 12.0)
 FEWEST_BEARINGS = 4
 ROWS_AT_A_TIME = 2048
+ROWS_TO_TRY = 8
 
 
 @dataclass(frozen=True)
@@ -66,23 +68,6 @@ class Model:
         return np.concatenate(
             [class_probability(self.estimator, table[start : start + ROWS_AT_A_TIME]) for start in starts]
         )
-
-
-def class_probability(estimator: Any, table: Array) -> Array:
-    """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator."""
-    if hasattr(estimator, "predict_proba"):
-        return _by_name(np.asarray(estimator.predict_proba(table)), list(estimator.classes_))
-    said = np.asarray(estimator.predict(table) if hasattr(estimator, "predict") else estimator(table))
-    if said.ndim == 2:
-        return said
-    return np.asarray(said[:, None] == np.asarray(CLASSES)[None, :], dtype=np.float64)
-
-
-def _by_name(probability: Array, names: list[str]) -> Array:
-    found = np.zeros((len(probability), len(CLASSES)))
-    for column, name in enumerate(names):
-        found[:, CLASSES.index(str(name))] = probability[:, column]
-    return found
 
 
 def training_records(folder: Path, also_tested: bool, first: int | None = None) -> pandas.DataFrame:
@@ -146,24 +131,15 @@ def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
 
 
 def train_own(training: TrainingSet, own: Any, takes_windows: bool) -> Model:
-    """The user's estimator, fitted if it can be; its spalls are called at even odds."""
+    """The user's estimator, fitted if it can be; its spalls are called at even odds.
+
+    Raises BadInput if it cannot be fitted, or answers something else than our classes to the first rows.
+    """
+    name = estimator_name(own)
     if hasattr(own, "fit"):
-        own.fit(training.table, training.classes)
-    return Model(getattr(own, "__name__", type(own).__name__), own, EVEN, takes_windows)
-
-
-def load_estimator(path: str) -> Any:
-    """The user's estimator "module:Class" (made without arguments) or callable "module:function"; raises BadInput."""
-    import importlib
-    import sys
-
-    module, colon, name = path.partition(":")
-    if not colon:
-        raise BadInput(field="--estimator", value=path, allowed="module:Class or module:function")
-    if "" not in sys.path:
-        sys.path.insert(0, "")
-    try:
-        found: Callable[..., Any] = getattr(importlib.import_module(module), name)
-    except (ImportError, AttributeError) as problem:
-        raise BadInput(f"cannot be loaded: {problem}", field="--estimator", value=path) from None
-    return found() if isinstance(found, type) else found
+        with own_code(name, "it failed to learn"):
+            own.fit(training.table, training.classes)
+    model = Model(name, own, EVEN, takes_windows)
+    if len(training.table):
+        model.probability(training.table[:ROWS_TO_TRY])
+    return model

@@ -18,6 +18,7 @@ from labels.classifier import decide, location_probability
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
 from labels.rule import STRENGTHS, Rule
+from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
     import pandas
@@ -41,7 +42,7 @@ class Verdicts:
 
 @dataclass(frozen=True)
 class Tested:
-    """A corpus with what was said of each of its R records."""
+    """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw."""
 
     folder: Path
     labels: pandas.DataFrame
@@ -50,6 +51,11 @@ class Tested:
     reasons: NDArray[np.str_]
     verdicts: tuple[Verdicts, ...]
     imported: bool
+
+    @property
+    def owner(self) -> NDArray[np.int64]:
+        """The record (R,) that each verdict is of: draws of one record are drawn together in a bootstrap."""
+        return self.labels["record"].to_numpy(np.int64)
 
 
 def judge(
@@ -64,7 +70,7 @@ def judge(
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels.
 
-    A record is rejected where it shows no running machine, has no rows, or where the likeliest location has a
+    A record is rejected where it shows no running machine, has no rows, or where what is said of its location has a
     probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
     """
     records = labels["record"].to_numpy(np.int64)
@@ -92,18 +98,28 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
 def _of_model(
     model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], doubt: float
 ) -> Verdicts:
-    own = model.probability(rows.table) if len(rows.table) else np.empty((0, 5))
-    votes = joined(own, rows.record, records)
-    margin = averaged(logit(1.0 - own[:, 0]) - logit(model.alarms(rows.table)), rows.record, records)
-    missing = ~np.isfinite(votes[:, 0])
-    votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
-    said = np.char.split(decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str))
+    votes, called, missing = vote(model, rows.table, rows.record, records)
+    said = np.char.split(called)
     where = location_probability(votes)
-    rejected = missing | (reasons != "") | (where.max(axis=1) < doubt)
+    place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
+    rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < doubt)
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
-    location = np.where(rejected, REJECTED, np.array([words[1] if len(words) > 1 else "none" for words in said]))
+    location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(where[:, 1] >= where[:, 2], "outer", "inner")
     return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], votes)
+
+
+def vote(
+    model: Model, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
+) -> tuple[Array, NDArray[np.str_], NDArray[np.bool_]]:
+    """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
+    is called, and whether it has no row; `owner` (N,) are the records of the rows."""
+    own = model.probability(table) if len(table) else np.empty((0, 5))
+    votes = joined(own, owner, records)
+    margin = averaged(logit(1.0 - own[:, 0]) - logit(model.alarms(table)), owner, records)
+    missing = ~np.isfinite(votes[:, 0])
+    votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
+    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), missing
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

@@ -133,7 +133,7 @@ def draw_importances(axes: NDArray[Any], results: dict[str, Any]) -> None:
 
 def draw_curve(axes: Axes, results: dict[str, Any]) -> None:
     """Balanced accuracy against the number of virtual bearings learned from."""
-    if "learning_curve" not in results:
+    if not results.get("learning_curve"):
         axes.axis("off")
         return
     for place, (name, points) in enumerate(results["learning_curve"].items()):
@@ -144,6 +144,6 @@ def draw_curve(axes: Axes, results: dict[str, Any]) -> None:
         low, high = [point["low"] for point in points], [point["high"] for point in points]
         axes.fill_between(bearings, low, high, color=COLOURS[place + 1], alpha=0.15, linewidth=0)
     axes.set_xlabel("virtual bearings learned from")
-    axes.set_ylabel("balanced accuracy, rows")
+    axes.set_ylabel("balanced accuracy, records")
     axes.set_title("learning curve")
     axes.legend(loc="lower right")

@@ -18,11 +18,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def decibel(ratio: Array | float) -> Array:
-    """20 log10 of amplitudes or their ratios, dB."""
-    return 20.0 * np.log10(ratio)
-
-
 def power_decibel(power: Array | float) -> Array:
     """10 log10 of powers or densities, dB; zero becomes −400."""
     return 10.0 * np.log10(np.maximum(power, 1e-40))

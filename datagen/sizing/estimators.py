@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.own_code import FIELD, load_own
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.estimator import SizeEstimator
 from labels.spall_size.situation import Situation
@@ -40,12 +40,8 @@ def find_estimator(name: str | None) -> AnyEstimator:
     """The estimator called "module:Class", made without arguments, or the default one; BadInput if there is none."""
     if name is None:
         return default_estimator()
-    module, _, attribute = name.partition(":")
-    try:
-        made = getattr(importlib.import_module(module), attribute)()
-    except (ImportError, AttributeError, TypeError, ValueError) as problem:
-        raise BadInput(str(problem), field="--estimator", value=name, allowed=SPOKEN) from None
+    made = load_own(name, SPOKEN)
     if not callable(getattr(made, "estimate", None)):
-        raise BadInput("it has no method estimate", field="--estimator", value=name, allowed=SPOKEN)
+        raise BadInput("it has no method estimate", field=FIELD, value=name, allowed=SPOKEN)
     estimator: AnyEstimator = made
     return estimator

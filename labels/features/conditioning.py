@@ -14,6 +14,7 @@ Spectrum = NDArray[np.complex128]
 COMMON_BANDWIDTH = 20_000.0
 """Highest frequency that features look at, Hz: records of any higher rate are limited to it."""
 SHARE_OF_NYQUIST = 0.95
+FEWEST_SAMPLES = 64
 BLOCKS = 96
 FEWEST_BINS = 24
 TONE_CEILING = 10.0
@@ -48,9 +49,10 @@ def condition(signal: Array, rate: float, bandwidth: float = COMMON_BANDWIDTH) -
     ValueError for fewer than 64 samples, a rate of 0 or a signal that does not change.
     """
     signal = np.asarray(signal, dtype=np.float64)
-    if signal.ndim != 1 or signal.size < 64 or not rate > 0.0:
-        raise ValueError(f"{signal.shape} samples at {rate:g} Hz; features need at least 64 samples of one axis")
-    signal = signal[: _fast_length(signal.size)]
+    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES or not rate > 0.0:
+        needed = f"features need at least {FEWEST_SAMPLES} samples of one axis"
+        raise ValueError(f"{signal.shape} samples at {rate:g} Hz; {needed}")
+    signal = signal[: fast_length(signal.size)]
     centred = signal - signal.mean()
     if not centred.any():
         raise ValueError("the signal does not change")
@@ -61,8 +63,9 @@ def condition(signal: Array, rate: float, bandwidth: float = COMMON_BANDWIDTH) -
     return Conditioned(spectrum, _flattened(spectrum), step, top)
 
 
-def _fast_length(size: int) -> int:
-    while size > 64 and fft.next_fast_len(size, real=True) != size:
+def fast_length(size: int) -> int:
+    """How many of that many samples are used: the largest number with a fast transform."""
+    while size > FEWEST_SAMPLES and fft.next_fast_len(size, real=True) != size:
         size -= 1
     return size
 

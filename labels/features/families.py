@@ -8,8 +8,10 @@ places would find in noise alone, about ln n, is taken off.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from labels.features.conditioning import Array
 
@@ -72,11 +74,15 @@ def without_mains(excess: Array, step: float) -> Array:
     frequency = np.arange(excess.shape[-1]) * step
     if step > COARSEST_STEP:
         return excess
+    return np.where(near_mains(frequency, 1.01 * step + MAINS_SPREAD * frequency), 1.0, excess)
+
+
+def near_mains(frequency: NDArray[Any], margin: NDArray[Any]) -> NDArray[np.bool_]:
+    """True where a frequency (F,) lies within its `margin` (F,), both in Hz, of a multiple of 50 or 60 Hz."""
     near = np.zeros(frequency.size, dtype=bool)
     for mains in MAINS:
-        multiple = mains * np.maximum(np.round(frequency / mains), 1.0)
-        near |= np.abs(frequency - multiple) <= 1.01 * step + MAINS_SPREAD * frequency
-    return np.where(near, 1.0, excess)
+        near |= np.abs(frequency - mains * np.maximum(np.round(frequency / mains), 1.0)) <= margin
+    return near
 
 
 def evidence(ratio: Array, components: Array | float) -> Array:

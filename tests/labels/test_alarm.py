@@ -65,6 +65,12 @@ def test_noise_raises_half_of_the_alarms_and_needs_less_to_do_so():
     assert alarm.in_noise < alarm.in_clear
 
 
+def test_healthy_records_in_noise_alone_set_no_alarm():
+    probability, table, owner, noisy = healthy(50, 5)
+    with pytest.raises(ValueError, match="without added noise"):
+        fit_alarm(probability[noisy], table[noisy], owner[noisy], noisy[noisy], 0.05)
+
+
 def test_few_rows_like_noise_leave_one_alarm_for_all():
     probability, table, owner, noisy = healthy(2000, 4)
     clear = clearness(table) == 1.0

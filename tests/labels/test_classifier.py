@@ -14,6 +14,7 @@ from labels.classifier import (
 )
 from labels.features.table import FEATURE_NAMES
 from labels.learners import LEARNERS, learner
+from labels.reliability import calibration_error, equal_priors
 from labels.stage import Stage
 
 
@@ -93,6 +94,23 @@ def test_unknown_classes_and_learners_are_refused():
         joint_class("line", "ball")
     with pytest.raises(ValueError, match="allowed"):
         learner("oracle")
+
+
+def test_noise_in_which_nothing_is_seen_does_not_blur_what_is_said_without_it():
+    table, classes, groups = made_up(400, 6)
+    blind = np.random.default_rng(7).standard_normal((800, len(FEATURE_NAMES)))
+    noisy = np.arange(1200) >= 400
+    given = np.concatenate([table, blind]), np.tile(classes != "healthy", 3), np.tile(groups, 3)
+    unseen, truth, _ = made_up(4000, 8)
+    wrong = []
+    for marked in (None, noisy):
+        probability = Stage(learner("logistic")).fit(*given, marked).probability(unseen)
+        weights = equal_priors(truth != "healthy")
+        wrong.append(calibration_error(truth != "healthy", probability, weights))
+    # 400 rows set a line of two coefficients to about a tenth; calibrated on noise too, it is far too careful.
+    assert wrong[1] < 0.05 < 0.1 < wrong[0]
+    with pytest.raises(ValueError, match="without added noise"):
+        Stage(learner("logistic")).fit(table, classes != "healthy", groups, classes == "healthy")
 
 
 def test_corpora_without_extended_spalls_leave_that_question_out():

@@ -49,4 +49,7 @@ def test_the_velocity_of_a_tone_is_its_acceleration_over_its_frequency():
 def test_a_sensor_without_signal_is_dead():
     assert is_dead(np.zeros(5000))
     assert is_dead(np.full(5000, np.nan))
-    assert not is_dead(np.random.default_rng(4).standard_normal(5000))
+    noise = np.random.default_rng(4).standard_normal(5000)
+    assert not is_dead(noise)
+    assert not is_dead(np.concatenate([np.zeros(5000), noise]))
+    assert is_dead(np.concatenate([noise, [np.nan]]))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
-from labels.spectrum import amplitude_spectrum, line_amplitude, velocity_spectrum
+from labels.spectrum import amplitude_spectrum, line_amplitude
 from labels.truth import ball_passes
 
 RATE = 65536.0
@@ -39,7 +39,8 @@ def envelope_line(signal, band=PAPER_BAND):
 
 def velocity_harmonics(signal, count=14):
     """Heights (count,) of the BPFO harmonics of the velocity spectrum, m/s."""
-    frequency, amplitude = velocity_spectrum(signal, RATE)
+    frequency, acceleration = amplitude_spectrum(signal, RATE)
+    frequency, amplitude = frequency[1:], acceleration[1:] / (2.0 * np.pi * frequency[1:])
     return np.array([line_amplitude(frequency, amplitude, BPFO * k, LINE_WIDTH) for k in range(1, count + 1)])
 
 

@@ -8,15 +8,13 @@ import pandas
 import pytest
 from typer.testing import CliRunner
 
-from datagen.benchmark.classify import tested_records as records_to_test
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
+from datagen.benchmark.machines import machines, share_machines, unseen_records
 from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, windows
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import (
     TrainingSet,
-    class_probability,
-    load_estimator,
     train_rule,
     training_records,
 )
@@ -25,35 +23,24 @@ from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampl
 from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from labels.classifier import CLASSES
+from datagen.recipes.recipe import load_recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
 from labels.features.table import FEATURE_NAMES
 
 
-class Guesser:
-    """A scikit-learn estimator that learns shares only."""
-
-    def fit(self, X, y):
-        self.classes_, counts = np.unique(y, return_counts=True)
-        self.shares = counts / counts.sum()
-        self.columns = X.shape[1]
-        return self
-
-    def predict_proba(self, X):
-        assert X.shape[1] == self.columns
-        return np.tile(self.shares, (len(X), 1))
-
-
-def always_outer(table):
-    """A callable that has seen nothing."""
-    assert table.shape[1] in (len(FEATURE_NAMES), WINDOW_SAMPLES)
-    return np.full(len(table), "line outer")
+@pytest.fixture(scope="session")
+def other_corpus(tiny_recipe, tmp_path_factory):
+    """The whole corpus of the tiny recipe with another seed, that is of other machines."""
+    place = tmp_path_factory.mktemp("other")
+    (place / "recipe.toml").write_text(tiny_recipe.read_text().replace("seed = 7", "seed = 8"))
+    assert generate(load_recipe(place / "recipe.toml"), place / "corpus", engine=Engine(workers=1)).complete
+    return place / "corpus"
 
 
 @pytest.fixture
-def classify(tiny_corpus, tmp_path, monkeypatch):
-    """Function (*options) → results of `spallgen classify` learned from the tiny corpus and scored on a copy of it."""
-    copy = tmp_path / "copy"
-    shutil.copytree(tiny_corpus, copy)
+def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
+    """Function (*options) → results of `spallgen classify` learned from the tiny corpus and scored on another."""
     (tmp_path / "own_estimators.py").write_text(
         f"import sys\nsys.path.insert(0, {str(tmp_path)!r})\n"
         "import numpy as np\n"
@@ -71,25 +58,85 @@ def classify(tiny_corpus, tmp_path, monkeypatch):
 
     def run(*options):
         file = tmp_path / "results.json"
-        command = ["classify", "--train", tiny_corpus, "--test", copy, "--workers", "1", "--json", file, *options]
+        command = [
+            "classify",
+            "--train",
+            tiny_corpus,
+            "--test",
+            other_corpus,
+            "--workers",
+            "1",
+            "--json",
+            file,
+            *options,
+        ]
         done = CliRunner().invoke(app, [str(part) for part in command], catch_exceptions=False)
         return done, json.loads(file.read_text()) if done.exit_code == 0 else None
 
     return run
 
 
-def test_a_corpus_learned_from_and_tested_on_is_divided_by_virtual_bearing(tiny_corpus, tmp_path):
-    copy = tmp_path / "copy"
+@pytest.fixture
+def divided(tiny_corpus, tmp_path):
+    """A copy of the tiny corpus in which every fourth bearing is of the split test."""
+    copy = tmp_path / "divided"
     shutil.copytree(tiny_corpus, copy)
     index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
-    kept_back = sorted(index["bearing_id"].unique())[::4]
-    index["split"] = np.where(index["bearing_id"].isin(kept_back), "test", "train")
+    index["split"] = np.where(index["bearing_id"].isin(sorted(index["bearing_id"].unique())[::4]), "test", "train")
     index.to_csv(copy / "index.csv", index=False)
-    test = records_to_test(Corpus(copy), also_trained=True)
-    train = training_records(copy, also_tested=True)
-    assert set(test["bearing_id"]) == set(kept_back)
-    assert not set(train["bearing_id"]) & set(kept_back)
-    assert len(training_records(copy, also_tested=False)) == len(index)
+    return copy
+
+
+def renamed(folder, name):
+    """A copy of a corpus whose virtual bearings have another name."""
+    copy = folder.with_name(name)
+    shutil.copytree(folder, copy)
+    text = (copy / "index.csv").read_text()
+    (copy / "index.csv").write_text(text.replace("tiny-0", f"{name}-0"))
+    return copy
+
+
+def test_a_corpus_learned_from_and_tested_on_is_divided_by_virtual_bearing(divided):
+    train = training_records(divided, also_tested=True)
+    test = unseen_records(Corpus(divided), Corpus(divided), train["record"].to_numpy())
+    assert set(test["split"]) == {"test"}
+    assert not set(train["bearing_id"]) & set(test["bearing_id"])
+    every = training_records(divided, also_tested=False)
+    assert len(every) == len(train) + len(test) == 14
+    # Records that were left out of what is learned from, but are not of the split test, are not scored either.
+    few = training_records(divided, also_tested=True, first=8)
+    assert len(unseen_records(Corpus(divided), Corpus(divided), few["record"].to_numpy())) == len(test)
+
+
+def test_a_copy_under_any_name_is_divided_like_the_corpus_itself(divided):
+    copy = renamed(divided, "other")
+    assert share_machines(Corpus(divided), Corpus(copy))
+    train = training_records(divided, also_tested=True)
+    test = unseen_records(Corpus(copy), Corpus(divided), train["record"].to_numpy())
+    numbers = [{name.rpartition("-")[2] for name in labels["bearing_id"]} for labels in (train, test)]
+    assert numbers[1]
+    assert not numbers[0] & numbers[1]
+
+
+def test_a_copy_without_a_split_test_is_refused_before_anything_is_read(tiny_corpus, tmp_path, monkeypatch):
+    monkeypatch.setattr("datagen.benchmark.training.read_rows", None)
+    copy = tmp_path / "copy"
+    shutil.copytree(tiny_corpus, copy)
+    for folder in (copy, tiny_corpus):
+        index = pandas.read_csv(folder / "index.csv", keep_default_na=False)
+        assert "test" not in set(index["split"])
+    command = ["classify", "--train", str(tiny_corpus), "--test", str(copy), "--workers", "1", "--learner", "logistic"]
+    done = CliRunner().invoke(app, command)
+    assert done.exit_code == 2
+    assert "another seed" in done.output
+
+
+def test_machines_of_another_seed_or_recorded_are_others(tiny_corpus, other_corpus, tmp_path):
+    one, other = Corpus(tiny_corpus), Corpus(other_corpus)
+    assert not share_machines(one, other)
+    assert set(one.labels["bearing_id"]) == set(other.labels["bearing_id"])
+    assert len(unseen_records(other, one, one.labels["record"].to_numpy())) == len(other.labels)
+    assert machines(one)[0] == "7-00000"
 
 
 def test_only_the_first_records_are_learned_from_if_asked(tiny_corpus):
@@ -132,6 +179,7 @@ def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
     assert set(scores["confusion"]["columns"]) == {"none", "outer", "inner", "rejected"}
     assert set(results["importances"]["Guesser"]) == set(FEATURE_NAMES)
     assert (tmp_path / "report" / "report.png").read_bytes().startswith(b"\x89PNG")
+    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == ["report.json", "report.png"]
     assert json.loads((tmp_path / "report" / "report.json").read_text())["training_records"] == 14
 
 
@@ -152,24 +200,29 @@ def test_a_function_that_names_classes_is_scored_too(classify, inputs):
         ("--estimator", "nowhere:Thing"),
         ("--input", "windows"),
         ("--noise-db", "loud"),
+        ("--noise-db", "nan"),
+        ("--noise-db=-10,-101",),
+        ("--noise-db", "inf"),
+        ("--bandwidth", "nan"),
+        ("--estimator", ""),
+        ("--test", "nowhere"),
+        ("--out", __file__),
+        ("--out", f"{__file__}/report"),
         ("--speed-error", "0.1"),
     ],
 )
-def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options):
-    assert classify(*options)[0].exit_code == 2
+def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options, monkeypatch):
+    monkeypatch.setattr("datagen.benchmark.training.read_rows", None)
+    done, _ = classify(*options)
+    assert done.exit_code == 2
+    assert done.output.count("\n") == 1
 
 
-def test_probabilities_are_sorted_by_the_names_of_the_classes():
-    guess = Guesser().fit(np.zeros((3, 2)), np.array(["line outer", "healthy", "line outer"]))
-    found = class_probability(guess, np.zeros((1, 2)))
-    assert found[0, CLASSES.index("line outer")] == pytest.approx(2.0 / 3.0)
-    assert found[0, CLASSES.index("extended inner")] == 0.0
-    assert class_probability(always_outer, np.zeros((2, len(FEATURE_NAMES))))[:, 1].tolist() == [1.0, 1.0]
-
-
-def test_a_module_without_that_name_is_refused():
-    with pytest.raises(BadInput, match="module:Class"):
-        load_estimator("numpy")
+def test_impulse_trains_have_no_windows(tiny_corpus):
+    command = ["classify", "--train", "impulse-trains", "--test", str(tiny_corpus), "--input", "windows"]
+    done = CliRunner().invoke(app, [*command, "--estimator", "math:sqrt"])
+    assert done.exit_code == 2
+    assert "features only" in done.output
 
 
 def test_votes_are_geometric_means_of_the_rows_of_a_record():

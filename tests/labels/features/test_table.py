@@ -6,10 +6,15 @@ import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
+from labels.features.conditioning import COMMON_BANDWIDTH
 from labels.features.kinematics import bearing_kinematics
-from labels.features.table import FEATURE_NAMES, FEATURES, features
+from labels.features.table import FEATURE_NAMES, FEATURES, feature_values
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
+
+
+def features(signal, rate, kinematics, bandwidth=COMMON_BANDWIDTH):
+    return feature_values(analyse(signal, rate, kinematics, bandwidth))
 
 
 def named(values):

@@ -1,0 +1,78 @@
+"""What an estimator answers, as probabilities of our classes; what is no such answer is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.own_code import FIELD, own_code
+from labels.classifier import CLASSES
+from labels.features.conditioning import Array
+
+ROUNDING = 1e-3
+"""By how much probabilities that somebody else rounded may leave the range 0 to 1 or miss a sum of 1."""
+ALLOWED = f"names or probabilities of {', '.join(CLASSES)}"
+
+
+def estimator_name(estimator: Any) -> str:
+    """What an estimator is called in reports."""
+    return str(getattr(estimator, "__name__", type(estimator).__name__))
+
+
+def class_probability(estimator: Any, table: Array) -> Array:
+    """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator.
+
+    A class that it never saw has 0. Raises BadInput for names that are no classes, for another shape, and for numbers
+    that are no probabilities.
+    """
+    name = estimator_name(estimator)
+    with own_code(name, "it failed to answer"):
+        said, names = _answer(estimator, table)
+    if len(said) != len(table) or said.ndim not in (1, 2):
+        raise _refused(name, f"it answers with the shape {said.shape} to {len(table)} rows")
+    if said.ndim == 1:
+        _require_classes(name, np.unique(said).tolist())
+        return np.asarray(said[:, None] == np.asarray(CLASSES)[None, :], dtype=np.float64)
+    _require_classes(name, names)
+    if said.shape[1] != len(names):
+        raise _refused(name, f"it answers with {said.shape[1]} columns for {len(names)} classes")
+    return _by_name(_probabilities(name, said), names)
+
+
+def _answer(estimator: Any, table: Array) -> tuple[NDArray[Any], list[Any]]:
+    """The answer and, where it is of probabilities, the classes that its columns are of."""
+    if hasattr(estimator, "predict_proba"):
+        return np.atleast_1d(np.asarray(estimator.predict_proba(table))), list(estimator.classes_)
+    said = estimator.predict(table) if hasattr(estimator, "predict") else estimator(table)
+    return np.atleast_1d(np.asarray(said)), list(CLASSES)
+
+
+def _require_classes(name: str, names: list[Any]) -> None:
+    unknown = [str(said) for said in names if str(said) not in CLASSES]
+    if unknown:
+        raise _refused(name, f"it knows classes that are none of ours: {', '.join(unknown[:5])}")
+
+
+def _probabilities(name: str, said: NDArray[Any]) -> Array:
+    try:
+        found = np.asarray(said, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise _refused(name, "it answers with columns that are no numbers") from None
+    inside = np.isfinite(found) & (found >= -ROUNDING) & (found <= 1.0 + ROUNDING)
+    if not inside.all() or not np.allclose(found.sum(axis=1), 1.0, atol=ROUNDING):
+        raise _refused(name, "it answers with numbers that are no probabilities: each row must sum to 1")
+    return np.clip(found, 0.0, 1.0)
+
+
+def _by_name(probability: Array, names: list[Any]) -> Array:
+    found = np.zeros((len(probability), len(CLASSES)))
+    for column, name in enumerate(names):
+        found[:, CLASSES.index(str(name))] = probability[:, column]
+    return found
+
+
+def _refused(name: str, problem: str) -> BadInput:
+    return BadInput(problem, field=FIELD, value=name, allowed=ALLOWED)

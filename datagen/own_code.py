@@ -1,0 +1,43 @@
+"""Code that users bring to a command as "module:name": found, made and run with one message for whatever goes wrong."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from datagen.errors import BadInput
+
+FIELD = "--estimator"
+
+
+def load_own(name: str, allowed: str) -> Any:
+    """What "module:name" is, looked for in the working folder too; a class is made without arguments.
+
+    Raises BadInput, which says what is `allowed`, whatever goes wrong on the way.
+    """
+    module, _, attribute = name.partition(":")
+    if not module or not attribute:
+        raise BadInput(field=FIELD, value=name, allowed=allowed)
+    if "" not in sys.path:
+        sys.path.insert(0, "")
+    with own_code(name, "it cannot be loaded", allowed):
+        found = getattr(importlib.import_module(module), attribute)
+        return found() if isinstance(found, type) else found
+
+
+@contextmanager
+def own_code(name: str, problem: str, allowed: str = "") -> Iterator[None]:
+    """Turns any exception of the user's code `name` into BadInput with its line; the user's code may raise anything."""
+    try:
+        yield
+    except BadInput:
+        raise
+    except (Exception, SystemExit) as cause:
+        last = traceback.extract_tb(cause.__traceback__)[-1]
+        where = f"{last.filename}, line {last.lineno}"
+        text = f"{problem}: {type(cause).__name__}: {cause} ({where})"
+        raise BadInput(text, field=FIELD, value=name, allowed=allowed) from cause

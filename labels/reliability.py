@@ -1,0 +1,47 @@
+"""How far probabilities can be relied on: what was predicted against what was there."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.features.conditioning import Array
+
+
+def equal_priors(positive: NDArray[np.bool_]) -> Array:
+    """Weights (N,) with which positives and negatives weigh the same; they sum to N if there are both."""
+    positive = np.asarray(positive, dtype=bool)
+    count = max(int(positive.sum()), 1), max(int((~positive).sum()), 1)
+    return np.asarray(0.5 * positive.size / np.where(positive, *count))
+
+
+def reliability(
+    positive: NDArray[np.bool_], probability: Array, weights: Array | None = None, bins: int = 10
+) -> dict[str, list[float]]:
+    """Of records by predicted probability in equal bins: the mean `predicted`, the share `observed`, their number
+    `records` and their `weight`; empty bins are left out.
+
+    `weights` (N,) are those of the records, 1 if None. Probabilities under equal priors need those of `equal_priors`.
+    """
+    positive, probability = np.asarray(positive, dtype=bool), np.asarray(probability)
+    weights = np.ones(probability.size) if weights is None else np.asarray(weights)
+    place = np.minimum((probability * bins).astype(np.int64), bins - 1)
+    used = [place == bin_ for bin_ in range(bins) if (place == bin_).any()]
+    return {
+        "predicted": [float(np.average(probability[rows], weights=weights[rows])) for rows in used],
+        "observed": [float(np.average(positive[rows], weights=weights[rows])) for rows in used],
+        "records": [float(rows.sum()) for rows in used],
+        "weight": [float(weights[rows].sum()) for rows in used],
+    }
+
+
+def calibration_error(
+    positive: NDArray[np.bool_], probability: Array, weights: Array | None = None, bins: int = 10
+) -> float:
+    """Mean distance between predicted probability and observed share over the bins of `reliability`, by weight."""
+    curve = reliability(positive, probability, weights, bins)
+    weight = np.array(curve["weight"])
+    if weight.size == 0:
+        return float("nan")
+    gaps = np.abs(np.array(curve["predicted"]) - np.array(curve["observed"]))
+    return float((gaps * weight).sum() / weight.sum())

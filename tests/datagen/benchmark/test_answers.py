@@ -1,0 +1,87 @@
+"""Estimators of one's own: what they may answer, and what is refused."""
+
+import numpy as np
+import pytest
+
+from datagen.benchmark.answers import class_probability
+from datagen.benchmark.training import TrainingSet, train_own
+from datagen.errors import BadInput
+from labels.classifier import CLASSES
+
+ROWS = np.zeros((3, 2))
+
+
+class Guesser:
+    """A scikit-learn estimator that learns shares only."""
+
+    def fit(self, X, y):
+        self.classes_, counts = np.unique(y, return_counts=True)
+        self.shares = counts / counts.sum()
+        return self
+
+    def predict_proba(self, X):
+        return np.tile(self.shares, (len(X), 1))
+
+
+class Unfit(Guesser):
+    """One whose learning fails."""
+
+    def fit(self, X, y):
+        raise ArithmeticError("too hard")
+
+
+class Named(Guesser):
+    """One that was taught other names."""
+
+    def fit(self, X, y):
+        return super().fit(X, np.where(y == "healthy", "none", y))
+
+
+def training():
+    classes = np.array(["line outer", "healthy", "line outer"])
+    return TrainingSet(ROWS, classes, np.array(["a", "b", "c"]), np.arange(3), np.zeros(3, dtype=bool))
+
+
+def test_probabilities_are_sorted_by_the_names_of_the_classes():
+    found = train_own(training(), Guesser(), False).probability(ROWS)
+    assert found[0, CLASSES.index("line outer")] == pytest.approx(2.0 / 3.0)
+    assert found[0, CLASSES.index("extended inner")] == 0.0
+
+
+def test_names_and_probabilities_of_a_function_are_taken_as_they_are():
+    assert class_probability(lambda table: np.full(len(table), "line outer"), ROWS)[:, 1].tolist() == [1.0] * 3
+    said = np.tile([0.2, 0.1, 0.3, 0.4, 0.0], (3, 1))
+    np.testing.assert_allclose(class_probability(lambda table: said, ROWS), said)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        np.full(3, "none"),
+        np.array(["healthy", "line outer", "Healthy"]),
+        np.array([0, 1, 2]),
+        np.full(2, "healthy"),
+        "healthy",
+        np.full((3, 4), 0.25),
+        np.full((3, 1, 5), 0.2),
+        np.full((3, 5), 0.9),
+        np.tile([1.4, -0.4, 0.0, 0.0, 0.0], (3, 1)),
+        np.full((3, 5), np.nan),
+        np.full((3, 5), "healthy"),
+        None,
+    ],
+)
+def test_what_is_no_answer_is_refused_with_what_would_be(said):
+    with pytest.raises(BadInput, match=r"--estimator.*line outer"):
+        class_probability(lambda table: said, ROWS)
+
+
+def test_an_estimator_that_fails_or_knows_other_classes_is_refused_before_it_is_scored():
+    with pytest.raises(BadInput, match=r"failed to learn: ArithmeticError: too hard \(.*test_answers.py, line \d+\)"):
+        train_own(training(), Unfit(), False)
+    with pytest.raises(BadInput, match="none of ours: none;"):
+        train_own(training(), Named(), False)
+    with pytest.raises(
+        BadInput, match=r"failed to answer: ZeroDivisionError.*--estimator|--estimator.*ZeroDivisionError"
+    ):
+        class_probability(lambda table: 1 / 0, ROWS)

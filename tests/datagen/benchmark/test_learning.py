@@ -1,0 +1,54 @@
+"""The learning curve on made-up rows."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.training import TrainingSet
+from labels.classifier import CLASSES
+from labels.features.table import FEATURE_NAMES
+
+
+def made_up(bearings, classes=CLASSES):
+    """Two records of each bearing, each of two rows as they are and one in noise, in which nothing is seen."""
+    generator = np.random.default_rng(3)
+    records = np.repeat(np.arange(2 * bearings), 3)
+    own = np.array(classes)[(records + records // 2) % len(classes)]
+    table = generator.standard_normal((records.size, len(FEATURE_NAMES)))
+    noisy = np.tile([False, False, True], 2 * bearings)
+    table[:, FEATURE_NAMES.index("outer_evidence")] += 4.0 * ((own != "healthy") & ~noisy)
+    table[:, FEATURE_NAMES.index("race_evidence")] += 4.0 * (np.char.endswith(own, "outer") & ~noisy)
+    return TrainingSet(table, own, np.char.add("b", (records // 2).astype(str)), records, noisy)
+
+
+def test_points_are_of_different_shares_and_records_without_noise():
+    points = learning_curve(made_up(60), "logistic")["logistic"]
+    assert [point["bearings"] for point in points] == [10, 11, 22, 45]
+    # A shift of four standard deviations is hardly ever missed, and never seen in the noisy third of the rows.
+    assert points[-1]["value"] > 0.8
+
+
+def test_few_bearings_leave_one_point_and_a_wide_interval():
+    (point,) = learning_curve(made_up(12), "logistic")["logistic"]
+    assert point["bearings"] == 9
+    assert point["high"] - point["low"] > 0.2  # three bearings
+
+
+def test_shares_that_cannot_be_learned_from_are_left_out():
+    few = made_up(60)
+    healthy = ~np.isin(few.bearings, ["b58", "b59"])
+    assert learning_curve(replace(few, classes=np.where(healthy, "healthy", few.classes)), "logistic") == {}
+
+
+def test_more_records_of_the_same_bearings_make_no_interval_narrower():
+    one = made_up(40)
+    copies = range(4)
+    more = TrainingSet(
+        *(np.concatenate([getattr(one, name)] * len(copies)) for name in ("table", "classes", "bearings")),
+        np.concatenate([one.records + 1000 * copy for copy in copies]),
+        np.concatenate([one.noisy] * len(copies)),
+    )
+    once, often = (learning_curve(training, "logistic")["logistic"][-1] for training in (one, more))
+    # Half as wide if records were drawn; what is learned from four copies differs a little.
+    assert often["high"] - often["low"] > 0.8 * (once["high"] - once["low"]) > 0.04

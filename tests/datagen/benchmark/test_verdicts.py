@@ -1,0 +1,82 @@
+"""What is said of records, and how draws of noise are pooled."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+
+from datagen.benchmark.rows import Rows
+from datagen.benchmark.summary import summarise
+from datagen.benchmark.training import Model
+from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws
+from labels.features.table import FEATURE_NAMES
+from labels.rule import Rule
+
+RULE = Rule(2.0)
+
+
+class Said:
+    """An estimator that gives stated probabilities, one row after another."""
+
+    def __init__(self, probability):
+        self.probability = np.array(probability)
+
+    def __call__(self, table):
+        return self.probability
+
+
+def corpus(locations):
+    """Labels and empty rows of records at those locations, all line spalls or healthy."""
+    size = len(locations)
+    labels = pandas.DataFrame(
+        {
+            "record": np.arange(size),
+            "recording": [str(record) for record in range(size)],
+            "bearing_id": "b",
+            "location": locations,
+            "condition": ["healthy" if name == "none" else "line" for name in locations],
+            **{name: np.linspace(1.0, 2.0, size) for name in ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")},
+        }
+    )
+    return labels, Rows(np.zeros((size, len(FEATURE_NAMES))), np.arange(size))
+
+
+def judged(locations, probability, doubt=0.0, alarm=0.5):
+    return judge(Path("made-up"), *corpus(locations), RULE, [Model("said", Said(probability), alarm)], doubt, True)
+
+
+def test_what_is_said_is_rejected_by_its_own_probability():
+    probability = [[0.70, 0.28, 0.02, 0.0, 0.0], [0.05, 0.95, 0.0, 0.0, 0.0], [0.9, 0.05, 0.05, 0.0, 0.0]]
+    # The first passes an alarm of 0.2 and is called outer, of which it has a probability of 0.28.
+    kept, doubted = (judged(["outer"] * 3, probability, doubt, 0.2).verdicts[1] for doubt in (0.0, 0.5))
+    assert kept.location.tolist() == ["outer", "outer", "none"]
+    assert doubted.location.tolist() == [REJECTED, "outer", "none"]
+    assert doubted.condition.tolist() == [REJECTED, "line", "healthy"]
+
+
+def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
+    locations = ["outer", "inner"] * 12
+    generator = np.random.default_rng(2)
+    probability = generator.dirichlet([1.0, 2.0, 2.0, 0.5, 0.5], len(locations))
+    one = judged(locations, probability)
+    once, pooled = (summarise(replace(found), False)["models"]["said"] for found in (one, pooled_draws([one] * 10)))
+    for name in ("faults_balanced_accuracy", "race_accuracy"):
+        assert [pooled[name][end] for end in ("value", "low", "high")] == pytest.approx(
+            [once[name][end] for end in ("value", "low", "high")]
+        )
+        assert [pooled["minus_rule"][name][end] for end in ("low", "high")] == pytest.approx(
+            [once["minus_rule"][name][end] for end in ("low", "high")]
+        )
+
+
+def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
+    locations = ["none"] * 10 + ["outer"] * 90
+    # One in ten of either side has the probability of the other: calibrated at equal priors, odds nine to one.
+    spall = np.where(np.arange(100) < 10, 0.1, 0.9)
+    spall[[0, *range(10, 19)]] = 0.9, *[0.1] * 9
+    found = summarise(judged(locations, np.column_stack([1 - spall, spall, *np.zeros((3, 100))])), False)
+    assert found["models"]["said"]["calibration_error"] == pytest.approx(
+        0.0, abs=1e-5
+    )  # votes keep 1e-6 for every class

@@ -1,0 +1,50 @@
+"""Code that users bring, and what may be wrong with it."""
+
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.errors import BadInput
+from datagen.own_code import load_own
+
+BROKEN = {
+    "h_syntax": "def broken(:\n",
+    "h_raises": "raise RuntimeError('not today')\n",
+    "h_leaves": "import sys\nsys.exit(3)\n",
+    "h_thing": "class Thing:\n    def __init__(self, size):\n        self.size = size\n",
+    "h_refuses": "class Thing:\n    def __init__(self):\n        raise KeyError('no')\n",
+}
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """The working folder of a user, with modules of their own, from a path that does not name it."""
+    for name, text in BROKEN.items():
+        (tmp_path / f"{name}.py").write_text(text)
+    (tmp_path / "h_good.py").write_text("class Thing:\n    size = 3\ndef function(table):\n    return table\n")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [entry for entry in sys.path if entry])
+    return tmp_path
+
+
+def test_a_class_is_made_and_a_function_is_taken_from_the_working_folder(here):
+    assert load_own("h_good:Thing", "").size == 3
+    assert load_own("h_good:function", "")(4) == 4
+
+
+@pytest.mark.parametrize(
+    "name", [*(f"{module}:Thing" for module in BROKEN), ":X", "X:", "numpy", "", "nowhere:X", "h_good:Other", "..:X"]
+)
+def test_what_cannot_be_loaded_is_refused_with_what_can(here, name):
+    with pytest.raises(BadInput, match=r"--estimator.*module:Class"):
+        load_own(name, "module:Class")
+
+
+@pytest.mark.parametrize("command", [["classify", "--train", "a", "--test", "b"], ["size", "a"]])
+def test_both_commands_refuse_it_alike(here, command):
+    done = CliRunner().invoke(app, [*command, "--estimator", "h_syntax:Thing"])
+    assert done.exit_code == 2
+    assert "--estimator" in done.output
+    assert "h_syntax.py" in done.output

@@ -65,7 +65,7 @@ def respond_accurately(
     `least` (m/s², RMS) is an error that is always allowed. `go_on` may end a march before all samples. A coarse
     `pilot` of some samples and the beginning of the response say how large the signal is and how much this scene makes
     of the errors of its steps; where that is much, a finer response says it again. Raises SimulationFailed if the
-    response stops being finite or contact changes more often than can be logged.
+    response stops being finite, contact changes more often than can be logged, or steps become too many.
     """
     case = case_of(scene, start, rate)
     march = March(case, samples, kept)

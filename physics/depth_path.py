@@ -24,6 +24,8 @@ class DepthPath:
     Between neighbouring `breaks` (P + 1,) the path is smooth: `cells` (P,) equal cells, each a cubic in the position
     within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
 
+    `deepest` (rad): the arc at which the drop is largest, the middle of all if there are several; `largest_depth` (m):
+    the drop there; `bridged`: the ball rests on both edges before it reaches the floor.
     `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … mean cells; zero for smooth surfaces.
     """
 

@@ -13,7 +13,7 @@ from physics.assembly import assemble
 from physics.contact import ContactModel
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
-from physics.integrators.modal.memory import Memory, Stride, memory_for
+from physics.integrators.modal.memory import SHORTEST, UNITS, Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Output
 from physics.integrators.stops import Stops
@@ -140,7 +140,8 @@ class March:
             )
         if status == NOT_FINITE:
             raise SimulationFailed(
-                Outcome.NOT_FINITE, f"the response stopped being finite with steps down to {grid.interval / 16:.3g} s"
+                Outcome.NOT_FINITE,
+                f"the response stopped being finite with steps down to {SHORTEST * grid.interval / UNITS:.3g} s",
             )
         return self.output
 

@@ -50,7 +50,8 @@ def respond(
 ) -> Trace:
     """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, without an error estimate.
 
-    Raises SimulationFailed if the response stops being finite or contact changes more often than can be logged.
+    Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps
+    become too many.
     """
     contact, motion = assemble(scene), motion_model(scene)
     series, stops = power_series(motion, grid.step), known_kinks(scene, contact)

@@ -19,10 +19,13 @@ Array = NDArray[np.float64]
 
 LOADED, NOT_UNIQUE, NOT_LOADED, NO_EQUILIBRIUM = 0, 1, 2, 3
 
-TOLERANCE = 1e-11
-ACCEPTABLE = 1e-7
+# Unbalanced force over the load at which the search ends, and up to which what it ended with is an equilibrium.
+TOLERANCE, ACCEPTABLE = 1e-11, 1e-7
+# The stiffness is singular if its determinant is below this share of its trace squared.
 SINGULAR = 1e-9
+# Without a load, balls compressed by less than this (m) are free.
 NEGLIGIBLE_COMPRESSION = 1e-13
+# No bearing carries its load at a displacement beyond this (m): the search has left it through a gap.
 LARGEST_MOVE = 0.05
 MOST_ITERATIONS = 200
 MOST_SHORTENINGS = 40

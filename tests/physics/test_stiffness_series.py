@@ -51,7 +51,8 @@ def test_the_series_is_the_trace_solved_at_every_instant(gearbox, build_scene, s
     error = np.sqrt(np.mean(missed**2, axis=0)).max()
     assert error <= ALLOWED
     assert np.abs(missed).max() <= WORST
-    assert error <= 30.0 * estimate + 1e-7  # the estimate sees smooth parts, not what is left beside corners
+    assert error <= estimate + 1e-7  # what the ends of Newton's method leave
+    assert estimate <= 1e-4  # what the stored trace may miss
 
 
 @pytest.mark.parametrize("spalls", ["healthy", "line", "extended"])

@@ -50,10 +50,11 @@ def score_sizes(
     """
     from joblib import Parallel, delayed
 
+    own = find_estimator(estimator)
     chosen = _split(folder, split)
     splits = None if chosen == ALL else (chosen,)
     unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
-    known = known_sizes(folder, sizes, find_estimator(estimator), load_known)
+    known = known_sizes(folder, sizes, own, load_known)
     records = sized_records(folder, load_known=load_known, splits=splits)
     made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(
         delayed(_score)(one, estimator, _factor(one, known)) for one in records

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 LOAD_AXIS = -1  # y, or the only axis of a recording
 ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
+FEWEST_PASSES, FEWEST_SAMPLES_A_PASS = 6.0, 16.0
 LONGEST_EXTENT = math.pi
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
 
@@ -39,9 +40,11 @@ class SizeEstimator:
             return max((self.estimate(sign * acceleration, rate, known) for sign in (1.0, -1.0)), key=_trust)
         signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
         method = _method(situation)
-        shortest = 6.0 * min(situation.pass_periods().values())
-        if signal.size < shortest * rate:
+        shortest = min(situation.pass_periods().values()) * rate
+        if signal.size < FEWEST_PASSES * shortest:
             return SizeEstimate(SizeOutcome.TOO_SHORT, method)
+        if shortest < FEWEST_SAMPLES_A_PASS:
+            return SizeEstimate(SizeOutcome.TOO_COARSE, method)
         evidence = gather_evidence(np.asarray(signal, dtype=np.float64), rate, situation.pass_periods())
         if evidence is None:
             return SizeEstimate(SizeOutcome.NO_PASSES, method)

@@ -20,6 +20,7 @@ class SizeOutcome(Enum):
 
     ESTIMATED = "estimated"
     TOO_SHORT = "the record holds fewer than six ball passes"
+    TOO_COARSE = "a ball pass lasts fewer than sixteen samples"
     NO_PASSES = "no ball passes stand out of the record"
     NO_EVENT_PAIR = "the passes show no two events that could be trusted to be entry and exit"
 

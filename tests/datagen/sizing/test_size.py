@@ -310,3 +310,12 @@ def test_a_record_of_fewer_than_six_passes_is_too_short() -> None:
     assert short.outcome is SizeOutcome.TOO_SHORT
     assert "fewer than six" in short.reason
     assert enough.outcome is SizeOutcome.NO_PASSES
+
+
+def test_a_rate_at_which_passes_are_a_few_samples_long_is_too_coarse() -> None:
+    machine = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 7.0)
+    sixteen = 16.0 / min(machine.pass_periods().values())
+    noise = np.random.default_rng(5).standard_normal(4096)
+    coarse, fine = (default_estimator().estimate(noise, share * sixteen, machine) for share in (0.99, 1.01))
+    assert coarse.outcome is SizeOutcome.TOO_COARSE
+    assert fine.outcome is not SizeOutcome.TOO_COARSE

@@ -112,7 +112,8 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     surface = table_surface(spall) if spall.profile == "table" else gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    rolled = rolled_path(surface, spall.extent / 2.0, spall.race, race_radius, ball_radius, ROLLED_STEP / race_radius)
+    half, step, rough = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
+    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, rough)
     smooth = branches(rolled)
     width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
@@ -123,7 +124,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         lambda arc: _on_branches(smooth, arc)[0],
         lambda arc: _on_branches(smooth, arc)[1],
         bridged=not reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
-        rough=bool(spall.roughness_values) or spall.profile == "table",
+        rough=rough or spall.profile == "table",
     )
 
 

@@ -15,22 +15,27 @@ Array = NDArray[np.float64]
 Curve = Callable[[Array], Array]
 
 FEWEST_STEPS = 512
-SURFACE_STEPS_PER_PATH_STEP = 4
-BLOCK = 16
+# Points of the surface for each one of the path: more where it bends so sharply that the ball, held between two of
+# them, would sink by more than `SUNK` (m); not for a rough one, whose bumps are found between points.
+FEWEST_POINTS, MOST_POINTS = 4, 128
+SUNK = 2e-10
+PROBES = 20_001
+# Points of the surface that are passed over together, for each one of the path's.
+BLOCKED = 4
 # What rounding leaves of a height (m).
 ROUNDING = 1e-15
 # A contact point between points of the surface is looked for where their curvatures agree to this share, that is not
 # on an edge.
 SMOOTH = 0.02
-# Where the contact point leaps by more than this many points the ball has changed from one bump to another.
-LEAP = 12.0
+# Where the contact point leaps by more than this many steps of the path the ball has changed from one bump to another.
+LEAP = 3.0
 # Both sides of a corner are nearly parabolas; one nearer to a node than this share of a step is put onto it.
 NEWTON_STEPS, NEAREST = 4, 1e-3
 
 
 class RolledPath(NamedTuple):
     """`drop` (N,), m, of the ball's centre and its `slope` (N,), m/rad, at the arcs `arc` (N,), rad, and the `contact`
-    (N,) that holds the ball there, in points of the surface."""
+    (N,) that holds the ball there, in steps of the path."""
 
     arc: Array
     drop: Array
@@ -84,30 +89,41 @@ def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float
 
 
 def rolled_path(
-    surface: Curve, half: float, race: str, race_radius: float, ball_radius: float, step: float
+    surface: Curve, half: float, race: str, race_radius: float, ball_radius: float, step: float, rough: bool = False
 ) -> RolledPath:
     """The path of the ball's centre over a surface.
 
     `surface(arc)` is the depth of the surface (m, positive where material is missing) against the arc (rad) from the
-    spall's centre, of half width `half`; `step` is the wanted distance between the returned arcs (rad). The arcs go
-    beyond the spall if a bump that stands proud of the race lifts the ball there.
+    spall's centre, of half width `half`; `step` is the wanted distance between the returned arcs (rad); `rough` if it
+    has bumps all over. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there.
     """
     count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
-    fine = 2.0 * half / (count * SURFACE_STEPS_PER_PATH_STEP)
-    probe = surface(np.linspace(-half, half, count * SURFACE_STEPS_PER_PATH_STEP + 1))
+    points_a_step = FEWEST_POINTS if rough else _points_a_step(surface, half, race_radius, 2.0 * half / count)
+    fine = 2.0 * half / (count * points_a_step)
+    probe = surface(np.linspace(-half, half, count * points_a_step + 1))
     outer, proud = race == "outer", max(0.0, -float(probe.min()))
     bump_radius = race_radius - proud if outer else race_radius + proud
     lifted = hanging_reach(race, bump_radius, ball_radius, proud)
     # Whole steps beyond the edges, so that both edges stay on a point of the grid.
-    beyond = math.ceil(lifted / (fine * SURFACE_STEPS_PER_PATH_STEP))
+    beyond = math.ceil(lifted / (fine * points_a_step))
     hung = hanging_reach(race, bump_radius, ball_radius, max(float(probe.max()) + proud, 1e-9))
     reach = math.ceil(1.05 * hung / fine) + 2
-    first, last = -beyond * SURFACE_STEPS_PER_PATH_STEP, (count + beyond) * SURFACE_STEPS_PER_PATH_STEP
+    first, last = -beyond * points_a_step, (count + beyond) * points_a_step
     points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
     # The corner itself belongs to the good race: a ball can hang on it.
     depth = np.where(np.abs(points) < half * (1.0 - 1e-12), surface(points), 0.0)
-    drop, slope, contact = _roll(depth, reach, fine, race_radius, ball_radius, outer)
-    return RolledPath(points[reach : points.size - reach : SURFACE_STEPS_PER_PATH_STEP], drop, slope, contact)
+    drop, slope, contact = _roll(depth, reach, points_a_step, fine, race_radius, ball_radius, outer)
+    return RolledPath(points[reach : points.size - reach : points_a_step], drop, slope, contact / points_a_step)
+
+
+def _points_a_step(surface: Curve, half: float, race_radius: float, step: float) -> int:
+    """Points of the surface for each `step` (rad) of the path: of a bend κ (1/m) and points h (m) apart a ball may sink
+    by κ h² / 8."""
+    probe = surface(np.linspace(-half, half, PROBES))[1:-1]
+    apart = 2.0 * half / (PROBES - 1) * race_radius
+    bend = float(np.abs(np.diff(probe, 2)).max()) / apart**2
+    points = math.ceil(step * race_radius * math.sqrt(bend / (8.0 * SUNK)))
+    return min(max(points, FEWEST_POINTS), MOST_POINTS)
 
 
 def branches(path: RolledPath) -> Branches:
@@ -151,26 +167,27 @@ def branches(path: RolledPath) -> Branches:
 
 @njit
 def _roll(
-    depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool
+    depth: Array, reach: int, stride: int, step: float, race_radius: float, ball_radius: float, outer: bool
 ) -> tuple[Array, Array, Array]:
-    """Drop, slope and contact at the surface points of the path, by trying each of the `reach` neighbours on both sides
-    as the contact.
+    """Drop, slope and contact at every `stride`-th point of the surface, by trying each of the `reach` neighbours on
+    both sides as the contact.
 
     Neighbours are taken block by block, and blocks whose highest point cannot touch first are passed over.
     """
-    count = (depth.size - 2 * reach - 1) // SURFACE_STEPS_PER_PATH_STEP + 1
+    count = (depth.size - 2 * reach - 1) // stride + 1
+    size = BLOCKED * stride
     cosine = np.cos(step * np.arange(reach + 3))
     sine = np.sin(step * np.arange(reach + 3))
-    blocks = (depth.size - 1) // BLOCK + 1
+    blocks = (depth.size - 1) // size + 1
     highest, deepest = np.empty(blocks), depth.max()
     for block in range(blocks):
-        highest[block] = depth[block * BLOCK : (block + 1) * BLOCK].min()
+        highest[block] = depth[block * size : (block + 1) * size].min()
     drop, slope, contact = np.empty(count), np.empty(count), np.empty(count)
     for k in range(count):
-        centre = k * SURFACE_STEPS_PER_PATH_STEP + reach
+        centre = k * stride + reach
         least, best = _drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer), centre
-        for block in range((centre - reach) // BLOCK, (centre + reach) // BLOCK + 1):
-            first, last = max(block * BLOCK, centre - reach), min(block * BLOCK + BLOCK - 1, centre + reach)
+        for block in range((centre - reach) // size, (centre + reach) // size + 1):
+            first, last = max(block * size, centre - reach), min(block * size + size - 1, centre + reach)
             near = max(first - centre, centre - last, 0)
             if _least_drop(highest[block], deepest, cosine[near], sine[near], race_radius, ball_radius, outer) > least:
                 continue

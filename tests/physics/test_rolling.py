@@ -17,8 +17,8 @@ STEP = 5e-6 / RACE["outer"]
 ROUNDING = 1e-15  # m: a few units in the last place of a race's radius
 
 
-def roll(surface, race, half=HALF, step=STEP):
-    return rolled_path(surface, half, race, RACE[race], BALL, step)[:2]
+def roll(surface, race, half=HALF, step=STEP, rough=False):
+    return rolled_path(surface, half, race, RACE[race], BALL, step, rough)[:2]
 
 
 def gap(depth):
@@ -156,12 +156,34 @@ def test_the_ball_s_centre_is_never_deeper_than_the_surface_below_it(race, seed)
 
 
 @RACES
+@pytest.mark.parametrize("taper", [4e-6, 1e-5, 1e-4])
+def test_a_ball_neither_sinks_into_a_steep_taper_nor_is_lifted_by_it(race, taper):
+    width, depth, half = taper / RACE[race], 80e-6, 0.3e-3 / RACE[race]
+
+    def surface(arc):
+        return depth * np.sin(0.5 * np.pi * np.clip((half - np.abs(arc)) / width, 0.0, 1.0)) ** 2
+
+    arcs, drop = roll(surface, race, half)
+    for arc, found in zip(arcs[1:-1:23], drop[1:-1:23], strict=True):
+        # Points of the taper itself, much closer together than it bends.
+        edge = half - width * np.linspace(0.0, 1.0, 200_001)
+        theta = np.concatenate([-edge, edge])
+        radius = RACE[race] + (surface(theta) if race == "outer" else -surface(theta))
+        lever = radius * np.sin(theta - arc)
+        hanging = np.sqrt(BALL**2 - lever**2)
+        sign = 1.0 if race == "outer" else -1.0
+        drops = sign * (radius * np.cos(theta - arc) - RACE[race]) - hanging + BALL
+        assert found == pytest.approx(drops.min(), abs=4e-10)  # twice what a ball may sink between points
+
+
+@RACES
 @pytest.mark.parametrize("seed", range(3))
 def test_a_deeper_surface_never_lifts_the_ball(race, seed):
     shallow = bumpy(seed, 10e-6)
     extra = bumpy(seed + 100, 10e-6)
-    _, upper = roll(lambda arc: np.maximum(shallow(arc), 0.0), race)
-    arcs, lower = roll(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race)
+    # Rough surfaces are all sampled at the same points.
+    _, upper = roll(lambda arc: np.maximum(shallow(arc), 0.0), race, rough=True)
+    arcs, lower = roll(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race, rough=True)
     assert np.all(lower >= upper - ROUNDING)
     assert np.max(lower - upper) > 1e-7
     assert arcs.size == upper.size

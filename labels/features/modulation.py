@@ -109,7 +109,8 @@ def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
     count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
     grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))
     half = np.asarray(0.75 * lines.step)
-    heights = [np.sqrt(lines.mean(k * grid, half)) for k in range(1, STRENGTH_HARMONICS + 1)]
+    # Means are differences of running sums: rounding can leave one below zero where a band is silent.
+    heights = [np.sqrt(np.maximum(lines.mean(k * grid, half), 0.0)) for k in range(1, STRENGTH_HARMONICS + 1)]
     return float(np.mean(heights, axis=0).max())
 
 

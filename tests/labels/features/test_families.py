@@ -7,7 +7,8 @@ import pytest
 
 from labels.features.conditioning import condition
 from labels.features.envelopes import band_edges, envelope_spectra
-from labels.features.families import evidence, find_family, lines_in, without_mains, without_shaft
+from labels.features.families import Lines, evidence, find_family, lines_in, without_mains, without_shaft
+from labels.features.modulation import line_strength
 
 
 def test_evidence_is_the_log_likelihood_ratio_of_exponential_components():
@@ -79,3 +80,8 @@ def test_lines_of_the_mains_do_not_count_but_those_beside_them_do():
     kept = without_mains(excess, 0.05)
     assert (kept[0, 2400], kept[0, 2500]) == (1.0, 500.0)
     assert without_mains(excess, 2.5).max() == 500.0
+
+
+def test_a_band_so_silent_that_its_running_sum_falls_by_rounding_has_lines_of_no_strength():
+    falling = Lines(1e6 - 1e-10 * np.arange(2001.0)[None, :], 0.5)
+    assert line_strength(falling, 100.0, 0.02) == 0.0

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import Manifest, read_manifest
 from datagen.corpora.netcdf import ONE_AT_A_TIME
+from datagen.corpora.reading import reading
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class _OpenShards:
         if self.owner != os.getpid():
             self._start()
         if shard not in self.files:
-            with ONE_AT_A_TIME:
+            with ONE_AT_A_TIME, reading(self.folder, shard):
                 file = netCDF4.Dataset(self.folder / shard)
                 file.set_auto_mask(False)
                 self.files[shard] = file
@@ -115,7 +116,8 @@ class Corpus:
         if variable not in file.variables:
             known = ", ".join(name for name, found in file.variables.items() if found.dimensions[:1] == ("record",))
             raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
-        found: NDArray[Any] = file.variables[variable][position]
+        with reading(self.folder, shard):
+            found: NDArray[Any] = file.variables[variable][position]
         return found
 
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
@@ -124,19 +126,24 @@ class Corpus:
         file, axes = self._shards.file(shard), self.axes(record)
         if axis not in axes:
             raise BadInput(f"record {record} has no such axis", shard, "axis", axis, ", ".join(axes))
-        found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
+        with reading(self.folder, shard):
+            found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
         return found.astype(np.float64)
 
     def axes(self, record: int) -> list[str]:
         """Names of the axes along which the acceleration of a record is stored; BadInput if there is no such record."""
         shard, _ = self._place(record)
-        return [str(name) for name in self._shards.file(shard).variables["axis"][:]]
+        file = self._shards.file(shard)
+        with reading(self.folder, shard):
+            return [str(name) for name in file.variables["axis"][:]]
 
     def _place(self, record: int) -> tuple[str, int]:
         try:
             return self._places[int(record)]
         except KeyError:
-            raise BadInput("not in this corpus", str(self.folder), "record", int(record)) from None
+            first, last = min(self._places, default=0), max(self._places, default=0)
+            allowed = f"{first} to {last}" if len(self._places) == last - first + 1 else "a record of its index.csv"
+            raise BadInput("not in this corpus", str(self.folder), "record", int(record), allowed) from None
 
     def close(self) -> None:
         """Close the files kept open for speed; they open again when needed."""
@@ -147,7 +154,7 @@ class Corpus:
         import xarray
 
         shard, position = self._place(record)
-        with xarray.open_dataset(self.folder / shard, engine="netcdf4") as opened:
+        with reading(self.folder, shard), xarray.open_dataset(self.folder / shard, engine="netcdf4") as opened:
             tables = {"ball_pass": "pass_record", "defect": "defect_record"}
             own = {
                 table: np.flatnonzero(opened[column].values == record)

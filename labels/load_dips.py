@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics.scene import Scene
-from physics.statics import equilibrium
+from physics.statics.ball_load import ball_load
 
 Array = NDArray[np.float64]
 
 SAMPLES_PER_PASS = 400
-# The load without spalls has no edges: a tenth of the instants tells it.
+# The load without spalls has no edges: a tenth of the instants tells it, unless waves are shorter than that.
 SAMPLES_WITHOUT_SPALLS = 40
+SAMPLES_PER_WAVE = 16.0
 SHARE = 0.5
 
 
@@ -22,12 +24,13 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     """First fall and last rise (N,), s, of the load of `ball` (N,), from 1, of `row` in its passes `entry` to `leave`.
 
     Through half of what the ball would carry at that instant without spalls; NaN where that never happens between both
-    edges. The load is solved at 400 equal steps of each pass, so times are exact to about a thousandth of it.
+    edges. The load is solved at 400 equal steps of each pass, so times are exact to about a thousandth of it; over a
+    rough floor a dip shorter than a step may be missed, and times be a fortieth of the pass away.
     """
     fall, rise = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
     if entry.size == 0:
         return fall, rise
-    step, rare = (np.arange(count + 1) / count for count in (SAMPLES_PER_PASS, SAMPLES_WITHOUT_SPALLS))
+    step, rare = (np.linspace(0.0, 1.0, 1 + count) for count in (SAMPLES_PER_PASS, _rare_samples(scene, leave - entry)))
     time, rare_time = (entry[:, None] + (leave - entry)[:, None] * share for share in (step, rare))
     pressed = _loads(scene, time, row, ball)
     due = _loads(replace(scene, spalls=()), rare_time, row, ball)
@@ -36,12 +39,19 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     return fall, rise
 
 
+def _rare_samples(scene: Scene, lasting: Array) -> int:
+    """Steps of the passes, `lasting` (N,) s, in which the load without spalls is told, by its waves if it has any."""
+    order = max((wave.order for wave in scene.imperfections.waviness), default=0)
+    waves = order * scene.operation.shaft_speed * lasting.max() / (2.0 * math.pi)
+    return round(min(max(SAMPLES_PER_WAVE * waves, SAMPLES_WITHOUT_SPALLS), SAMPLES_PER_PASS))
+
+
 def _loads(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Array:
     """Quasi-static load (N, S) of `ball` (N,) at its own instants (N, S), N."""
     order = np.argsort(time, axis=None, kind="stable")
-    load = np.empty((time.size, scene.rig.bearing.balls))
-    load[order] = equilibrium(scene, time.ravel()[order]).ball_load[:, row - 1]
-    return load.reshape(*time.shape, -1)[np.arange(ball.size), :, ball - 1]
+    load = np.empty(time.size)
+    load[order] = ball_load(scene, time.ravel()[order], row, np.repeat(ball, time.shape[1])[order])
+    return load.reshape(time.shape)
 
 
 def _first_and_last_crossing(time: Array, excess: Array) -> tuple[float, float]:

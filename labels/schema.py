@@ -110,8 +110,8 @@ LABELS: tuple[Label, ...] = (
         (*SPEED_BASES[1:], UNKNOWN),
     ),
     _number("load_n", "N", "scene", "Static radial load on the shaft, along -y."),
-    _number("mean_slip", "1", "scene", "Mean slip of the cage, as a share of its speed without slip."),
-    _number("slip_deviation", "1", "scene", "Standard deviation of the cage's slip about its mean over the record."),
+    _number("mean_slip", "1", "scene", "Mean slip of the cage of row 1 over the record, of its speed without slip."),
+    _number("slip_deviation", "1", "scene", "Standard deviation of that slip about its mean over the record."),
     _text(
         "contact_law",
         "scene",

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.load_dips import load_dips
-from physics.passages import Passages, passages
-from physics.profile import build_path
+from physics.paths.passages import Passages, passages
+from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.trace import ContactChanges
 

@@ -9,12 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.cage import CagePath
-from physics.contact import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, PLACE, SINE, ContactModel, Law
-from physics.depth_path import DepthPath, hermite_cubics
-from physics.imperfections import Waviness
-from physics.profile import build_path
-from physics.scene import Scene
-from physics.track import (
+from physics.contact.forces import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, PLACE, SINE, Contacts, Law
+from physics.contact.track import (
     ANGLE,
     CAGE,
     CELL,
@@ -29,8 +25,13 @@ from physics.track import (
     SPEED,
     Track,
 )
+from physics.imperfections import Waviness
+from physics.paths.depth_path import DepthPath, hermite_cubics
+from physics.paths.profile import build_path
+from physics.scene import Scene
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 LANES = 4
 PADDING_GAP = 1.0
@@ -38,20 +39,44 @@ WAVINESS_CELLS_PER_WAVE = 64
 TABLES_KEPT = 8
 
 
-def assemble(scene: Scene) -> ContactModel:
-    """The contact model of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
+def assemble(scene: Scene) -> Contacts:
+    """The contacts of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
     bearing, rig = scene.rig.bearing, scene.rig
     alpha = math.cos(bearing.contact_angle)
-    cages = len(scene.cages)
-    balls, row, ball = _lay_out_balls(scene, cages)
-    frames = np.zeros((cages, FRAME_COLUMNS))
     law = Law(
         stiffness=bearing.load_deflection * alpha ** (bearing.exponent + 1.0),
         exponent=bearing.exponent,
         damping=rig.film_damping * alpha**2,
         no_tension=scene.contact_law == "no_tension",
     )
-    return ContactModel(balls, frames, law, _track(scene), row, ball)
+    return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene))
+
+
+def ball_numbers(scene: Scene) -> tuple[Index, Index]:
+    """Row and ball (G · M,), from 0, in every column of the balls of G cages; −1 for padding."""
+    bearing, cages = scene.rig.bearing, len(scene.cages)
+    size = bearing.balls * (bearing.rows if cages == 1 else 1)
+    row, ball = np.full((2, cages, size + -size % LANES), -1)
+    for r in range(bearing.rows):
+        cage, place = (0, r) if cages == 1 else (r, 0)
+        here = slice(place * bearing.balls, (place + 1) * bearing.balls)
+        row[cage, here], ball[cage, here] = r, np.arange(bearing.balls)
+    return row.ravel(), ball.ravel()
+
+
+def _balls(scene: Scene) -> Array:
+    """Ball table (G, 11, M) with angles and gaps filled in."""
+    bearing, cages = scene.rig.bearing, len(scene.cages)
+    row, ball = (numbers.reshape(cages, -1) for numbers in ball_numbers(scene))
+    balls, real = np.zeros((cages, BALL_ROWS, row.shape[1])), row >= 0
+    balls[:, COSINE], balls[:, GAP] = 1.0, PADDING_GAP
+    row, ball = row[real], ball[real]
+    angle = bearing.stagger * row + bearing.spacing * ball
+    deviation = np.array(scene.imperfections.ball_deviation or np.zeros((bearing.rows, bearing.balls)))[row, ball]
+    balls[:, COSINE][real], balls[:, SINE][real] = np.cos(angle), np.sin(angle)
+    balls[:, PLACE][real] = angle
+    balls[:, GAP][real] = bearing.clearance - deviation / math.cos(bearing.contact_angle)
+    return balls
 
 
 @lru_cache(maxsize=TABLES_KEPT)
@@ -91,27 +116,6 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         first_break += path.breaks.size
         cubic += path.cubics.shape[0]
     return table
-
-
-def _lay_out_balls(scene: Scene, cages: int) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
-    """Ball table (G, 11, M) with angles and gaps filled in, and row and ball of each column (G · M,)."""
-    bearing = scene.rig.bearing
-    rows_per_cage = bearing.rows if cages == 1 else 1
-    size = rows_per_cage * bearing.balls
-    padded = size + -size % LANES
-    deviation = np.array(scene.imperfections.ball_deviation or np.zeros((bearing.rows, bearing.balls)))
-    balls = np.zeros((cages, BALL_ROWS, padded))
-    balls[:, COSINE], balls[:, GAP] = 1.0, PADDING_GAP
-    row, ball = np.full((cages, padded), -1), np.full((cages, padded), -1)
-    for r in range(bearing.rows):
-        cage, place = (0, r) if cages == 1 else (r, 0)
-        here = slice(place * bearing.balls, (place + 1) * bearing.balls)
-        angle = bearing.stagger * r + bearing.spacing * np.arange(bearing.balls)
-        balls[cage, COSINE, here], balls[cage, SINE, here] = np.cos(angle), np.sin(angle)
-        balls[cage, PLACE, here] = angle
-        balls[cage, GAP, here] = bearing.clearance - deviation[r] / math.cos(bearing.contact_angle)
-        row[cage, here], ball[cage, here] = r, np.arange(bearing.balls)
-    return balls, row.ravel().astype(np.int64), ball.ravel().astype(np.int64)
 
 
 def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:

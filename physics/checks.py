@@ -52,3 +52,9 @@ def require_not_negative(field: str, value: float, unit: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and zero or above."""
     suffix = f" {unit}" if unit else ""
     require(math.isfinite(value) and value >= 0.0, f"{field} = {value!r}{suffix}; it must not be below 0", field)
+
+
+def require_below_nyquist(field: str, frequency: float, rate: float) -> None:
+    """Raise InvalidParameter unless `frequency` (Hz) lies below half the `rate` (Hz)."""
+    require_positive("rate", rate, "Hz")
+    require_between(field, frequency, 0.0, math.nextafter(rate / 2.0, 0.0), "Hz")

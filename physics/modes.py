@@ -14,8 +14,8 @@ from physics.checks import require
 from physics.operation import Operation
 from physics.rig import Rig
 from physics.scene import Scene
-from physics.statics import equilibrium
-from physics.stiffness import matrix
+from physics.statics.load_distribution import equilibrium
+from physics.statics.stiffness import matrix
 
 Array = NDArray[np.float64]
 

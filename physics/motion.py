@@ -5,13 +5,13 @@ State (12,): displacements xi, yi, xo, yo, xr, yr (m), then their velocities (m/
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
+from physics.contact.turning import cosine_sine
 from physics.scene import Scene
 
 Array = NDArray[np.float64]
@@ -64,11 +64,10 @@ def outer_load(motion: MotionModel, time: float) -> tuple[float, float]:
     if motion.unbalance_force == 0.0 and motion.load_fluctuation == 0.0:
         return 0.0, -motion.load
     turn = motion.shaft_speed * time
-    load = motion.load * (1.0 + motion.load_fluctuation * math.cos(turn + motion.fluctuation_phase))
-    return (
-        motion.unbalance_force * math.cos(turn + motion.unbalance_phase),
-        motion.unbalance_force * math.sin(turn + motion.unbalance_phase) - load,
-    )
+    swing, _ = cosine_sine(turn + motion.fluctuation_phase)
+    cosine, sine = cosine_sine(turn + motion.unbalance_phase)
+    load = motion.load * (1.0 + motion.load_fluctuation * swing)
+    return motion.unbalance_force * cosine, motion.unbalance_force * sine - load
 
 
 @njit_lean

@@ -29,7 +29,7 @@ class Outcome(Enum):
 
 
 class SimulationFailed(RuntimeError):
-    """A simulation that could not be completed; `outcome` names the reason and `remedy` the way out."""
+    """A simulation that could not be completed; `outcome` names the reason, and its remedy ends the message."""
 
     def __init__(self, outcome: Outcome, message: str) -> None:
         super().__init__(f"{message}; {outcome.value}")
@@ -39,8 +39,3 @@ class SimulationFailed(RuntimeError):
     def __reduce__(self) -> tuple[type[SimulationFailed], tuple[Outcome, str]]:
         """What a worker process sends back: an exception is otherwise remade from its text alone."""
         return type(self), (self.outcome, self._message)
-
-    @property
-    def remedy(self) -> str:
-        """What to change, one sentence."""
-        return str(self.outcome.value)

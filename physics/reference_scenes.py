@@ -15,8 +15,8 @@ from physics.cage import CagePath, draw_slip_knots
 from physics.catalog import rig
 from physics.hertz import contact_width
 from physics.operation import Operation
+from physics.paths.roughness import draw_roughness
 from physics.rig import Rig
-from physics.roughness import draw_roughness
 from physics.scene import Scene
 from physics.spall import Spall
 

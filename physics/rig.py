@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +44,11 @@ class Rig:
             require_not_negative(field, getattr(self, field), "N s/m")
         require_positive("rated_speed", self.rated_speed, "rad/s")
         require_positive("rated_load", self.rated_load, "N")
+
+    @property
+    def free_resonance(self) -> float:
+        """Angular frequency of the resonator on the outer ring without support and shaft, rad/s."""
+        return math.sqrt(self.resonator_stiffness * (1.0 / self.resonator_mass + 1.0 / self.outer_mass))
 
     def mass_matrix(self) -> NDArray[np.float64]:
         """M of (xi, yi, xo, yo, xr, yr), shape (6, 6), kg [P14 Eq. 13, 14]."""

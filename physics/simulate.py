@@ -8,33 +8,32 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.adaptive_response import ACCELERATION_ALONE, respond_accurately
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.integrators.output import Grid
 from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
-from physics.modal_case import Kept
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
-from physics.periodic_response import respond_until_repeated, worth_repeating
-from physics.resampling import decimate
-from physics.response import MODEL, respond, respond_by_reference
+from physics.response.adaptive import ACCELERATION_ALONE, respond_accurately
+from physics.response.march import MODEL, respond, respond_by_reference
+from physics.response.modal_case import Kept
+from physics.response.oversampling import oversampling
+from physics.response.periodic import respond_until_repeated, worth_repeating
+from physics.response.resampling import decimate
+from physics.response.stability import require_stable, stable_substeps
 from physics.scene import Scene
-from physics.stability import require_stable, stable_substeps
-from physics.statics import carried
+from physics.statics.load_distribution import carried
 from physics.trace import Trace
 
 Array = NDArray[np.float64]
 
 SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
 STEPS_PER_FAST_PERIOD = 6.2
-SAMPLES_PER_FAST_PERIOD = 4.0
 PILOT_PASSES = 3.0
 # A pilot of a scene that turns with the shaft has to see it come round twice.
 PILOT_TURNS = 2.2
 SHORTEST_PILOT = 2048
 MOST_SUBSTEPS = 32
-MOST_OVERSAMPLING = 64
 # On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
 PILOT_ORDER = 2.0
 
@@ -51,6 +50,7 @@ def simulate(
     keep_state: bool = False,
     keep_force: bool = False,
     keep_outer: bool = False,
+    fastest_path: float = 0.0,
     estimate_error: bool = True,
     repeat: bool = True,
 ) -> Trace:
@@ -63,22 +63,23 @@ def simulate(
     Other methods take `substeps` fixed steps a sample (and are meant if they are given); None starts from the fewest
     that resolve the fastest mode and doubles them until a pilot of a few ball passes differs from one at half the step
     by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
-    too low to hold the resonator is simulated at a multiple of it and decimated without aliasing, as is the outer
-    ring's motion kept by `keep_outer` (states and forces stay samples). The reference method has no estimate. A simpler
-    `model` (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them,
-    asked for or not.
+    too low to hold the resonator is simulated at a multiple of it and decimated without aliasing (states and forces
+    stay samples). The outer ring's motion kept by `keep_outer` stays at that multiple, which is also large enough for
+    what is to follow that motion at up to `fastest_path` (Hz). The reference method has no estimate. A simpler `model`
+    (physics.ladder) has neither steps nor an estimate, and keeps states and forces as far as it knows them, asked for
+    or not.
     Raises SimulationFailed with a typed outcome.
     """
     method = method or (MODAL if substeps is None else "exponential_rk4")
-    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy, least_error)
+    _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy, least_error, fastest_path)
     samples = round(scene.duration * rate)
     if model != MODEL:
         simpler = SIMPLER_MODELS[model]
-        factor = oversampling(scene, rate) if simpler.rings else 1
+        factor = oversampling(scene, rate, fastest_path) if simpler.rings else 1
         return _lowered(simpler.respond(scene, rate * factor), rate, factor, samples)
     rest = carried(scene, np.zeros(1))
     start = starting_state(motion_model(scene), rest.displacement[0])
-    factor = oversampling(scene, rate)
+    factor = oversampling(scene, rate, fastest_path)
     if method == REFERENCE:
         trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=keep_state)
         return _lowered(trace, rate, factor, samples)
@@ -107,20 +108,6 @@ def default_substeps(scene: Scene, rate: float) -> int:
     return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
 
 
-def oversampling(scene: Scene, rate: float) -> int:
-    """How many times `rate` (Hz) is needed to hold the fastest linear mode with room for the filter."""
-    per_sample = reach(motion_model(scene), 1.0 / rate)
-    factor = max(1, math.ceil(per_sample * SAMPLES_PER_FAST_PERIOD / (2.0 * math.pi)))
-    if factor > MOST_OVERSAMPLING:
-        fastest = per_sample * rate / (2.0 * math.pi)
-        raise SimulationFailed(
-            Outcome.UNRESOLVED,
-            f"a rate of {rate:.6g} Hz has to be raised {factor} times to hold the fastest mode, {fastest:.4g} Hz; "
-            f"at most {MOST_OVERSAMPLING} times are allowed",
-        )
-    return factor
-
-
 def _check_request(
     scene: Scene,
     rate: float,
@@ -130,6 +117,7 @@ def _check_request(
     keeps: bool,
     accuracy: float,
     least_error: float,
+    fastest_path: float,
 ) -> None:
     problem = ""
     if method not in METHODS:
@@ -148,6 +136,8 @@ def _check_request(
         problem = f"accuracy = {accuracy!r}; it must lie from {SMALLEST_ACCURACY:g} to {LARGEST_ACCURACY:g}"
     elif not 0.0 <= least_error < math.inf:
         problem = f"least_error = {least_error!r} m/s²; it must be 0 or more, and finite"
+    elif not 0.0 <= fastest_path < math.inf:
+        problem = f"fastest_path = {fastest_path!r} Hz; it must be 0 or more, and finite"
     elif method == REFERENCE and keeps:
         problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
@@ -191,20 +181,15 @@ def _relative_error(coarse: Array, fine: Array) -> float:
 def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:
     """The first `samples` of a trace at `rate`, a `factor` below the one it was marched at."""
     time = np.arange(samples) / rate
+    raised = rate * factor
     if factor == 1:
-        return replace(trace, rate=rate, time=time)
+        return replace(trace, rate=rate, time=time, outer_rate=raised)
     return replace(
         trace,
         rate=rate,
         time=time,
+        outer_rate=raised,
         acceleration=decimate(trace.acceleration, factor)[:samples],
         state=None if trace.state is None else trace.state[::factor][:samples],
         contact_force=None if trace.contact_force is None else trace.contact_force[::factor][:samples],
-        outer_displacement=_decimated(trace.outer_displacement, factor),
-        outer_velocity=_decimated(trace.outer_velocity, factor),
-        outer_acceleration=_decimated(trace.outer_acceleration, factor),
     )
-
-
-def _decimated(signal: Array | None, factor: int) -> Array | None:
-    return None if signal is None else decimate(signal, factor)

@@ -65,7 +65,7 @@ class Spall:
         if not values:
             return
         require(
-            len(values) >= 4 and all(math.isfinite(value) for value in values),
+            len(values) >= 4 and all(map(math.isfinite, values)),
             f"roughness_values must be at least 4 finite numbers (m); there are {len(values)}",
             "roughness_values",
         )

@@ -37,7 +37,7 @@ class Trace:
     `state` (T, 12): displacements (xi, yi, xo, yo, xr, yr) in m, then velocities in m/s, or None if not asked for;
     `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for;
     `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring
-    along x and y, or None if not asked for.
+    along x and y, at `outer_rate` (Hz), a whole multiple of `rate`, or None if not asked for.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
@@ -56,6 +56,7 @@ class Trace:
     unlocated_changes: int = 0
     state: Array | None = None
     contact_force: Array | None = None
+    outer_rate: float = math.nan
     outer_displacement: Array | None = None
     outer_velocity: Array | None = None
     outer_acceleration: Array | None = None

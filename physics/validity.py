@@ -8,14 +8,14 @@ import numpy as np
 
 from physics.bearing import Bearing
 from physics.hertz import is_roller, roller_length
-from physics.profile import build_path
+from physics.paths.profile import build_path, is_rough
 from physics.scene import Scene
 from physics.spall import Spall
 
 STEEL_DENSITY = 7850.0  # kg/m³, assumed for every rolling element
 NEGLIGIBLE_SHARE = 0.2  # the paper's own fan rig reaches 0.19 over the sharp exit that its response needs
 LIMITING_SPEED_FACTOR = 5e5  # rpm · mm, shaft speed times pitch diameter: usual limit of greased bearings
-PATH_SAMPLES = 4001
+PATH_SAMPLES, SAMPLES_PER_KNOT = 4001, 8
 
 
 def assess(scene: Scene) -> tuple[str, ...]:
@@ -42,7 +42,8 @@ def centrifugal_force(scene: Scene) -> float:
 def inertia_force(scene: Scene, spall: Spall) -> float:
     """Force (N) that takes a ball down, or up, its path over `spall` in the time the path gives it.
 
-    m · 2h/t² for the drop h over the shorter of the times t from entry edge to floor and from floor to exit edge.
+    m · 2h/t² for the drop h over the shorter of the times t from entry edge to floor and from floor to exit edge; over
+    a rough path, the largest of every way h from one turning point of the path to the next in the time t between them.
     """
     bearing = scene.rig.bearing
     drop, arc = _steepest_drop(spall, bearing)
@@ -52,9 +53,11 @@ def inertia_force(scene: Scene, spall: Spall) -> float:
 
 
 def _steepest_drop(spall: Spall, bearing: Bearing) -> tuple[float, float]:
-    """Depth of the floor (m) and the shorter arc (rad) between it and an edge."""
+    """Depth of the floor (m) and the shorter arc (rad) between it and an edge; of a rough path, its steepest way."""
     half = spall.extent / 2.0
     resolution = spall.extent / (PATH_SAMPLES - 1)
+    if is_rough(spall, bearing):
+        return _steepest_way(spall, bearing)
     if spall.profile == "tukey":
         return spall.depth, max(min(spall.entry_taper, spall.exit_taper), resolution)
     arc = np.linspace(-half, half, PATH_SAMPLES)
@@ -62,6 +65,18 @@ def _steepest_drop(spall: Spall, bearing: Bearing) -> tuple[float, float]:
     largest = float(depth.max())
     floor = arc[depth >= 0.999 * largest]
     return largest, max(min(float(floor[0]) + half, half - float(floor[-1])), resolution)
+
+
+def _steepest_way(spall: Spall, bearing: Bearing) -> tuple[float, float]:
+    """Drop (m) and arc (rad) between the two neighbouring turning points whose drop over arc squared is largest."""
+    samples = max(PATH_SAMPLES, SAMPLES_PER_KNOT * len(spall.roughness_values))
+    arc = np.linspace(-spall.extent / 2.0, spall.extent / 2.0, samples)
+    depth = build_path(spall, bearing).depth(arc)
+    direction = np.sign(np.diff(depth))
+    turning = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1, [samples - 1]])
+    drop, way = np.abs(np.diff(depth[turning])), np.diff(arc[turning])
+    steepest = int(np.argmax(drop / way**2))
+    return float(drop[steepest]), float(way[steepest])
 
 
 def _peak_load(scene: Scene) -> float:

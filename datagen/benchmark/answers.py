@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.own_code import FIELD, own_code
-from labels.classifier import CLASSES
+from labels.classifier.classes import CLASSES
 from labels.features.conditioning import Array
 
 ROUNDING = 1e-3

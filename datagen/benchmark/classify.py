@@ -35,8 +35,8 @@ from datagen.benchmark.training import (
 from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
-from labels.alarm import Alarm
-from labels.rule import Rule
+from labels.classifier.alarm import Alarm
+from labels.classifier.rule import Rule
 
 if TYPE_CHECKING:
     import pandas

@@ -30,7 +30,7 @@ def importances(model: Model, training: TrainingSet) -> dict[str, float]:
 
 
 def _loss(model: Model, table: np.ndarray, classes: np.ndarray) -> float:
-    from labels.classifier import CLASSES
+    from labels.classifier.classes import CLASSES
 
     probability = model.probability(table)
     own = probability[np.arange(len(classes)), [CLASSES.index(name) for name in classes]]

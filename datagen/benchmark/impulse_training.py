@@ -11,7 +11,7 @@ from datagen.benchmark.impulse_train import LOCATIONS, Ingredients, draw_train
 from datagen.benchmark.rows import Reading, signal_rows
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
-from labels.classifier import HEALTHY
+from labels.classifier.classes import HEALTHY
 
 NAME = "impulse-trains"
 SEED = 20_140

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from labels.classifier import joint_class
+from labels.classifier.classes import joint_class
 from labels.features.kinematics import Kinematics, bearing_kinematics
 from labels.schema import UNKNOWN
 
@@ -33,7 +33,7 @@ def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinem
         balls = round(outer + inner) if math.isfinite(outer + inner) else math.nan
     if not math.isfinite(outer):
         outer = balls - inner
-    if not (math.isfinite(outer) and 0.0 < outer < balls / 2.0):
+    if not (balls >= 3 and math.isfinite(outer) and 0.0 < outer < balls / 2.0):
         return None
     ratio = 1.0 - 2.0 * outer / balls
     guessed = 0.5 / ratio * (1.0 - ratio**2)

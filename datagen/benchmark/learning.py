@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from datagen.benchmark.training import Model, TrainingSet, train_models
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
-from labels.classifier import HEALTHY
-from labels.scores import Interval, balanced_accuracy, bootstrap
+from labels.classifier.classes import HEALTHY
+from labels.classifier.scores import Interval, balanced_accuracy, bootstrap
 
 SHARES = (0.125, 0.25, 0.5, 1.0)
 HELD_OUT = 0.25

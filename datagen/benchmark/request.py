@@ -14,7 +14,8 @@ from datagen.benchmark.training import SPEED_ERROR
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import load_own
-from labels.learners import LEARNERS
+from datagen.places import require_folder
+from labels.classifier.learners import LEARNERS
 
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
@@ -71,7 +72,8 @@ def benchmark_of(
     levels = asked.levels()
     own = load_own(asked.estimator, SPOKEN) if asked.estimator is not None else None
     _require_folders(train, tests, asked.input == "windows")
-    _require_place(out)
+    if out is not None:
+        require_folder(out)
     return Benchmark(
         train,
         tests,
@@ -102,11 +104,3 @@ def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> Non
             raise BadInput("this corpus has no records", str(folder), "--test")
         if corpus.manifest.imported and not os.access(folder, os.W_OK):
             raise BadInput("runs on recordings are logged here, and it cannot be written", str(log_path(folder)))
-
-
-def _require_place(out: Path | None) -> None:
-    if out is None:
-        return
-    nearest = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
-    if not nearest.is_dir() or not os.access(nearest, os.W_OK):
-        raise BadInput("no folder can be made or written there", field="--out", value=str(out), allowed="a folder")

@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.fitness import unfit
 from datagen.benchmark.known import known_kinematics
 from datagen.corpus import Corpus
+from labels.classifier.liveness import DEAD, is_dead, liveness
 from labels.features.analysis import analyse
 from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES, Array, fast_length
+from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
 from labels.features.table import FEATURE_NAMES, feature_values
-from labels.liveness import DEAD, is_dead, liveness
 
 if TYPE_CHECKING:
     import pandas
 
-UNKNOWN_MACHINE = "no speed or no geometry"
-TOO_SHORT = "too few samples"
 LONGEST_WINDOW = 10.5
 """s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
 grows with the length of what is looked at; so what is longer than anything learned from is cut, and the pieces vote."""
@@ -62,14 +62,24 @@ class Row:
 
 
 @dataclass(frozen=True)
+class RecordRows:
+    """The rows of one record, why it must not be classified ("" if it may), and how many glitches were drawn over."""
+
+    rows: list[Row]
+    reason: str
+    glitches: int = 0
+
+
+@dataclass(frozen=True)
 class Rows:
-    """Rows (N, F) of the feature table, the record (N,) of each, per record why it must not be classified, and which
-    rows (N,) had noise added (None: none)."""
+    """Rows (N, F) of the feature table, the record (N,) of each, per record why it must not be classified and how many
+    glitches it had (where any), and which rows (N,) had noise added (None: none)."""
 
     table: NDArray[Any]
     record: NDArray[np.int64]
     rejected: dict[int, str] = field(default_factory=dict)
     noisy: NDArray[np.bool_] | None = None
+    glitches: dict[int, int] = field(default_factory=dict)
 
 
 def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2) -> Rows:
@@ -88,42 +98,46 @@ def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, worker
     owners = [rows.record for rows in found] or [np.empty(0, dtype=np.int64)]
     noisy = [rows.noisy for rows in found if rows.noisy is not None] or [np.empty(0, dtype=bool)]
     rejected: dict[int, str] = {}
+    glitches: dict[int, int] = {}
     for rows in found:
         rejected |= rows.rejected
-    return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy))
+        glitches |= rows.glitches
+    return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy), glitches)
 
 
 def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
     corpus = Corpus(folder)
     labels = corpus.labels.set_index("record", drop=False)
-    found: list[Row] = []
-    owners: list[int] = []
-    rejected: dict[int, str] = {}
-    for record in records.tolist():
-        rows, reason = record_rows(corpus.waveform(record), labels.loc[record], reading)
-        found += rows
-        owners += [record] * len(rows)
-        if reason:
-            rejected[record] = reason
+    found = {record: record_rows(corpus.waveform(record), labels.loc[record], reading) for record in records.tolist()}
     corpus.close()
-    stacked = np.array([row.values for row in found]) if found else np.empty((0, len(FEATURE_NAMES)))
-    noisy = np.array([row.noisy for row in found], dtype=bool)
-    return Rows(stacked, np.array(owners, dtype=np.int64), rejected, noisy)
+    rows = [row for own in found.values() for row in own.rows]
+    owners = [record for record, own in found.items() for _ in own.rows]
+    return Rows(
+        np.array([row.values for row in rows]) if rows else np.empty((0, len(FEATURE_NAMES))),
+        np.array(owners, dtype=np.int64),
+        {record: own.reason for record, own in found.items() if own.reason},
+        np.array([row.noisy for row in rows], dtype=bool),
+        {record: own.glitches for record, own in found.items() if own.glitches},
+    )
 
 
-def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> tuple[list[Row], str]:
-    """Rows of one record (T, A), one an axis and window, and why it must not be classified ("" if it may)."""
+def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> RecordRows:
+    """Rows of one record (T, A), one an axis and window, none if it cannot be judged."""
     kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
-    if kinematics is None:
-        return [], UNKNOWN_MACHINE
+    reason = unfit(labels, kinematics, len(signals), rate, reading.bandwidth)
+    if kinematics is None or reason:
+        return RecordRows([], reason)
     rows: list[Row] = []
     reasons: list[str] = []
-    nothing = DEAD if len(signals) >= FEWEST_SAMPLES else TOO_SHORT
+    glitches = 0
+    turns = kinematics.shaft_hz * len(signals) / rate
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
-        found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis])
+        repaired, drawn_over = (signal, 0) if is_dead(signal) else without_glitches(signal, turns)
+        found = signal_rows(repaired, rate, kinematics, reading, [*_seed(labels), axis])
+        glitches += drawn_over
         rows += found
-        reasons += [row.reason for row in found] or [nothing]
-    return rows, reasons[0] if reasons and all(reasons) else ""
+        reasons += [row.reason for row in found] or [DEAD]
+    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches)
 
 
 def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]) -> list[Row]:
@@ -141,7 +155,7 @@ def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Rea
             if piece.size < FEWEST_SAMPLES or is_dead(piece[: fast_length(piece.size)]):
                 continue
             analysis = analyse(piece, rate, given, bandwidth)
-            rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece.size).reason))
+            rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece).reason))
     return rows
 
 

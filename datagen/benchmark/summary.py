@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
+from datagen.benchmark.predictions import record_predictions
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
-from labels.classifier import CLASSES, condition_probability, location_probability
-from labels.features.conditioning import Array
-from labels.reliability import calibration_error, equal_priors, reliability
-from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
-from labels.scores import (
+from labels.classifier.classes import CLASSES
+from labels.classifier.reliability import calibration_error, equal_priors, reliability
+from labels.classifier.scores import (
     accuracy,
     accuracy_against,
     area_interval,
@@ -21,8 +21,10 @@ from labels.scores import (
     confusion,
     paired_difference,
 )
+from labels.features.conditioning import Array
+from labels.features.modulation import RACES
+from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
 
-RACES = ("outer", "inner")
 AGAINST = ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")
 
 
@@ -39,10 +41,12 @@ def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
         "imported": tested.imported,
         "records": len(tested.labels),
         "locations": {name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
+        "rejections": dict(Counter(str(reason) for reason in tested.reasons if reason)),
+        "despiked": {"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
         "models": {verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
     }
     if predictions:
-        found["predictions"] = _predictions(tested)
+        found["predictions"] = record_predictions(tested)
     return found
 
 
@@ -63,6 +67,8 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
         "detection_auc": asdict(area_interval(faulty[scored], said.score[scored], groups=owner[scored])),
         "healthy": int(healthy.sum()),
         "false_alarms": int(alarms.sum()),
+        "healthy_bearings": int(tested.labels["bearing_id"][healthy].nunique()),
+        "alarming_bearings": int(tested.labels["bearing_id"][alarms].nunique()),
         "rejected": int((said.location == REJECTED).sum()),
         "confusion": {
             "rows": [*LOCATIONS, UNKNOWN],
@@ -129,25 +135,3 @@ def _against(tested: Tested, said: Verdicts) -> dict[str, Any]:
         if np.unique(quantity[np.isfinite(quantity)]).size >= 2:
             tables[name] = accuracy_against(quantity, right, groups=tested.owner[faulty])
     return tables
-
-
-def _predictions(tested: Tested) -> list[dict[str, Any]]:
-    found = []
-    for place, (_, row) in enumerate(tested.labels.iterrows()):
-        entry: dict[str, Any] = {
-            "record": int(row["record"]),
-            "recording": str(row["recording"]),
-            "bearing_id": str(row["bearing_id"]),
-            "truth": str(row["location"]),
-            "rejected": str(tested.reasons[place]),
-        }
-        for said in tested.verdicts:
-            entry[said.name] = {"location": str(said.location[place]), "score": float(said.score[place])}
-            if len(said.probability):
-                own = said.probability[place : place + 1]
-                entry[said.name] |= {
-                    "location_probability": dict(zip(LOCATIONS, location_probability(own)[0].tolist(), strict=True)),
-                    "condition_probability": dict(zip(CONDITIONS, condition_probability(own)[0].tolist(), strict=True)),
-                }
-        found.append(entry)
-    return found

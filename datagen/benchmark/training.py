@@ -16,11 +16,12 @@ from datagen.benchmark.votes import averaged
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import own_code
-from labels.alarm import Alarm
-from labels.classifier import CLASSES, EVEN, HEALTHY, SpallClassifier
+from labels.classifier.alarm import Alarm
+from labels.classifier.classes import CLASSES, EVEN, HEALTHY
+from labels.classifier.learners import LEARNERS
+from labels.classifier.rule import Rule, fit_rule
+from labels.classifier.spall_classifier import SpallClassifier
 from labels.features.conditioning import Array
-from labels.learners import LEARNERS
-from labels.rule import Rule, fit_rule
 
 if TYPE_CHECKING:
     import pandas

@@ -13,11 +13,11 @@ from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.benchmark.votes import averaged, joined
-from labels.alarm import logit
-from labels.classifier import decide, location_probability
+from labels.classifier.alarm import logit
+from labels.classifier.classes import decide, location_probability
+from labels.classifier.rule import STRENGTHS, Rule
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
-from labels.rule import STRENGTHS, Rule
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
@@ -30,25 +30,31 @@ RULE = "rule"
 @dataclass(frozen=True)
 class Verdicts:
     """What one model says of R records: its `location` (none, outer, inner or rejected), the race it would name, a
-    `score` that rises with suspicion, and probabilities of CLASSES (R, 5; empty for the rule)."""
+    `score` that rises with suspicion, the `alarm` that it must pass for a spall to be called (NaN for records without
+    features), and probabilities of CLASSES (R, 5; empty for the rule)."""
 
     name: str
     location: NDArray[np.str_]
     condition: NDArray[np.str_]
     race: NDArray[np.str_]
     score: Array
+    alarm: Array
     probability: Array = field(default_factory=lambda: np.empty((0, 5)))
 
 
 @dataclass(frozen=True)
 class Tested:
-    """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw."""
+    """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
+
+    `reasons` (R,) say why a record was rejected, `glitches` (R,) how many were drawn over in it.
+    """
 
     folder: Path
     labels: pandas.DataFrame
     truth: NDArray[np.str_]
     classes: NDArray[np.str_]
     reasons: NDArray[np.str_]
+    glitches: NDArray[np.int64]
     verdicts: tuple[Verdicts, ...]
     imported: bool
 
@@ -70,11 +76,12 @@ def judge(
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels.
 
-    A record is rejected where it shows no running machine, has no rows, or where what is said of its location has a
-    probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
+    A record is rejected where it cannot be judged or shows no running machine, or where what is said of its location
+    has a probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
     """
     records = labels["record"].to_numpy(np.int64)
     reasons = np.array([rows.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
+    glitches = np.array([rows.glitches.get(record, 0) for record in records.tolist()], dtype=np.int64)
     verdicts = [_of_rule(rule, rows, records, reasons)]
     verdicts += [
         _of_model(model, raw if model.takes_windows and raw is not None else rows, records, reasons, doubt)
@@ -82,7 +89,7 @@ def judge(
     ]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
     classes = np.array([true_class(row) for _, row in labels.iterrows()], dtype=np.str_)
-    return Tested(folder, labels, truth, classes, reasons, tuple(verdicts), imported)
+    return Tested(folder, labels, truth, classes, reasons, glitches, tuple(verdicts), imported)
 
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
@@ -92,34 +99,36 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
     rejected = missing | (reasons != "")
     location = np.where(rejected, REJECTED, rule.locations(table))
     condition = np.where(location == "none", "healthy", np.where(rejected, REJECTED, "line"))
-    return Verdicts(RULE, location, condition, rule.races(table), np.where(missing, 0.0, rule.score(table)))
+    score, alarm = np.where(missing, 0.0, rule.score(table)), np.where(missing, np.nan, rule.threshold)
+    return Verdicts(RULE, location, condition, rule.races(table), score, alarm)
 
 
 def _of_model(
     model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], doubt: float
 ) -> Verdicts:
-    votes, called, missing = vote(model, rows.table, rows.record, records)
+    votes, called, alarm = vote(model, rows.table, rows.record, records)
     said = np.char.split(called)
     where = location_probability(votes)
     place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
-    rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < doubt)
+    rejected = np.isnan(alarm) | (reasons != "") | (where[np.arange(place.size), place] < doubt)
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
     location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(where[:, 1] >= where[:, 2], "outer", "inner")
-    return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], votes)
+    return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], alarm, votes)
 
 
 def vote(
     model: Model, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
-) -> tuple[Array, NDArray[np.str_], NDArray[np.bool_]]:
+) -> tuple[Array, NDArray[np.str_], Array]:
     """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
-    is called, and whether it has no row; `owner` (N,) are the records of the rows."""
+    is called, and the alarm that its rows agree on, NaN if it has none; `owner` (N,) are the records of the rows."""
     own = model.probability(table) if len(table) else np.empty((0, 5))
     votes = joined(own, owner, records)
-    margin = averaged(logit(1.0 - own[:, 0]) - logit(model.alarms(table)), owner, records)
+    levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
+    margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
     missing = ~np.isfinite(votes[:, 0])
     votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
-    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), missing
+    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), 0.5 * (1.0 + np.tanh(0.5 * alarm))
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:
@@ -133,6 +142,7 @@ def pooled_draws(draws: list[Tested]) -> Tested:
         truth=np.concatenate([tested.truth for tested in draws]),
         classes=np.concatenate([tested.classes for tested in draws]),
         reasons=np.concatenate([tested.reasons for tested in draws]),
+        glitches=np.concatenate([tested.glitches for tested in draws]),
         verdicts=tuple(_pooled([tested.verdicts[place] for tested in draws]) for place in range(len(first.verdicts))),
     )
 
@@ -144,5 +154,6 @@ def _pooled(said: list[Verdicts]) -> Verdicts:
         np.concatenate([own.condition for own in said]),
         np.concatenate([own.race for own in said]),
         np.concatenate([own.score for own in said]),
+        np.concatenate([own.alarm for own in said]),
         np.concatenate([own.probability for own in said]),
     )

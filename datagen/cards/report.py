@@ -13,6 +13,7 @@ from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpora.atomic import write_atomically
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.places import require_folder
 
 CARD, METADATA, VOCABULARY = "card.md", "croissant.json", "labels_bearing_datasets.csv"
 MOST_EXAMPLES = 6
@@ -30,44 +31,51 @@ class Report:
 def write_report(folder: Path, out: Path | None = None) -> Report:
     """Write the report of the corpus in `folder` into `out` (by default its folder `report`); raises BadInput.
 
-    An earlier report there is written over; any other folder that is not empty is refused.
+    An earlier report there is written over; any other folder that is not empty is refused. Nothing is written before
+    everything is drawn.
     """
-    from datagen.drawing.overview import overview_png
-    from datagen.drawing.preview import draw_preview
-
     out = folder / "report" if out is None else out
+    _check_folder(out)
     facts = corpus_facts(folder)
     if not facts.info.records:
         raise BadInput("this corpus holds no record yet", str(folder))
-    _make_folder(out)
+    contents = _contents(folder, facts)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for name, content in contents.items():
+            write_atomically(out / name, content)
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(out), "--out") from None
+    return Report(str(out), tuple(contents), facts)
+
+
+def _contents(folder: Path, facts: Facts) -> dict[str, bytes]:
+    """Every file of the report by name."""
+    from datagen.drawing.overview import overview_png
+    from datagen.drawing.preview import preview_png
+
     corpus = Corpus(folder)
     pictures = {kind.first: f"record_{kind.first:06d}.png" for kind in _shown(facts.kinds)}
     try:
-        for record, name in pictures.items():
-            draw_preview(folder, record, out / name)
-        write_atomically(out / OVERVIEW, overview_png(corpus.labels, facts.info.name))
         texts = {
+            CARD: card_text(facts, origin_text(corpus.manifest), pictures),
             METADATA: croissant_text(folder, facts),
             VOCABULARY: vocabulary_table(corpus),
-            CARD: card_text(facts, origin_text(corpus.manifest), pictures),
         }
-        for name, text in texts.items():
-            write_atomically(out / name, text.encode())
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(out), "--out") from None
+        return (
+            {name: text.encode() for name, text in texts.items()}
+            | {OVERVIEW: overview_png(corpus.labels, facts.info.name)}
+            | {name: preview_png(folder, record)[0] for record, name in pictures.items()}
+        )
     finally:
         corpus.close()
-    return Report(str(out), (CARD, METADATA, VOCABULARY, OVERVIEW, *pictures.values()), facts)
 
 
 def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:
     return tuple(sorted(kinds, key=lambda kind: -kind.records)[:MOST_EXAMPLES])
 
 
-def _make_folder(out: Path) -> None:
+def _check_folder(out: Path) -> None:
+    require_folder(out)
     if out.is_dir() and any(out.iterdir()) and not (out / CARD).is_file():
         raise BadInput("this folder holds other things than a report", str(out), "--out")
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise BadInput(f"cannot make this folder: {problem.strerror}", str(out), "--out") from None

@@ -20,11 +20,11 @@ from physics.integrators.general_purpose import (
 from physics.integrators.methods import MARCHES, METHODS, REFERENCE
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
-from physics.periodic_response import METHOD as REPEATED
-from physics.periodic_response import worth_repeating
+from physics.response.periodic import METHOD as REPEATED
+from physics.response.periodic import worth_repeating
 from physics.scene import Scene
 from physics.simulate import simulate
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 Array = NDArray[np.float64]
 Raw = object

@@ -9,6 +9,7 @@ from pathlib import Path
 from datagen.charts.measure import Chart
 from datagen.corpora.atomic import write_atomically
 from datagen.errors import BadInput
+from datagen.places import require_folder
 from datagen.plain import plain_json
 
 COLUMNS = (
@@ -31,6 +32,7 @@ COLUMNS = (
 
 def chart_folder(folder: Path) -> Path:
     """The folder to write into, made if need be; raises BadInput if that cannot be."""
+    require_folder(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as problem:

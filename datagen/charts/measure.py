@@ -6,7 +6,7 @@ import math
 import platform
 import statistics
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -19,11 +19,12 @@ from datagen.charts.scenes import Subject
 from datagen.charts.scores import SCORED_FROM, Score, score
 from physics.integrators.method import NO_MODES
 from physics.integrators.methods import METHODS, REFERENCE
+from physics.ladder.models import SIMPLER_MODELS
 from physics.outcome import SimulationFailed
+from physics.response.stability import longest_stable_step
 from physics.scene import Scene
 from physics.simulate import simulate
-from physics.stability import longest_stable_step
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 WARM_UP = 0.004
 QUICK_DURATION, QUICK_STEPS = 0.2, 32
@@ -55,6 +56,7 @@ class Chart:
 
     `edges`: times real time at which a fixed-step method would be at its longest stable step, by name.
     `best`: times real time at an acceleration error of 1e-3, by group and name, interpolated; null if not reached.
+    `contracts`: what each method and simpler model states of itself, by name.
     """
 
     subject: str
@@ -66,6 +68,7 @@ class Chart:
     runs: tuple[Run, ...]
     edges: dict[str, float]
     best: dict[str, float | None]
+    contracts: dict[str, dict[str, object]]
     made_with: dict[str, str]
 
 
@@ -94,8 +97,18 @@ def measure(subject: Subject, quick: bool, rounds: int, told: Callable[[str], No
         runs=tuple(runs),
         edges=_edges(scene, subject.rate, runs),
         best={name: at_error(runs, name, TARGET) for name in dict.fromkeys(run.name for run in runs)},
+        contracts=contracts(),
         made_with=made_with(),
     )
+
+
+def contracts() -> dict[str, dict[str, object]]:
+    """What each numerical method and each simpler model states of itself, by name."""
+    stated: Mapping[str, object] = {**METHODS, **SIMPLER_MODELS}
+    return {
+        name: {key: value for key, value in vars(one).items() if key not in ("name", "respond")}
+        for name, one in stated.items()
+    }
 
 
 def made_with() -> dict[str, str]:

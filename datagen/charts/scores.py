@@ -13,7 +13,7 @@ from labels.envelope import band_envelope, default_band, squared_envelope_spectr
 from labels.spectrum import line_amplitude
 from labels.truth import PassTable, ball_passes
 from physics.scene import Scene
-from physics.stiffness import stiffness_at
+from physics.statics.stiffness import stiffness_at
 from physics.trace import ContactChanges
 
 Array = NDArray[np.float64]

@@ -11,20 +11,20 @@ from numpy.typing import NDArray
 
 from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
-from physics.adaptive_response import respond_accurately
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
 from physics.integrators.method import NO_MODES
 from physics.integrators.methods import MARCHES, METHODS, MODAL
 from physics.integrators.output import Grid
-from physics.modal_case import Kept
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
-from physics.response import respond
+from physics.response.adaptive import respond_accurately
+from physics.response.march import respond
+from physics.response.modal_case import Kept
+from physics.response.stability import longest_stable_step
 from physics.scene import Scene
 from physics.simulate import stable_substeps
-from physics.stability import longest_stable_step
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 Array = NDArray[np.float64]
 

@@ -25,6 +25,8 @@ def check(
     write_json(json_file, verdict)
     for sentence in verdict.problems:
         complain(sentence)
+    if verdict.remedy:
+        complain(verdict.remedy)
     _tell_verdict(verdict, remake)
     if not verdict.sound:
         raise typer.Exit(FAILED)

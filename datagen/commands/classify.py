@@ -36,7 +36,7 @@ NoiseDb = Annotated[
 NoiseDraws = Annotated[int, Option(metavar="N", min=1, help="Draws of that noise.")]
 Curve = Annotated[bool, Option(help="Also learn from shares of the corpus.")]
 Workers = Annotated[int, Option(metavar="N", min=1, help="Processes that compute features.")]
-Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder of report.json and .png.")]
+Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder of report.json, .png and .csv.")]
 
 
 @command("spallgen classify --train out/transfer --test out/transfer --test out/cwru --out out/scores")
@@ -78,10 +78,11 @@ def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
 
     results, _ = run(benchmark, print)
     if out is not None:
+        from datagen.benchmark.predictions import prediction_table
         from datagen.charts.files import chart_folder, write_files
         from datagen.drawing.scores import scores_png
 
-        write_files(chart_folder(out), "report", scores_png(results), results)
+        write_files(chart_folder(out), "report", scores_png(results), results, prediction_table(results["tests"]))
     return results
 
 
@@ -90,6 +91,10 @@ def _tell(results: dict[str, Any]) -> None:
         print(f"{test['corpus']}: {test['records']} records, {test['locations']}")
         for name, scores in test["models"].items():
             print(f"  {name:10} {_line(scores)}")
+        for reason, count in test["rejections"].items():
+            print(f"  rejected   {count}: {reason}")
+        if test["despiked"]["glitches"]:
+            print("  despiked   {glitches} glitches in {records} records".format(**test["despiked"]))
         for noisy in test["noise"]:
             for name, scores in noisy["models"].items():
                 print(f"  {name:10} {noisy['snr_db']:g} dB: {_line(scores)}")
@@ -98,7 +103,11 @@ def _tell(results: dict[str, Any]) -> None:
 def _line(scores: dict[str, Any]) -> str:
     keys = (("faults", "faults_balanced_accuracy"), ("race", "race_accuracy"), ("AUC", "detection_auc"))
     parts = [f"{word} {_interval(scores[key])}" for word, key in keys]
-    counts = f"false alarms {scores['false_alarms']}/{scores['healthy']}", f"rejected {scores['rejected']}"
+    bearings = f"{scores['alarming_bearings']}/{scores['healthy_bearings']} bearings"
+    counts = (
+        f"false alarms {scores['false_alarms']}/{scores['healthy']} ({bearings})",
+        f"rejected {scores['rejected']}",
+    )
     return ", ".join([*parts, *counts])
 
 

@@ -43,9 +43,13 @@ def generate(
 
 def _numbers(option: str, text: str) -> list[int]:
     try:
-        return [int(part) for part in text.split(",")]
+        numbers = [int(part) for part in text.split(",")]
     except ValueError:
         raise BadInput(field=option, value=text, allowed="whole numbers with commas between, such as 17,40") from None
+    twice = next((number for number in numbers if numbers.count(number) > 1), None)
+    if twice is not None:
+        raise BadInput(f"{twice} is listed more than once", field=option, value=text, allowed="each record once")
+    return numbers
 
 
 def _tell_run(run: Summary) -> None:

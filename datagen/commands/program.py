@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from datagen.errors import BadInput
+from datagen.places import require_file
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -45,6 +46,9 @@ def command(example: str, name: str | None = None) -> Callable[[Command], Comman
             except BadInput as problem:
                 complain(f"error: {problem}")
                 raise typer.Exit(BAD_INPUT) from None
+            except PermissionError as problem:
+                complain(f"error: {problem.filename}: {problem.strerror}; allowed: what you may read and write")
+                raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt:
                 complain("interrupted; nothing that was finished is lost")
                 raise typer.Exit(INTERRUPTED) from None
@@ -65,8 +69,8 @@ def show_tables(tables: list[Table]) -> None:
 
 def _check_json(path: Path | None) -> None:
     """Refuse a file of results that cannot be written, before any work is done."""
-    if path is not None and not path.absolute().parent.is_dir():
-        raise BadInput("no such folder", field="--json", value=str(path), allowed="a file in an existing folder")
+    if path is not None:
+        require_file(path, "--json")
 
 
 def write_json(path: Path | None, result: Any) -> None:

@@ -9,6 +9,7 @@ import typer
 
 from datagen.commands.program import JsonFile, command, write_json
 from datagen.errors import BadInput
+from datagen.places import require_file
 
 
 @command("spallgen schema --out recipe.schema.json")
@@ -19,6 +20,8 @@ def schema(
     """Write the JSON Schema of recipes: an editor completes, explains and checks keys with it."""
     from datagen.recipes.recipe_schema import recipe_schema, schema_text
 
+    if out is not None:
+        require_file(out)
     write_json(json_file, recipe_schema())
     if out is None:
         print(schema_text(), end="")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
+from datagen.places import require_folder
 
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
@@ -37,11 +38,11 @@ def size(
 ) -> None:
     """Estimate the size of the spall in every record and score lag, arc, abstention and intervals."""
     from datagen.sizing.known_sizes import parse_known_sizes
-    from datagen.sizing.report import check_folder, write_report
+    from datagen.sizing.report import write_report
     from datagen.sizing.score import score_sizes
 
     if out is not None:
-        check_folder(out)
+        require_folder(out)
     sizes = parse_known_sizes(known_size or ())
     scores = score_sizes(folder, estimator, load_known, split, workers, sizes)
     write_json(json_file, scores)

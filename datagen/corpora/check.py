@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.corpora.conformity import violations
 from datagen.corpora.format import FORMAT, content_hash, data_hash, format_hash
 from datagen.corpora.index import LABEL_COLUMNS, read_index
 from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
+from datagen.corpora.reading import READ_ERRORS
 from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
 from datagen.records.versions import program_hash
@@ -26,12 +29,14 @@ if TYPE_CHECKING:
     from datagen.recipes.recipe import Recipe
 
 LARGEST_DIFFERENCE = 1e-3
+FORBIDDEN = "you may not read it; change its permissions"
 
 
 @dataclass(frozen=True)
 class Verdict:
     """What a check found: `problems` are sentences (none: all is well).
 
+    `damaged` are files that are not what was written, `remedy` a sentence on how to mend that (empty: none).
     `remade` are the records simulated again (none with other physics than theirs), `largest_difference` the largest
     RMS difference of their acceleration from what is stored, relative to its RMS.
     """
@@ -43,6 +48,8 @@ class Verdict:
     remade: tuple[int, ...]
     largest_difference: float
     problems: tuple[str, ...]
+    damaged: tuple[str, ...] = ()
+    remedy: str = ""
 
     @property
     def sound(self) -> bool:
@@ -66,7 +73,7 @@ def check_corpus(folder: Path, remake: int = 0) -> Verdict:
     check.remake(remake)
     return Verdict(
         str(folder), len(check.sidecars), len(check.records), manifest.imported, tuple(check.remade),
-        check.difference, tuple(check.problems),
+        check.difference, tuple(check.problems), tuple(check.damaged), check.remedy(),
     )  # fmt: skip
 
 
@@ -76,6 +83,7 @@ class _Check:
     def __init__(self, folder: Path, manifest: Manifest) -> None:
         self.folder, self.manifest = folder, manifest
         self.problems: list[str] = []
+        self.damaged: list[str] = []
         self.sidecars: list[Sidecar] = []
         self.records: set[int] = set()
         self.remade: list[int] = []
@@ -117,14 +125,14 @@ class _Check:
         for path in sorted(shards.glob("*.json")):
             sidecar = read_sidecar(path)
             if sidecar is None:
-                self.problems.append(f"{path.relative_to(self.folder)}: cannot be read")
+                self.damaged.append(str(path.relative_to(self.folder)))
+                self.problems.append(f"{self.damaged[-1]}: cannot be read")
             else:
                 self.sidecars.append(sidecar)
         known = {shard_path(self.folder, sidecar.shard) for sidecar in self.sidecars if sidecar.records}
         for path in sorted({*shards.glob("*.nc")} - known):
-            self.problems.append(
-                f"{path.relative_to(self.folder)}: unfinished, there is no sidecar that vouches for it"
-            )
+            self.damaged.append(str(path.relative_to(self.folder)))
+            self.problems.append(f"{self.damaged[-1]}: unfinished, there is no sidecar that vouches for it")
         listed = {entry.file for entry in self.manifest.shards}
         for path in sorted(known):
             name = path.relative_to(self.folder).as_posix()
@@ -138,7 +146,10 @@ class _Check:
         if not sidecar.records:
             return
         entry = shard_entry(sidecar, self.folder)
-        for sentence in self._wrong_shard(sidecar):
+        dataset, damage = _opened(shard_path(self.folder, sidecar.shard), sidecar)
+        if damage and damage != [FORBIDDEN]:
+            self.damaged.append(entry.file)
+        for sentence in (*damage, *self._wrong_shard(sidecar, dataset)):
             self.problems.append(f"{entry.file}: {sentence}")
         if entry not in self.manifest.shards:
             self.problems.append(f"{entry.file}: manifest.json says other things of it than its sidecar")
@@ -147,25 +158,11 @@ class _Check:
             self.problems.append(f"{entry.file}: record {min(twice)} is in another shard too")
         self.records.update(sidecar.records)
 
-    def _wrong_shard(self, sidecar: Sidecar) -> Iterator[str]:
-        import xarray
-
-        path = shard_path(self.folder, sidecar.shard)
+    def _wrong_shard(self, sidecar: Sidecar, dataset: xarray.Dataset | None) -> Iterator[str]:
         if sidecar.identity != self.manifest.identity:
             yield "made from another recipe, physics or format than the manifest states"
-        if not path.is_file():
-            yield "missing"
+        if dataset is None:
             return
-        if file_hash(path) != sidecar.sha256:
-            yield "its bytes have changed since it was written (SHA-256 differs)"
-        try:
-            with xarray.open_dataset(path, engine="netcdf4") as opened:
-                dataset = opened.load()
-        except (OSError, RuntimeError, ValueError) as problem:
-            yield f"cannot be read: {problem}"
-            return
-        if content_hash(dataset) != sidecar.content:
-            yield "its arrays are not those that were written"
         yield from violations(dataset)
         yield from self._missing_signals(dataset)
         yield from self._wrong_labels(sidecar, dataset)
@@ -198,6 +195,18 @@ class _Check:
             if draw_scenario(self.recipe, record).to_json() != str(text):
                 yield f"the recipe gives another scenario for record {record} than is stored"
                 return
+
+    def remedy(self) -> str:
+        """How to mend the damaged shards, empty if there are none."""
+        if not self.damaged:
+            return ""
+        if self.manifest.imported:
+            return "to mend it, delete this folder and import the recordings again"
+        there = [name for name in self.damaged if (self.folder / name).exists()]
+        first = f"delete {', '.join(there)} and " if there else ""
+        own = self.manifest.identity.program_hash == program_hash()
+        version = "" if own else ", by the version of spallgen that made this corpus"
+        return f"to mend it, {first}run `spallgen generate` again with the same recipe and --out {self.folder}{version}"
 
     def whole(self) -> None:
         """Find what is wrong between the shards: records missing or twice, machines in two splits."""
@@ -243,7 +252,7 @@ class _Check:
         except (BadInput, SimulationFailed) as problem:
             self.problems.append(f"record {record} cannot be simulated again from its scenario: {problem}")
             return
-        difference = float(np.sqrt(np.mean((again.astype(np.float64) - stored) ** 2) / np.mean(stored**2)))
+        difference = _relative_difference(again.astype(np.float64), stored)
         self.remade.append(record)
         self.difference = max(self.difference, difference)
         if not difference <= LARGEST_DIFFERENCE:
@@ -251,3 +260,32 @@ class _Check:
                 f"record {record} simulated again from its scenario differs by {difference:.2g} of its RMS; "
                 f"allowed: {LARGEST_DIFFERENCE:g}"
             )
+
+
+def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[str]]:
+    """What a shard's file holds, None if it cannot be read, and in what it differs from what was written."""
+    import xarray
+
+    if not path.is_file():
+        return None, ["missing"]
+    found = []
+    try:
+        if file_hash(path) != sidecar.sha256:
+            found.append("its bytes have changed since it was written (SHA-256 differs)")
+        with xarray.open_dataset(path, engine="netcdf4") as opened:
+            dataset = opened.load()
+        if content_hash(dataset) != sidecar.content:
+            found.append("its arrays are not those that were written")
+    except PermissionError:
+        return None, [FORBIDDEN]
+    except READ_ERRORS as problem:
+        return None, [*found, f"cannot be read: {problem}"]
+    return dataset, found
+
+
+def _relative_difference(again: NDArray[np.float64], stored: NDArray[np.float64]) -> float:
+    """RMS difference of a signal made again from the stored one over the latter's RMS; silence agrees with silence."""
+    difference, level = np.sqrt(np.mean((again - stored) ** 2)), np.sqrt(np.mean(stored**2))
+    if not difference:
+        return 0.0
+    return float(difference / level) if level else math.inf

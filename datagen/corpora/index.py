@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpora.atomic import write_atomically
+from datagen.corpora.manifest import no_corpus
 from datagen.corpora.shard import Sidecar, shard_path
 from datagen.errors import BadInput
 from labels.schema import LABELS
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 PLACE_COLUMNS = ("shard", "position")
 LABEL_COLUMNS = tuple(column for label in LABELS for column in label.columns)
 COLUMN_TYPES = {column: label.dtype for label in LABELS for column in label.columns}
+PLACE_TYPES = {"shard": "str", "position": "int64"}
+SHARD_NAME = r"shards/shard_\d{6,}\.nc"
+WORDS = {"float64": "number", "int64": "whole number", "bool": "True or False"}
 Row = tuple[Any, ...]
 
 
@@ -88,16 +92,67 @@ def read_index(folder: Path) -> pandas.DataFrame:
 
     path = index_path(folder)
     try:
-        with path.open(newline="") as file:
-            header, *rows = csv.reader(file)
-        texts = dict(zip(header, zip(*rows, strict=True), strict=True)) if rows else dict.fromkeys(header, ())
-        columns = {name: _typed(texts[name], kind) for name, kind in COLUMN_TYPES.items()}
-        table = pandas.DataFrame(columns | {"shard": texts["shard"], "position": _typed(texts["position"], "int64")})
-    except FileNotFoundError:
-        raise BadInput("this folder has no index.csv; it is no corpus, or an interrupted one", str(folder)) from None
-    except (OSError, ValueError, KeyError) as problem:
-        raise BadInput(f"not an index of labels: {problem!r}", str(path)) from None
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except (FileNotFoundError, NotADirectoryError):
+        raise no_corpus(folder, path.name) from None
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
+    except (UnicodeDecodeError, csv.Error):
+        raise _no_index("no table of text", path) from None
+    texts = _columns(rows, path)
+    kinds = COLUMN_TYPES | PLACE_TYPES
+    table = pandas.DataFrame({name: _checked(name, texts[name], kind, path) for name, kind in kinds.items()})
+    _check_places(table, path)
     return table.sort_values("record", ignore_index=True)
+
+
+def _check_places(table: pandas.DataFrame, path: Path) -> None:
+    """Raise BadInput unless every record is there once, at a place that a shard can have."""
+    wrong = {
+        "record": table["record"].duplicated(),
+        "shard": ~table["shard"].astype(str).str.fullmatch(SHARD_NAME),
+        "position": table["position"] < 0,
+    }
+    for column, rows in wrong.items():
+        if rows.any():
+            problem = "is there twice" if column == "record" else "is no place in a corpus"
+            first = int(rows.to_numpy().argmax())
+            raise _no_index(f"{column} = {table[column].iloc[first]} {problem}", path, first + 2)
+
+
+def _columns(rows: list[list[str]], path: Path) -> dict[str, tuple[str, ...]]:
+    """The cells of each column by name; BadInput for a ragged table or one that lacks a column."""
+    header = rows[0] if rows else []
+    missing = [name for name in (*LABEL_COLUMNS, *PLACE_COLUMNS) if name not in header]
+    if missing:
+        more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        raise _no_index(f'it lacks the column "{missing[0]}"{more}', path)
+    for line, row in enumerate(rows[1:], start=2):
+        if len(row) != len(header):
+            raise _no_index(f"{len(row)} cells, but the table has {len(header)} columns", path, line)
+    return dict(zip(header, zip(*rows[1:], strict=True), strict=True)) if len(rows) > 1 else dict.fromkeys(header, ())
+
+
+def _checked(name: str, texts: tuple[str, ...], kind: str, path: Path) -> NDArray[Any] | list[str]:
+    try:
+        return _typed(texts, kind)
+    except (ValueError, KeyError, OverflowError):
+        line, text = next((k, text) for k, text in enumerate(texts, start=2) if not _is_one(text, kind))
+        raise _no_index(f'{name} = "{text}" is no {WORDS[kind]}', path, line) from None
+
+
+def _is_one(text: str, kind: str) -> bool:
+    try:
+        _typed((text,), kind)
+    except (ValueError, KeyError, OverflowError):
+        return False
+    return True
+
+
+def _no_index(problem: str, path: Path, line: int = 0) -> BadInput:
+    remedy = "delete it and generate again into the same folder, which writes it anew (recordings: import again)"
+    return BadInput(f"not the index of a corpus: {problem}; {remedy}", f"{path}, line {line}" if line else str(path))
 
 
 def _typed(texts: tuple[str, ...], kind: str) -> NDArray[Any] | list[str]:

@@ -107,7 +107,7 @@ def read_manifest(folder: Path) -> Manifest:
             identity=Identity(**found["identity"]),
             recipe=dict(found["recipe"]),
             recipe_records=int(found["recipe_records"]),
-            asked=tuple((int(start), int(stop)) for start, stop in found["asked"]),
+            asked=_spans(found["asked"], int(found["recipe_records"])),
             made_with=dict(found["made_with"]),
             shards=tuple(ShardEntry(**shard) for shard in found["shards"]),
             failed=tuple(Failure(**failure) for failure in found["failed"]),
@@ -116,10 +116,39 @@ def read_manifest(folder: Path) -> Manifest:
             refused={str(what): Refused(**counted) for what, counted in found["refused"].items()},
             origin=str(found["origin"]),
         )
-    except FileNotFoundError:
-        raise BadInput("this folder has no manifest.json, so it is no corpus", str(folder)) from None
-    except (OSError, ValueError, KeyError, TypeError) as problem:
-        raise BadInput(f"not a manifest of a corpus: {problem!r}", str(path)) from None
+    except (FileNotFoundError, NotADirectoryError):
+        raise no_corpus(folder, path.name) from None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as problem:
+        raise BadInput(f"not a manifest of a corpus: {_in_words(problem)}", str(path)) from None
+
+
+def no_corpus(folder: Path, lacking: str) -> BadInput:
+    """The error of a `folder` that is no corpus because it has no file called `lacking`."""
+    if not folder.exists():
+        return BadInput("no such folder", str(folder), allowed="the folder of a corpus")
+    if not folder.is_dir():
+        return BadInput("this is no folder", str(folder), allowed="the folder of a corpus")
+    return BadInput(f"this folder has no {lacking}, so it is no corpus, or an interrupted one", str(folder))
+
+
+def _spans(found: list[Any], records: int) -> tuple[Span, ...]:
+    """Spans as they are written, none beyond the recipe's records; ValueError."""
+    spans = tuple((int(start), int(stop)) for start, stop in found)
+    if not all(0 <= start <= stop <= records for start, stop in spans):
+        raise ValueError("spans beyond the records of the recipe")
+    return spans
+
+
+def _in_words(problem: Exception) -> str:
+    if isinstance(problem, OSError):
+        return f"cannot be read ({problem.strerror})"
+    if isinstance(problem, json.JSONDecodeError):
+        return f"no JSON from line {problem.lineno}, column {problem.colno} on"
+    if isinstance(problem, UnicodeDecodeError):
+        return "no text"
+    if isinstance(problem, KeyError):
+        return f'it lacks "{problem.args[0]}"'
+    return "its entries are not those of this format"
 
 
 def shard_entry(sidecar: Sidecar, folder: Path) -> ShardEntry:

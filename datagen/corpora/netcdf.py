@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import xarray
 
 COMPRESSIONS = ("zlib", "none")
+NO_LZ4 = "netCDF's own lz4 filter fails on signals that do not compress and ends the process"
 LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
 IMAGE_BLOCK = 1 << 22
 # The netCDF library crashes when two threads use it. Closing may happen inside writing, when memory is collected.
@@ -33,9 +34,7 @@ def check_compression(compression: str) -> None:
     """Raise BadInput for a compression that is not offered."""
     if compression not in COMPRESSIONS:
         raise BadInput(
-            "netCDF's own lz4 filter fails on signals that do not compress and ends the process"
-            if compression == "lz4"
-            else "",
+            NO_LZ4 if compression == "lz4" else "",
             field="store.compression",
             value=compression,
             allowed=", ".join(COMPRESSIONS),

@@ -20,13 +20,15 @@ Array = NDArray[np.float64]
 HARMONICS = 6
 CURSOR_TOLERANCE = 0.012
 RESOLVED_BINS = 2.5
+FEWEST_LINES = 2
 DECADES = 4.5
 
 
 def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, float], axis: str = "y") -> None:
     """Amplitude spectrum of an acceleration (T,), m/s² against kHz, with the band of its envelope (Hz)."""
     frequency, amplitude = amplitude_spectrum(signal, rate)
-    axes.semilogy(frequency[1:] * 1e-3, amplitude[1:], color=BLUE, linewidth=0.5)
+    limits = decades(amplitude[1:])
+    axes.semilogy(frequency[1:] * 1e-3, above(amplitude[1:], limits), color=BLUE, linewidth=0.5)
     low, high = band
     axes.axvspan(low * 1e-3, high * 1e-3, color=ORANGE, alpha=0.3, linewidth=0, zorder=0)
     left = high > 0.75 * rate / 2.0
@@ -34,8 +36,9 @@ def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, flo
         f"envelope band\n{low * 1e-3:.2f} to {high * 1e-3:.2f} kHz", ((low if left else high) * 1e-3, 1.0),
         (-3 if left else 3, -2), xycoords=("data", "axes fraction"), textcoords="offset points", va="top",
         ha="right" if left else "left", fontsize=7.5, color=INK,
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5},
     )  # fmt: skip
-    axes.set(xlim=(0.0, rate / 2e3), ylim=decades(amplitude[1:]), xlabel="frequency (kHz)", ylabel="m/s²")
+    axes.set(xlim=(0.0, rate / 2e3), ylim=limits, xlabel="frequency (kHz)", ylabel="m/s²")
     axes.set_title(f"Amplitude spectrum, {axis} axis")
     faint_grid(axes)
 
@@ -43,7 +46,8 @@ def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, flo
 def draw_background_spectrum(axes: Axes, signal: Array, rate: float) -> None:
     """The spectrum of the background (T,), m/s², over that of the record."""
     frequency, amplitude = amplitude_spectrum(signal, rate)
-    axes.semilogy(frequency[1:] * 1e-3, amplitude[1:], color=VERMILLION, linewidth=0.4, alpha=0.7, label="background")
+    shown = above(amplitude[1:], axes.get_ylim())
+    axes.semilogy(frequency[1:] * 1e-3, shown, color=VERMILLION, linewidth=0.4, alpha=0.7, label="background")
     outside_legend(axes)
 
 
@@ -58,13 +62,16 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
     frequency, amplitude = squared_envelope_spectrum(portrait.envelope, portrait.rate)
     known = portrait.frequencies
     main = known[portrait.defect_frequency]
-    top = (HARMONICS + 0.6) * main
+    top = min((HARMONICS + 0.6) * main, portrait.rate / 2.0)
     shown = (frequency > 0.0) & (frequency <= top)
     limits = decades(amplitude[shown])
-    axes.semilogy(frequency[shown], amplitude[shown], color=BLUE, linewidth=0.8)
+    axes.semilogy(frequency[shown], above(amplitude[shown], limits), color=BLUE, linewidth=0.8)
+    if np.count_nonzero(shown) < FEWEST_LINES:
+        words = f"too short a record: its lines lie {frequency[1]:.3g} Hz apart"
+        axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=GREY)
     for name, marker, colour, targets in cursors(portrait):
-        lines = [line_height(frequency, amplitude, target, known["FTF"]) for target in targets if 0.0 < target < top]
-        heights = [line for line in lines if line[1] > limits[0]]
+        heights = line_heights(frequency, amplitude, [target for target in targets if target < top], known["FTF"])
+        heights = [line for line in heights if line[1] > limits[0]]
         axes.plot(
             [line[0] for line in heights], [line[1] for line in heights], marker, color=colour, label=name,
             linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3, clip_on=False,
@@ -99,7 +106,8 @@ def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
     harmonics = [k * known[main] for k in range(1, HARMONICS + 1)]
     by = "shaft" if main == "BPFI" else "FTF"
     sidebands = [f + s * known[by] for f in harmonics[:3] for s in (-1.0, 1.0)]
-    families = [(f"{main} {known[main]:.4g} Hz", "o", VERMILLION, harmonics)]
+    beyond = "" if known[main] < portrait.rate / 2.0 else " (above half the rate)"
+    families = [(f"{main} {known[main]:.4g} Hz{beyond}", "o", VERMILLION, harmonics)]
     if known[by] * portrait.duration > RESOLVED_BINS:
         families.append((f"± {by} {known[by]:.3g} Hz", "D", GREEN, sidebands))
     if by != "shaft":
@@ -107,12 +115,24 @@ def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
     return families
 
 
-def line_height(frequency: Array, amplitude: Array, target: float, spacing: float) -> tuple[float, float]:
-    """Frequency and height of the largest line near `target` (Hz), where other lines lie `spacing` (Hz) apart."""
-    reach = max(min(CURSOR_TOLERANCE * target, spacing / 3.0), frequency[1])
-    near = np.flatnonzero(np.abs(frequency - target) <= reach)
-    best = near[int(np.argmax(amplitude[near]))]
-    return float(frequency[best]), float(amplitude[best])
+def line_heights(frequency: Array, amplitude: Array, targets: list[float], spacing: float) -> list[tuple[float, float]]:
+    """Frequency (Hz) and height of the largest line near each of `targets` (Hz) that the spectrum reaches.
+
+    Other lines lie `spacing` (Hz) apart. What the record is too short to tell from its mean is left out.
+    """
+    found = []
+    for target in targets:
+        reach = max(min(CURSOR_TOLERANCE * target, spacing / 3.0), frequency[1])
+        near = np.flatnonzero((np.abs(frequency - target) <= reach) & (frequency > 0.0))
+        if near.size and target > 0.0:
+            best = near[int(np.argmax(amplitude[near]))]
+            found.append((float(frequency[best]), float(amplitude[best])))
+    return found
+
+
+def above(amplitude: Array, limits: tuple[float, float]) -> Array:
+    """Amplitudes for a logarithmic axis with these limits: what is zero lies below the axis."""
+    return np.maximum(amplitude, 0.1 * limits[0])
 
 
 def decades(amplitude: Array) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from datagen.drawing.frequency_panels import HARMONICS, decades, draw_spectrum, line_height
+from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, line_heights
 from datagen.drawing.measured_portrait import MeasuredPortrait
 from datagen.drawing.sheet import DPI
 from datagen.drawing.style import (
@@ -137,14 +137,14 @@ def draw_expected_lines(axes: Axes, portrait: MeasuredPortrait) -> None:
     frequency, amplitude = squared_envelope_spectrum(portrait.envelope, portrait.rate)
     top = _top(portrait)
     shown = (frequency > 0.0) & (frequency <= top)
-    axes.semilogy(frequency[shown], amplitude[shown], color=BLUE, linewidth=0.7)
     limits = decades(amplitude[shown])
+    axes.semilogy(frequency[shown], above(amplitude[shown], limits), color=BLUE, linewidth=0.7)
     for name in (*portrait.expected_lines, *(("shaft",) if "shaft" in portrait.frequencies else ())):
         marker, colour = MARKS[name]
         line = portrait.frequencies[name]
         count = SHAFT_HARMONICS if name == "shaft" else HARMONICS
         harmonics = [k * line for k in range(1, count + 1) if k * line < top]
-        heights = [line_height(frequency, amplitude, target, line) for target in harmonics]
+        heights = line_heights(frequency, amplitude, harmonics, line)
         axes.plot(
             [place for place, _ in heights], [height for _, height in heights], marker, color=colour,
             label=f"{name} {line:.4g} Hz", linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3,

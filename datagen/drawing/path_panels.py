@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREY, INK, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
-from labels.description import largest_spall
 from physics.cage import CagePath
-from physics.profile import build_path, wrap
+from physics.paths.profile import build_path, wrap
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,9 +30,8 @@ LOAD_DIRECTION = 1.5 * math.pi
 def draw_path(axes: Axes, portrait: Portrait) -> None:
     """Drop of a ball's centre in µm against the arc from the spall's centre in degrees of travel, downwards."""
     scene = portrait.scene
-    spall = largest_spall(scene)
+    spall = portrait.shown_spall
     arc = shown_arcs(spall)
-    axes.tick_params(labelbottom=False)
     faint_grid(axes)
     if spall is None:
         _draw_good_races(axes, scene, arc)
@@ -48,8 +46,9 @@ def draw_path(axes: Axes, portrait: Portrait) -> None:
     axes.set(ylim=(1.3 * deepest, min(float(drop.min()), 0.0) - 0.18 * deepest), ylabel="drop (µm)")
     _mark_edges(axes, spall)
     floor = ", bridged" if path.bridged else ""
+    which = f"spall {scene.spalls.index(spall) + 1} of {len(scene.spalls)}," if len(scene.spalls) > 1 else "spall of"
     axes.set_title(
-        f"Path of a ball's centre: spall of {math.degrees(spall.extent):.3g}° = "
+        f"Path of a ball's centre: {which} {math.degrees(spall.extent):.3g}° = "
         f"{spall.length(bearing) * 1e3:.3g} mm, drop {path.largest_depth * 1e6:.3g} µm{floor}"
     )
 
@@ -70,12 +69,12 @@ def _draw_good_races(axes: Axes, scene: Scene, arc: Array) -> None:
 
 
 def draw_ball_load(axes: Axes, portrait: Portrait) -> None:
-    """Quasi-static load of the ball, N, over the same arc; of a healthy bearing, over a full turn."""
-    spall = largest_spall(portrait.scene)
-    k = portrait.shown_pass
-    if spall is None or k is None or portrait.scene.spalls[portrait.passes.defect[k]] != spall:
+    """Quasi-static load of the ball, N, over the same arc; where no pass is shown, over a full turn."""
+    spall, k = portrait.shown_spall, portrait.shown_pass
+    if spall is None or k is None:
         arc, load = load_around(portrait.scene)
-        axes.set_title("Quasi-static load of a ball")
+        axes.set_title("Quasi-static load of a ball on a full turn")
+        axes.set_xlim(-180.0, 180.0)
         axes.set_xlabel("angle from the direction of the load (°)")
     else:
         arc, load = load_over_spall(portrait, spall, k)

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.description import largest_spall
 from labels.truth import PassTable
 from physics.scene import Scene
+from physics.spall import Spall
 
 Array = NDArray[np.float64]
 
@@ -85,6 +87,13 @@ class Portrait:
             return None
         peaks = [_peak(signal, self.rate, table.entry_time[k], table.exit_time[k]) for k in fit]
         return int(fit[int(np.argmax(peaks))])
+
+    @cached_property
+    def shown_spall(self) -> Spall | None:
+        """The spall of the shown pass, the largest if no pass is shown, or None."""
+        if self.shown_pass is None:
+            return largest_spall(self.scene)
+        return self.scene.spalls[int(self.passes.defect[self.shown_pass])]
 
     @cached_property
     def window(self) -> tuple[float, float]:

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from datagen.corpora.atomic import write_atomically
 from datagen.corpora.manifest import manifest_path, read_manifest
 from datagen.errors import BadInput
+from datagen.places import require_file
+from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable
 from physics.outcome import SimulationFailed
@@ -32,23 +34,34 @@ def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, 
     Raises BadInput if the source, the record or the picture's name cannot be used, or if the record cannot be
     simulated; nothing is written then.
     """
+    picture = _writable(Path(out))
+    content, facts = preview_png(source, record)
+    try:
+        write_atomically(picture, content)
+    except OSError as problem:
+        raise BadInput(f"cannot write this file: {problem.strerror}", field="--out", value=str(out)) from None
+    return facts
+
+
+def preview_png(source: str | Path, record: int) -> tuple[bytes, dict[str, Any]]:
+    """The sheet of `record` of a recipe or a corpus as the bytes of a PNG file, and what it shows; raises BadInput."""
     from datagen.drawing.sheet import sheet_png
 
-    picture = _writable(Path(out))
     folder = Path(source)
+    if folder.is_dir() and not (manifest_path(folder).exists() or (folder / FILE_NAME).exists()):
+        problem = f"neither a corpus ({manifest_path(folder).name}) nor a recipe ({FILE_NAME}) is in this folder"
+        raise BadInput(problem, str(folder))
     if manifest_path(folder).is_file() and read_manifest(folder).imported:
-        return _draw_measured(folder, record, picture)
+        return _measured_png(folder, record)
     portrait = corpus_portrait(folder, record) if manifest_path(folder).is_file() else recipe_portrait(source, record)
-    write_atomically(picture, sheet_png(portrait))
-    return _facts(portrait)
+    return sheet_png(portrait), _facts(portrait)
 
 
-def _draw_measured(folder: Path, record: int, picture: Path) -> dict[str, Any]:
+def _measured_png(folder: Path, record: int) -> tuple[bytes, dict[str, Any]]:
     from datagen.drawing.measured_sheet import measured_sheet_png
 
     portrait = measured_portrait(folder, record)
-    write_atomically(picture, measured_sheet_png(portrait))
-    return {
+    return measured_sheet_png(portrait), {
         "labels": dict(portrait.labels),
         "frequencies_hz": portrait.frequencies,
         "close_up_s": list(portrait.window),
@@ -78,8 +91,7 @@ def measured_portrait(folder: Path, record: int) -> MeasuredPortrait:
 def _writable(picture: Path) -> Path:
     if picture.suffix.lower() != ".png":
         raise BadInput(field="--out", value=str(picture), allowed="a file name that ends in .png")
-    if not picture.parent.is_dir():
-        raise BadInput("no such folder", field="--out", value=str(picture), allowed="a file in an existing folder")
+    require_file(picture)
     return picture
 
 
@@ -88,13 +100,17 @@ def recipe_portrait(source: str | Path, record: int) -> Portrait:
     from datagen.drawing.portrait import Portrait
     from datagen.recipes.recipe import load_recipe
     from datagen.records.record import make_record
+    from datagen.runs.requirements import require_memory, require_record_memory
     from datagen.scenarios.sampling import draw_scenario
 
+    stored = ("acceleration_clean", "acceleration_sensor", "background")
     recipe = load_recipe(source)
     recipe.place(record)
+    require_memory(recipe)
     scenario = draw_scenario(recipe, record)
+    require_record_memory(recipe, scenario, stored)
     try:
-        made = make_record(scenario, ("acceleration_clean", "acceleration_sensor", "background"))
+        made = make_record(scenario, stored)
     except SimulationFailed as problem:
         raise BadInput(str(problem), recipe.source, "record", record) from problem
     return Portrait(

@@ -43,7 +43,13 @@ def scores_png(results: dict[str, Any]) -> bytes:
 
 
 def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
-    """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals."""
+    """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals; false alarms where
+    there are no faults."""
+    title = f"{Path(test['corpus']).name}: {test['records']} records"
+    if not any(test["locations"][race] for race in ("outer", "inner")):
+        alarms = (f"{name}: {said['false_alarms']} of {said['healthy']}" for name, said in test["models"].items())
+        say(axes, title, "no faults to score\n\nfalse alarms\n" + "\n".join(alarms))
+        return
     keys = {"faults": "faults_balanced_accuracy", "race": "race_accuracy", "AUC": "detection_auc"}
     models = test["models"]
     for place, (name, scores) in enumerate(models.items()):
@@ -57,9 +63,18 @@ def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
     axes.set_xticks(range(len(keys)), list(keys))
     axes.set_xlim(-0.5, len(keys) - 0.5)
     axes.set_ylim(0.0, 1.03)
-    axes.set_title(f"{Path(test['corpus']).name}: {test['records']} records")
+    if not test["locations"]["none"]:
+        axes.text(2, 0.5, "no healthy\nrecords", ha="center", va="center", color=GREY)
+    axes.set_title(title)
     axes.legend(loc="lower left")
     faint_grid(axes)
+
+
+def say(axes: Axes, title: str, text: str) -> None:
+    """Words in place of a panel that has nothing to show."""
+    axes.axis("off")
+    axes.set_title(title)
+    axes.text(0.5, 0.5, text, ha="center", va="center", color=INK, transform=axes.transAxes)
 
 
 def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
@@ -80,8 +95,9 @@ def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
 
 def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
     """Share of spalls against the probability predicted."""
-    if not any("reliability" in scores for scores in test["models"].values()):
-        axes.axis("off")
+    told = any("reliability" in scores for scores in test["models"].values())
+    if not (told and test["locations"]["none"]):
+        say(axes, "reliability", "needs healthy records and\nfaults of known size")
         return
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
     for place, (name, scores) in enumerate(test["models"].items()):
@@ -98,7 +114,7 @@ def draw_against(axes: Axes, test: dict[str, Any], quantity: str) -> None:
     """Accuracy over fault records against one of AGAINST, in bins of equally many records."""
     models = test["models"]
     if not any(quantity in scores["accuracy_against"] for scores in models.values()):
-        axes.axis("off")
+        say(axes, "accuracy over faults", f"{AGAINST[quantity]}:\nunknown, or the same in all")
         return
     for place, scores in enumerate(models.values()):
         table = scores["accuracy_against"].get(quantity, [])

@@ -23,7 +23,6 @@ from datagen.drawing.time_panels import (
     draw_stiffness,
     draw_trace,
 )
-from labels.description import largest_spall
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -59,10 +58,12 @@ def draw_sheet(portrait: Portrait) -> Figure:
         draw(figure.add_subplot(place, sharex=close_up), portrait)
     close_up.set_xlim(portrait.window[0] * 1e3, portrait.window[1] * 1e3)
     right = columns[1].subgridspec(2, 1, height_ratios=(1.05, 1.3), hspace=0.22)
-    place_rows = right[0].subgridspec(2, 1, hspace=0.26)
+    alike = portrait.shown_pass is not None or portrait.shown_spall is None
+    place_rows = right[0].subgridspec(2, 1, hspace=0.3 if alike else 0.5)
     path = figure.add_subplot(place_rows[0])
     draw_path(path, portrait)
-    draw_ball_load(figure.add_subplot(place_rows[1], sharex=path), portrait)
+    path.tick_params(labelbottom=not alike)
+    draw_ball_load(figure.add_subplot(place_rows[1], sharex=path if alike else None), portrait)
     path.set_xlim(*_ends(portrait))
     frequency_rows = right[1].subgridspec(2, 1, hspace=0.62)
     band = envelope_band(portrait)
@@ -97,14 +98,17 @@ def _draw_whole(figure: Figure, place: SubplotSpec, portrait: Portrait) -> None:
 
 
 def _ends(portrait: Portrait) -> tuple[float, float]:
-    arcs = shown_arcs(largest_spall(portrait.scene))
+    arcs = shown_arcs(portrait.shown_spall)
     return math.degrees(arcs[0]), math.degrees(arcs[-1])
 
 
 def heading(portrait: Portrait) -> str:
     """One line: which record, its condition and where."""
     labels = portrait.labels
-    state = "healthy" if labels["condition"] == "healthy" else f"{labels['condition']} spall, {labels['location']} race"
+    count, race = len(portrait.scene.spalls), f"{labels['location']} race"
+    one = f"{labels['condition']} spall, {race}"
+    several = f"{count} spalls, {race} (the largest: {labels['condition']})"
+    state = several if count > 1 else one if count else "healthy"
     return f"{portrait.corpus}, record {labels['record']}: {state}"
 
 

@@ -15,31 +15,40 @@ from datagen.sizing.summary import NOISE_LEVELS, RULES, extent_error, noise_leve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from datagen.sizing.score import SizeScores
 
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)
+MOST_BINS = 8
+LONGEST_LEVEL_NAMES = 44  # letters of all names together that fit side by side
 
 
 def size_report_png(scores: SizeScores) -> bytes:
     """The picture of a corpus scored against a known truth, as the bytes of a PNG file; empty without one."""
-    summary, picture = scores.summary, io.BytesIO()
-    if summary is None:
+    picture = io.BytesIO()
+    if scores.summary is None:
         return b""
     with house_style():
-        figure, axes = plt.subplots(4, 3, figsize=(11.5, 13.0), layout="constrained")
-        panels = axes.ravel()
-        told = [one for one in scores.records if one.known_truth and one.scorable and one.found]
-        _against_truth(panels[0], told, "lag")
-        _against_truth(panels[1], told, "extent")
-        _rules(panels[2], told)
-        dependences = [name for name in summary["by"] if name != "size, mm"]
-        for panel, name in zip(panels[3:11], dependences, strict=True):
-            _bars(panel, summary["by"][name], name[0].upper() + name[1:])
-        _abstention(panels[11], scores.records)
+        figure = draw_size_report(scores)
         figure.savefig(picture, dpi=130, format="png")
         plt.close(figure)
     return picture.getvalue()
+
+
+def draw_size_report(scores: SizeScores) -> Figure:
+    """The figure of a corpus scored against a known truth."""
+    dependences = {name: rows for name, rows in (scores.summary or {})["by"].items() if name != "size, mm"}
+    figure, axes = plt.subplots(4, 3, figsize=(11.5, 13.0), layout="constrained")
+    panels = axes.ravel()
+    told = [one for one in scores.records if one.known_truth and one.scorable and one.found]
+    _against_truth(panels[0], told, "lag")
+    _against_truth(panels[1], told, "extent")
+    _rules(panels[2], told)
+    for panel, (name, rows) in zip(panels[3:11], dependences.items(), strict=True):
+        _bars(panel, rows, name[0].upper() + name[1:])
+    _abstention(panels[11], scores.records)
+    return figure
 
 
 def _against_truth(axes: Axes, told: list[ScoredRecord], what: str) -> None:
@@ -48,8 +57,11 @@ def _against_truth(axes: Axes, told: list[ScoredRecord], what: str) -> None:
         scale = 1e3 if what == "lag" else math.degrees(1.0)
         true = np.array([getattr(one, f"true_{what}") for one in own]) * scale
         axes.loglog(true, np.array([getattr(one, what) for one in own]) * scale, ".", color=colour, ms=4, label=name)
-    low, high = axes.get_xlim()
-    axes.plot([low, high], [low, high], color=GREY, lw=0.8)
+    if told:
+        low, high = axes.get_xlim()
+        axes.plot([low, high], [low, high], color=GREY, lw=0.8)
+    else:
+        _say_empty(axes)
     unit = "ms" if what == "lag" else "degrees"
     axes.set(title=f"{what.capitalize()} of scored records", xlabel=f"true, {unit}", ylabel=f"estimated, {unit}")
     axes.legend()
@@ -64,7 +76,11 @@ def _rules(axes: Axes, told: list[ScoredRecord]) -> None:
         axes.bar(place + (k - 2) * width, means, width, color=colour, label=name)
     axes.set_xticks(place, [noise_name(level) for level in NOISE_LEVELS])
     axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
+    axes.set_xlim(-0.6, len(NOISE_LEVELS) - 0.4)
     axes.margins(y=0.35)  # room for the legend
+    if not told:
+        axes.set_ylim(0.0, 1.0)
+        _say_empty(axes)
     axes.legend(ncols=2, fontsize=6.5, loc="upper left")
     faint_grid(axes)
 
@@ -74,17 +90,41 @@ def _mean(values: list[float]) -> float:
     return float(np.mean(finite)) if finite else math.nan
 
 
-def _bars(axes: Axes, table: list[dict[str, Any]], title: str) -> None:
+def _say_empty(axes: Axes) -> None:
+    axes.text(0.5, 0.5, "no record was told a size", transform=axes.transAxes, ha="center", va="center", color=GREY)
+
+
+def _bars(axes: Axes, rows: list[dict[str, Any]], title: str) -> None:
+    table = most_frequent(rows)
     place = np.arange(len(table))
     for k, (column, colour, name) in enumerate(
         (("lag_error", BLUE, "lag"), ("arc_error", ORANGE, "arc"), ("no_estimate", GREY, "no estimate, share"))
     ):
         axes.bar(place + (k - 1) * 0.27, [row[column] for row in table], 0.27, color=colour, label=name)
-    axes.set_xticks(place, [f"{row['value']}\n({row['records']})" for row in table], fontsize=7)
-    axes.set(title=f"{title} (records)", ylabel="mean |error| / true")
+    middle, half = (len(table) - 1) / 2.0, max(len(table), 2) / 2.0 + 0.1
+    axes.set_xlim(middle - half, middle + half)
+    _name_bins(axes, table)
+    left_out = f", {len(table)} of {len(rows)}" if len(table) < len(rows) else ""
+    axes.set(title=f"{title} (records{left_out})", ylabel="mean |error| / true")
     if title.startswith("Noise"):
-        axes.legend(fontsize=6.5)
+        axes.margins(y=0.35)
+        axes.legend(fontsize=6.5, ncols=3, loc="upper left", columnspacing=1.0, handlelength=1.2)
     faint_grid(axes)
+
+
+def most_frequent(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The rows of a table that there is room for, those of the most records, in their order."""
+    kept = sorted(range(len(rows)), key=lambda k: -rows[k]["records"])[:MOST_BINS]
+    return [rows[k] for k in sorted(kept)]
+
+
+def _name_bins(axes: Axes, table: list[dict[str, Any]]) -> None:
+    """Values and numbers of records below the bars, aslant where they would not fit side by side."""
+    crowded = sum(len(row["value"]) for row in table) > LONGEST_LEVEL_NAMES
+    gap = " " if crowded else "\n"
+    names = [f"{row['value']}{gap}({row['records']})" for row in table]
+    aslant: dict[str, Any] = {"rotation": 25, "ha": "right", "rotation_mode": "anchor"} if crowded else {}
+    axes.set_xticks(range(len(table)), names, fontsize=7, **aslant)
 
 
 def _abstention(axes: Axes, records: list[ScoredRecord]) -> None:
@@ -92,7 +132,8 @@ def _abstention(axes: Axes, records: list[ScoredRecord]) -> None:
         ([one.trust for one in records if one.known_truth and one.without_event], VERMILLION, "no event"),
         ([one.trust for one in records if one.known_truth and one.scorable], BLUE, "to be told a size"),
     )
-    for values, colour, name in kinds:
+    for values, colour, name in (kind for kind in kinds if kind[0]):
         axes.hist(values, bins=[k / 20.0 for k in range(21)], histtype="step", color=colour, label=name, density=True)
     axes.set(title="Trust in the pair of events", xlabel="1 − expected error of the lag", ylabel="density")
-    axes.legend()
+    if any(values for values, *_ in kinds):
+        axes.legend()

@@ -12,14 +12,16 @@ from datagen.drawing.style import BLUE, GREEN, GREY, INK, MAP, ORANGE, PALE, VER
 from labels.spectrogram import spectrogram
 from physics.modes import modes
 from physics.outcome import StaticOutcome
-from physics.statics import equilibrium
-from physics.stiffness import matrix
+from physics.statics.load_distribution import equilibrium
+from physics.statics.stiffness import matrix
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 DYNAMIC_RANGE_DB = 70.0
 MOST_NAMED_PASSES = 8
+MOST_BOLD_EVENTS = 12
+LEAST_STIFFNESS_SPAN = 2e-3  # of its value: less is not worth an axis
 Array = NDArray[np.float64]
 
 
@@ -52,8 +54,9 @@ def draw_close_up(axes: Axes, portrait: Portrait) -> None:
         (table.regain_time, GREEN, "regain of contact"),
     ):
         inside = times[(times >= portrait.window[0]) & (times <= portrait.window[1])]
+        width = 0.9 if inside.size <= MOST_BOLD_EVENTS else 0.5
         for k, instant in enumerate(inside):
-            axes.axvline(instant * 1e3, color=colour, linewidth=0.9, zorder=1, label=name if k == 0 else None)
+            axes.axvline(instant * 1e3, color=colour, linewidth=width, zorder=1, label=name if k == 0 else None)
     axes.set(ylabel="m/s²")
     axes.set_title("Close-up")
     axes.tick_params(labelbottom=False, bottom=False)
@@ -91,7 +94,8 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
     axes.tick_params(labelbottom=False)
     axes.spines["left"].set_visible(False)
     if shown.size == 0:
-        axes.text(0.5, 0.5, "no defect to pass", transform=axes.transAxes, ha="center", va="center", color=GREY)
+        words = "no ball passes a spall in this time" if portrait.scene.spalls else "no defect to pass"
+        axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=GREY)
 
 
 def _lanes(entry: NDArray[np.float64], leave: NDArray[np.float64]) -> list[int]:
@@ -114,11 +118,19 @@ def draw_stiffness(axes: Axes, portrait: Portrait) -> None:
         panel.plot(fine * 1e3, values, color=colour, linewidth=1.3)
         panel.set_ylabel(f"{name} (MN/m)", color=colour)
         panel.tick_params(axis="y", colors=colour)
-        panel.margins(y=0.12)
+        panel.set_ylim(*_with_margin(values))
+        panel.ticklabel_format(axis="y", useOffset=False)
     across.spines["right"].set_visible(True)
     axes.set_title("Quasi-static stiffness: kyy along the load, kxx across it")
     axes.tick_params(labelbottom=False)
     faint_grid(axes)
+
+
+def _with_margin(values: Array) -> tuple[float, float]:
+    """Limits of an axis about `values`, wide enough that what hardly changes looks like that."""
+    low, high = float(values.min()), float(values.max())
+    middle, span = (low + high) / 2.0, max(high - low, LEAST_STIFFNESS_SPAN * abs(high), 1e-9)
+    return middle - 0.62 * span, middle + 0.62 * span
 
 
 def draw_spectrogram(axes: Axes, portrait: Portrait) -> None:

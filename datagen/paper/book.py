@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib import import_module
@@ -15,6 +14,7 @@ from datagen.drawing.style import house_style, plt
 from datagen.errors import BadInput
 from datagen.paper.chapter import Chapter
 from datagen.paper.tables import csv_text, page
+from datagen.places import require_folder
 from datagen.plain import plain_json
 
 CHAPTERS = {
@@ -64,13 +64,11 @@ def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) ->
 
 
 def _prepare(out: Path) -> None:
+    require_folder(out)
     try:
         out.mkdir(parents=True, exist_ok=True)
-        allowed = os.access(out, os.W_OK | os.X_OK)
     except OSError as problem:
         raise BadInput(f"cannot make this folder: {problem.strerror}", field="--out", value=str(out)) from None
-    if not allowed:
-        raise BadInput("cannot write into this folder", field="--out", value=str(out))
 
 
 def _picture(chapter: Chapter) -> bytes:

@@ -13,10 +13,10 @@ from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, f
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import SHOWN_SEED, line_spall, machine, reference_extended_spall, scene, wavy_extended_spall
-from physics.profile import race_depth
+from physics.paths.profile import race_depth
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,7 +14,7 @@ from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import SHOWN_SEED, line_spall, reference_extended_spall, scene, wavy_extended_spall
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -38,7 +38,7 @@ from labels.truth import ball_passes
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

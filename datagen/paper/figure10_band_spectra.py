@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +15,7 @@ from datagen.paper.published import published
 from datagen.paper.recordings import SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, line_spall, machine, scene, signal
 from labels.density import power_density
+from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import coupled_resonator_frequency, rated_matrices
 
 if TYPE_CHECKING:
@@ -71,8 +71,7 @@ def chapter(count: int = len(SEEDS)) -> Chapter:
 def rows(levels: dict[str, list[Array]], slipping: Array, steady: float) -> list[Row]:
     """The table of Figure 10."""
     rig = machine("gearbox")
-    alone = math.sqrt(rig.resonator_stiffness / rig.resonator_mass) / (2.0 * math.pi)
-    ratio = rig.resonator_damping / (2.0 * math.sqrt(rig.resonator_stiffness * rig.resonator_mass))
+    alone, ratio = resonator_alone_hz(rig), resonator_damping_ratio(rig)
     pole = coupled_resonator_frequency(rig, rated_matrices(rig)[0])
     middle = float(np.median(slipping))
     found = [

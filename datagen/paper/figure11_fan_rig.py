@@ -29,6 +29,7 @@ from labels.density import power_density
 from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.spectrogram import spectrogram
 from labels.truth import PassTable, ball_passes
+from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import modes, rated_matrices
 from physics.simulate import simulate
 from physics.spall import Spall
@@ -124,8 +125,7 @@ def chapter() -> Chapter:
 def rows(gradual: Recording, equal: Recording, gap: Recording) -> list[Row]:
     """The table of Figure 11."""
     rig, along_y = machine("fan"), vertical_modes() * 1e-3
-    alone = math.sqrt(rig.resonator_stiffness / rig.resonator_mass) / (2.0 * math.pi)
-    ratio = rig.resonator_damping / (2.0 * math.sqrt(rig.resonator_stiffness * rig.resonator_mass))
+    alone, ratio = resonator_alone_hz(rig), resonator_damping_ratio(rig)
     angle = math.degrees(SPALL_LENGTH / rig.bearing.raceway_radius("outer"))
     return [
         beside(NAME, "bpfo", "BPFO", bpfo_hz("fan")),

@@ -14,12 +14,12 @@ from physics.catalog import rig
 from physics.hertz import contact_width
 from physics.imperfections import Imperfections
 from physics.operation import Operation
+from physics.paths.roughness import HALVED_WAVE_WIDTHS, draw_roughness
+from physics.paths.spall_surface import window
 from physics.rig import Rig
-from physics.roughness import HALVED_WAVE_WIDTHS, draw_roughness
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.spall_surface import window
 
 Array = NDArray[np.float64]
 

@@ -48,7 +48,8 @@ def parse_distribution(value: object) -> Distribution:
     kinds = [kind for kind in DISTRIBUTIONS if kind.keys[0] in value]
     if len(kinds) != 1:
         hint = suggestion(str(next(iter(value), "")), NAMES) if not kinds else ""
-        raise DistributionError(f"keys {list(value)}: give one of {', '.join(NAMES)}{hint}")
+        keys = f"the keys {', '.join(map(str, value))} are" if value else "an empty table is"
+        raise DistributionError(f"{keys} no distribution: give one of {', '.join(NAMES)}{hint}")
     allowed = kinds[0].keys
     for key in value:
         if key not in allowed:

@@ -9,8 +9,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PrivateAttr, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
 
+from datagen.corpora.netcdf import COMPRESSIONS, NO_LZ4
 from datagen.errors import BadInput
 from datagen.recipes.accuracy_settings import AccuracySettings
 from datagen.recipes.background_settings import BackgroundSettings
@@ -62,10 +64,16 @@ class Signal(Table):
         return self
 
 
+def _offered(compression: object) -> object:
+    if compression == "lz4":
+        raise PydanticCustomError("settings", "{problem}", {"problem": NO_LZ4, "allowed": ", ".join(COMPRESSIONS)})
+    return compression
+
+
 class Store(Table):
     """What is written and how."""
 
-    compression: Literal["zlib", "none", "lz4"] = "zlib"
+    compression: Annotated[Literal["zlib", "none"], BeforeValidator(_offered)] = "zlib"
     """Compression of the shards."""
     records_per_shard: Annotated[int, Field(ge=1, le=1_000_000)] = 32
     """Most records in one shard."""
@@ -97,8 +105,14 @@ class Split(Table):
     def _whole(self) -> Split:
         total = self.train + self.validation + self.test
         if abs(total - 1.0) > 1e-9:
-            raise refuse(f"train, validation and test add up to {total:g}", "train", "shares that add up to 1")
+            shares = {name: getattr(self, name) for name in type(self).model_fields}
+            said = (f"{name} = {share:g}{self._origin(name)}" for name, share in shares.items())
+            first = next(name for name in shares if name in self.model_fields_set)
+            raise refuse(f"{', '.join(said)} add up to {total:g}", first, "three shares that add up to 1")
         return self
+
+    def _origin(self, name: str) -> str:
+        return "" if name in self.model_fields_set else " (its default)"
 
 
 class Part(Table):
@@ -230,12 +244,17 @@ def load_recipe(path_or_name: str | Path) -> Recipe:
     """The recipe in a file, in a folder's `recipe.toml` or of a dataset that comes with spallgen; raises BadInput."""
     path = find_recipe(path_or_name)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
         content = tomllib.loads(text)
+    except OSError as error:
+        raise BadInput(f"cannot be read: {error.strerror}", file=str(path)) from None
     except UnicodeDecodeError:
         raise BadInput("not a UTF-8 text file", file=str(path)) from None
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"not valid TOML: {error}", file=str(path)) from None
+    if "recording" in content and "part" not in content:
+        problem = "this is a SPEC of recordings, which `spallgen import` brings in, and no recipe"
+        raise BadInput(problem, str(path), "recording", allowed="[[part]]")
     return parse_recipe(content, path, text)
 
 

@@ -12,6 +12,7 @@ from datagen.recipes.spelling import suggestion
 from datagen.recipes.toml_lines import Location, line_of
 
 MOST_LISTED = 16
+SCALARS = ("str", "float", "int", "bool")
 EXPECTED = {
     "string_type": "a text in quotes",
     "int_type": "a whole number",
@@ -20,7 +21,10 @@ EXPECTED = {
     "bool_type": "true or false",
     "tuple_type": "a list (a list of tables has double brackets: [[part]])",
     "model_type": "a table",
+    "model_attributes_type": "a table",
+    "dict_type": "a table",
     "finite_number": "a finite number",
+    "greater_than": "above {gt}",
     "greater_than_equal": "at least {ge}",
     "less_than_equal": "at most {le}",
     "literal_error": "{expected}",
@@ -34,18 +38,40 @@ EXPECTED = {
 
 def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
-    errors = sorted(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
-    first: dict[str, Any] = dict(errors[0])
+    errors: list[dict[str, Any]] = [dict(one) for one in error.errors()]
+    first = min(errors, key=lambda one: (one["type"] != "extra_forbidden", _is_other_kind(one)))
     context = first.get("ctx", {})
-    location: Location = tuple(first["loc"]) + ((context["field"],) if context.get("field") else ())
+    location = _place(first) + ((context["field"],) if context.get("field") else ())
     line = line_of(text, location)
     return BadInput(
         _problem(first, location, model),
         f"{path}, line {line}" if line else str(path),
         dotted(location),
         _value(first, location, context.get("field", "")),
-        context.get("allowed") or EXPECTED.get(first["type"], "").format(**context),
+        _allowed(first, [one for one in errors if _place(one) == _place(first)]),
     )
+
+
+def _place(one: dict[str, Any]) -> Location:
+    """Where the setting is, without the names of the kinds of value that pydantic tried there."""
+    return tuple(step for step in one["loc"] if isinstance(step, int) or not _is_kind(step))
+
+
+def _is_kind(step: str | int) -> bool:
+    return isinstance(step, str) and (step in SCALARS or step[:1].isupper())
+
+
+def _is_other_kind(one: dict[str, Any]) -> bool:
+    """True if a table was tried as a single value, which says less than what is wrong in the table."""
+    return isinstance(one["input"], dict) and any(step in SCALARS for step in one["loc"][-1:])
+
+
+def _allowed(first: dict[str, Any], alike: list[dict[str, Any]]) -> str:
+    """What is allowed; where several kinds of value were tried at the place, all of them."""
+    kinds = alike if any(map(_is_kind, first["loc"][-1:])) else [first]
+    contexts = [(one["type"], one.get("ctx", {})) for one in kinds]
+    words = [context.get("allowed") or EXPECTED.get(kind, "").format(**context) for kind, context in contexts]
+    return " or ".join(dict.fromkeys(word for word in words if word))
 
 
 def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) -> str:
@@ -57,6 +83,10 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
         hint = suggestion(str(location[-1]), known)
         listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
         return f"unknown key{hint}{listed}"
+    misplaced = _settings_beside(first, location, model) if kind == "distribution" else []
+    if misplaced:
+        place = dotted((*location[:-1], misplaced[0]))
+        return f"{', '.join(misplaced)}: a setting of its own, written beside it as {place}"
     problem = first.get("ctx", {}).get("problem")
     return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
 
@@ -69,6 +99,12 @@ def _value(first: dict[str, Any], location: Location, field: str) -> object:
         return None if isinstance(given, BaseModel) or location == ("part",) else given
     value = given.get(field) if isinstance(given, dict) else None
     return None if field == "part" else value
+
+
+def _settings_beside(first: dict[str, Any], location: Location, model: type[BaseModel]) -> list[str]:
+    """Keys of a value that was to be a distribution, if all of them are names of settings beside it."""
+    keys = list(map(str, first["input"])) if isinstance(first["input"], dict) else []
+    return keys if set(keys) <= set(_keys_beside(location, model)) else []
 
 
 def _keys_beside(location: Location, model: type[BaseModel]) -> list[str]:

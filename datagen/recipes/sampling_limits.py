@@ -89,9 +89,7 @@ def _catalogue_resonances(recipe: Recipe) -> Iterator[tuple[int, str, float]]:
             continue
         for name in possible_words(machine.rig):
             if name in RIGS:
-                rig = RIGS[name].build(name)
-                masses = 1.0 / rig.resonator_mass + 1.0 / rig.outer_mass
-                yield index, name, math.sqrt(rig.resonator_stiffness * masses) / (2.0 * math.pi)
+                yield index, name, RIGS[name].build(name).free_resonance / (2.0 * math.pi)
 
 
 def _of_chain(chain: ChainSettings) -> Iterator[Frequency]:
@@ -104,6 +102,8 @@ def _of_chain(chain: ChainSettings) -> Iterator[Frequency]:
 def _of_background(background: BackgroundSettings) -> Iterator[Frequency]:
     if background.pink is not None:
         yield ("background", "pink", "lowest_hz"), background.pink.lowest_hz, "band of the noise"
+    if background.mains_hum is not None:
+        yield ("background", "mains_hum", "frequency_hz"), background.mains_hum.frequency_hz, "mains frequency"
     if background.impulses is not None:
         yield ("background", "impulses", "frequency_hz"), background.impulses.frequency_hz, "resonance"
 

@@ -62,7 +62,8 @@ class _Setting:
                     raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": self._hint(stated)})
             return self.confined(distribution)
         except DistributionError as error:
-            raise PydanticCustomError("distribution", "{problem}", {"problem": str(error)}) from None
+            told = {"problem": str(error), "allowed": self.allowed()}
+            raise PydanticCustomError("distribution", "{problem}", told) from None
 
     def _hint(self, value: object) -> str:
         return self.allowed()

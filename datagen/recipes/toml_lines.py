@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 Location = tuple[str | int, ...]
 HEADER = re.compile(r"^\s*(\[\[?)\s*([A-Za-z0-9_.\-\s]+?)\s*\]\]?\s*(#.*)?$")
@@ -21,6 +22,20 @@ def line_of(text: str, location: Location) -> int | None:
         if location[:length] in lines:
             return lines[location[:length]]
     return None
+
+
+def place_in_file(path: str, location: Location) -> str:
+    """The file `path` for a message, with the line of the setting at `location` where it can be found now."""
+    line = line_of(text_of(path), location)
+    return f"{path}, line {line}" if line else path
+
+
+def text_of(path: str) -> str:
+    """What a recipe's file says now; empty if it is gone."""
+    try:
+        return Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return ""
 
 
 def line_of_setting(text: str, table: Location, name: str) -> int | None:

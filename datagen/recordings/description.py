@@ -9,6 +9,7 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.recordings.settings import BearingNumbers
 from datagen.recordings.source import Source
+from labels.features.modulation import RACES
 from labels.schema import LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import Bearing
 from physics.catalog import bearing as catalogue_bearing
@@ -19,7 +20,6 @@ HEALTHY: dict[str, Any] = dict.fromkeys(
     ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness"), 0.0
 ) | {"spalls": 0, "bridged": False, "profile": "none"}
 ORDERS = ("bpfo", "bpfi", "bsf", "ftf")
-RACES = ("outer", "inner")
 
 
 def recording_labels(source: Source) -> dict[str, Any]:
@@ -71,7 +71,7 @@ def geometry(numbers: BearingNumbers) -> Bearing:
 
 
 def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
-    stated = {name: value for name in ORDERS if (value := source.positive(name)) is not None}
+    stated = {name: value for name in ORDERS if (value := source.number(name)) is not None}
     if bearing is None:
         return stated
     if stated:
@@ -108,9 +108,12 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
 
 def _sizes(source: Source, bearing: Bearing | None, location: str) -> dict[str, float]:
     """Extent in every unit that follows from the one stated, and depth; only what is known."""
-    length, arc, depth = source.positive("extent_mm"), source.positive("extent_deg"), source.positive("depth_um")
+    length, arc, depth = source.number("extent_mm"), source.number("extent_deg"), source.number("depth_um")
     radius = bearing.raceway_radius(location) if bearing and location in RACES else math.nan
     angle = math.radians(arc) if arc is not None else math.nan if length is None else length * 1e-3 / radius
+    if angle > 2.0 * math.pi:
+        whole = f"a number above 0 to {2e3 * math.pi * radius:.4g}, the way round the {location} race"
+        raise BadInput(file=source.request.place, field="extent_mm", value=length, allowed=whole)
     values: dict[str, Callable[[], float]] = {
         "extent": lambda: angle,
         "extent_mm": lambda: length if length is not None else angle * radius * 1e3,

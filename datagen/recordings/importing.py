@@ -17,6 +17,7 @@ from datagen.corpora.index import write_index
 from datagen.corpora.manifest import Manifest, write_manifest
 from datagen.corpora.shard import finished_shards, write_shard
 from datagen.errors import BadInput
+from datagen.places import require_folder
 from datagen.recordings.dataset import imported_dataset
 from datagen.recordings.listing import Listing, Request, list_requests
 from datagen.recordings.recorded import Key, Recorded, read_recording
@@ -95,8 +96,7 @@ def _import(spec: Spec, folder: Path, root: Path) -> Imported:
 
 
 def _check_folder(folder: Path) -> None:
-    if folder.exists() and not folder.is_dir():
-        raise BadInput("a file of this name is in the way", str(folder), "--out")
+    require_folder(folder)
     if folder.exists() and any(folder.iterdir()):
         raise BadInput(
             "this folder is not empty; an import never adds to what is there", str(folder), "--out",

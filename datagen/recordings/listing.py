@@ -55,8 +55,10 @@ class _Finder:
         requests: list[Request] = []
         for number, recording in enumerate(self.spec.recording, start=1):
             place = f"{self.spec.source}: recording[{number}] ({recording.name})"
-            found = [one for file in self._files(recording, place) for one in self._requests(recording, place, *file)]
-            requests += found
+            files = list(self._files(recording, place))
+            if recording.absent_files == "refuse":
+                self._refuse_idle_overrides(recording, place, [path for path, _ in files])
+            requests += [one for file in files for one in self._requests(recording, place, *file)]
         if not requests:
             raise BadInput(f"none of its files is below {self.root}", str(self.spec.source), "root", str(self.root))
         return Listing(tuple(requests), tuple(self.tables), tuple(self.absent))
@@ -136,6 +138,15 @@ class _Finder:
             raise BadInput(f"no such file below {self.root}", row.place, "file", "|".join(row.files))
         self.absent.append(row.files[0])
 
+    def _refuse_idle_overrides(self, recording: Recording, place: str, paths: list[Path]) -> None:
+        for number, override in enumerate(recording.override, start=1):
+            for pattern in override.patterns:
+                if not any(self._fits(path, pattern) for path in paths):
+                    raise BadInput(
+                        "fits none of these recordings", f"{place}, override[{number}]", "files", pattern,
+                        ", ".join([self._name(path) for path in paths[:4]] + (["…"] if len(paths) > 4 else [])),
+                    )  # fmt: skip
+
     def _requests(self, recording: Recording, place: str, path: Path, row: TableRow | None) -> Iterator[Request]:
         own = {name: value for name, value in recording.given().items() if name not in _NOT_SETTINGS}
         settings = merged(self.spec.defaults.given(), own)
@@ -144,8 +155,7 @@ class _Finder:
             _refuse_two_speeds(settings, row)
             settings = merged(settings, row.settings)
         for override in recording.override:
-            patterns = (override.files,) if isinstance(override.files, str) else override.files
-            if any(self._fits(path, pattern) for pattern in patterns):
+            if any(self._fits(path, pattern) for pattern in override.patterns):
                 settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
         for channel in _channels(settings, where):
             yield Request(recording.name, path, self._name(path), channel, settings, where)

@@ -20,10 +20,11 @@ from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speed
 from datagen.recordings.source import Source, open_source, samples_hash, source_hash
-from datagen.recordings.values import FromVariable
+from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.envelope import FALLBACK_SHARES
 from labels.variables import AXES
 
+LARGEST_ACCELERATION = 1e9
 Key = tuple[float, int, tuple[str, ...], tuple[str, ...]]
 
 
@@ -65,7 +66,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             "duration_s": part.shape[0] / rate,
         }
         yield Recorded(
-            acceleration=(part * factor).astype(np.float32),
+            acceleration=_accelerations(part, factor, source),
             axes=axes,
             rate=rate,
             labels=labels | own,
@@ -80,16 +81,18 @@ def _name(request: Request) -> str:
 
 
 def _rate(source: Source) -> float:
-    stated = source.positive("rate_hz")
+    stated = source.number("rate_hz")
     if file_format(source.path, source.setting("format")) == "wav":
         held = float(source.arrays[RATE_NAME])
         if stated not in (None, held):
             raise BadInput("the file says another rate", str(source.path), "rate_hz", stated, f"{held:g}")
+        if not in_range("rate_hz", held):
+            raise BadInput("the file's own", str(source.path), "rate_hz", held, RANGES["rate_hz"].allowed())
         return held
     if stated is None:
         raise BadInput(
             "the sampling rate is not given", source.request.place, "rate_hz",
-            allowed='a number above 0, or {variable = "NAME"}',
+            allowed=f'{RANGES["rate_hz"].allowed()}, or {{variable = "NAME"}}',
         )  # fmt: skip
     return stated
 
@@ -111,6 +114,19 @@ def _scale(source: Source) -> float:
     if scale == 0.0:
         raise BadInput(file=str(source.path), field="scale", value=0.0, allowed="any number but 0")
     return UNITS[unit] * (1.0 if scale is None else scale)
+
+
+def _accelerations(counts: NDArray[np.float64], factor: float, source: Source) -> NDArray[np.float32]:
+    """Stored numbers (T, axes) in m/s²."""
+    with np.errstate(over="ignore"):
+        scaled = counts * factor
+    largest = float(np.abs(scaled).max())
+    if not largest <= LARGEST_ACCELERATION:
+        raise BadInput(
+            f"the largest sample would be {largest:.3g} m/s²", str(source.path), "scale", source.number("scale") or 1.0,
+            f"samples up to {LARGEST_ACCELERATION:g} m/s²",
+        )  # fmt: skip
+    return scaled.astype(np.float32)
 
 
 def _band(source: Source, rate: float, axes: tuple[str, ...]) -> tuple[float, float]:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from datagen.recipes.settings import Table, at_most_one, refuse
-from datagen.recordings.values import AboveZero, AnyNumber, FromVariable, NotNegative, number, word
+from datagen.recordings.values import RANGES, FromVariable, finite_notes, number, word
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
 FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+Diameter = Annotated[float, Field(gt=0.0, le=1e5)]
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
 
@@ -38,11 +39,11 @@ class Tach(Table):
 
     variable: str
     """Variable of the pulses."""
-    pulses_per_rev: Positive = 1.0
+    pulses_per_rev: Annotated[float, Field(ge=1e-3, le=1e6)] = 1.0
     """Pulses per revolution of the shaft."""
-    threshold: float | None = None
+    threshold: Annotated[float, Field(allow_inf_nan=False)] | None = None
     """Level that a pulse rises through, in the channel's own unit; half-way between its extremes if not given."""
-    rate_hz: Positive | None = None
+    rate_hz: Annotated[float, Field(ge=RANGES["rate_hz"].low, le=RANGES["rate_hz"].high)] | None = None
     """Sampling rate of the pulses, if not that of the vibration."""
 
 
@@ -68,9 +69,9 @@ class BearingNumbers(Table):
     """Rolling elements in one row."""
     rows: Annotated[int, Field(ge=1, le=2)] = 1
     """Rows of rolling elements."""
-    pitch_diameter_mm: Positive
+    pitch_diameter_mm: Diameter
     """Diameter of the circle through the balls' centres, mm."""
-    ball_diameter_mm: Positive
+    ball_diameter_mm: Diameter
     """Diameter of a rolling element, mm."""
     contact_angle_deg: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
     """Contact angle, degrees."""
@@ -91,19 +92,19 @@ class RecordingSettings(Table):
     """Variable of the axis along the load, where there is one channel."""
     channel_name: str | None = None
     """Name of that one channel."""
-    rate_hz: AboveZero | None = None
+    rate_hz: Annotated[float | FromVariable, number("rate_hz")] | None = None
     """Sampling rate, Hz; a .wav file says it itself."""
     unit: Annotated[str, word(*UNITS)] | None = None
     """Unit of the samples times `scale`."""
-    scale: AnyNumber | None = None
+    scale: Annotated[float | FromVariable, number("scale")] | None = None
     """What the stored numbers are multiplied by; 1 if not given."""
-    speed_rpm: NotNegative | None = None
+    speed_rpm: Annotated[float | FromVariable, number("speed_rpm")] | None = None
     """Speed of the shaft, revolutions per minute."""
-    speed_hz: NotNegative | None = None
+    speed_hz: Annotated[float | FromVariable, number("speed_hz")] | None = None
     """Speed of the shaft, revolutions per second."""
     tach: Tach | None = None
     """Pulse channel that gives the speed."""
-    nominal_speed_rpm: NotNegative | None = None
+    nominal_speed_rpm: Annotated[float | FromVariable, number("nominal_speed_rpm")] | None = None
     """Speed to assume where the variable of `speed_rpm` or `speed_hz` is absent, or where neither is given."""
     bearing: str | BearingNumbers | None = None
     """Name of a bearing in the catalogue, or its geometry."""
@@ -123,27 +124,27 @@ class RecordingSettings(Table):
     """State of the bearing; by default what location and extent say."""
     location: Annotated[str, word(*LOCATIONS, *LABEL["location"].imported)] | None = None
     """What is defective."""
-    spalls: Annotated[int, Field(ge=0)] | None = None
+    spalls: Annotated[int, Field(ge=0, le=10_000)] | None = None
     """Number of defects."""
-    extent_mm: AboveZero | None = None
+    extent_mm: Annotated[float | FromVariable, number("extent_mm")] | None = None
     """Length of the defect along its raceway, mm."""
-    extent_deg: Annotated[float | FromVariable, number(0.0, 360.0, above=True)] | None = None
+    extent_deg: Annotated[float | FromVariable, number("extent_deg")] | None = None
     """Arc covered by the defect, degrees."""
-    depth_um: AboveZero | None = None
+    depth_um: Annotated[float | FromVariable, number("depth_um")] | None = None
     """Depth of the defect, µm."""
-    load_n: AnyNumber | None = None
+    load_n: Annotated[float | FromVariable, number("load_n")] | None = None
     """Radial load on the shaft, N."""
-    snr_db: AnyNumber | None = None
+    snr_db: Annotated[float | FromVariable, number("snr_db")] | None = None
     """Signal-to-noise ratio, dB."""
-    bpfo: AboveZero | None = None
+    bpfo: Annotated[float | FromVariable, number("bpfo")] | None = None
     """Ball-pass order of the outer race, where the geometry is unknown."""
-    bpfi: AboveZero | None = None
+    bpfi: Annotated[float | FromVariable, number("bpfi")] | None = None
     """Ball-pass order of the inner race, where the geometry is unknown."""
-    bsf: AboveZero | None = None
+    bsf: Annotated[float | FromVariable, number("bsf")] | None = None
     """Spin order of a ball, where the geometry is unknown."""
-    ftf: AboveZero | None = None
+    ftf: Annotated[float | FromVariable, number("ftf")] | None = None
     """Order of the cage, where the geometry is unknown."""
-    notes: dict[str, str | float | int | bool] | None = None
+    notes: Annotated[dict[str, str | float | int | bool], AfterValidator(finite_notes)] | None = None
     """Anything else worth keeping; stored as it is."""
 
     @model_validator(mode="after")

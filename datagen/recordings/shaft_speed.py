@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.recordings.settings import Tach
 from datagen.recordings.source import Source
+from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
 
 HYSTERESIS = 0.1
@@ -42,7 +43,13 @@ def tach_speed(source: Source, tach: Tach, rate: float, start: float, stop: floa
             f"{inside.size} pulses from {start:g} to {stop:g} s", str(source.path), "tach.variable", tach.variable,
             f"at least {FEWEST_PULSES} pulses",
         )  # fmt: skip
-    return float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
+    speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
+    if not in_range("speed_rpm", speed):
+        raise BadInput(
+            f"its pulses say {speed:.4g} revolutions per minute", str(source.path), "tach.pulses_per_rev",
+            tach.pulses_per_rev, f"what gives {RANGES['speed_rpm'].allowed()}",
+        )  # fmt: skip
+    return speed
 
 
 def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:

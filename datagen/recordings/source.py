@@ -20,9 +20,10 @@ from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import CsvLayout
-from datagen.recordings.values import FromVariable
+from datagen.recordings.values import RANGES, FromVariable, in_range
 
 Array = NDArray[np.float64]
+CONSTANT = ("rate_hz",)
 
 
 @dataclass(frozen=True)
@@ -73,9 +74,10 @@ class Source:
         return name if places is None else f"{name}[{places}]"
 
     def number(self, name: str) -> float | None:
-        """A number that is stated or that the file holds; None if the SPEC says nothing of it.
+        """A number in its range that is stated or that the file holds; None if the SPEC says nothing of it.
 
-        Of an array of numbers, the mean. NoVariable if the file lacks the variable.
+        Of an array of numbers, the mean; of sampling rates, which cannot have one, the only one. NoVariable if the file
+        lacks the variable.
         """
         said = self.setting(name)
         if not isinstance(said, FromVariable):
@@ -83,13 +85,13 @@ class Source:
         found = choose(self.arrays, said.variable, self.path, name)
         if found.dtype.kind not in "iuf" or not found.size or not np.isfinite(found).all():
             raise BadInput("is no finite number", str(self.path), name, said.variable)
-        return float(np.mean(found, dtype=np.float64)) * said.factor
-
-    def positive(self, name: str) -> float | None:
-        """As `number`, above 0."""
-        value = self.number(name)
-        if value is not None and not value > 0.0:
-            raise BadInput(file=str(self.path), field=name, value=value, allowed="a number above 0")
+        if name in CONSTANT and np.ptp(found) > 0.0:
+            problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g}"
+            raise BadInput(problem, str(self.path), name, said.variable, "a variable of one number")
+        value = float(np.mean(found, dtype=np.float64)) * said.factor
+        if not in_range(name, value):
+            problem = f"from the variable {said.variable}"
+            raise BadInput(problem, str(self.path), name, value, RANGES[name].allowed())
         return value
 
     def or_none(self, name: str) -> float | None:

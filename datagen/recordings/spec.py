@@ -24,6 +24,11 @@ class Override(RecordingSettings):
     files: str | Patterns
     """Names or patterns, such as "30*.mat"."""
 
+    @property
+    def patterns(self) -> tuple[str, ...]:
+        """The names or patterns."""
+        return (self.files,) if isinstance(self.files, str) else self.files
+
 
 class Recording(RecordingSettings):
     """Files laid out alike. They are found by pattern, or listed in a table, or both."""
@@ -97,7 +102,7 @@ def load_spec(path_or_name: str | Path) -> Spec:
     """The SPEC in a file, or the one that comes with spallgen under that name; raises BadInput."""
     path = find_spec(path_or_name)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
         content = tomllib.loads(text)
     except OSError as error:
         raise BadInput(f"cannot be read: {error.strerror}", str(path)) from None
@@ -105,6 +110,9 @@ def load_spec(path_or_name: str | Path) -> Spec:
         raise BadInput("not a UTF-8 text file", str(path)) from None
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"not valid TOML: {error}", str(path)) from None
+    if "part" in content and "recording" not in content:
+        problem = "this is a recipe, whose corpus `spallgen generate` makes, and no SPEC of recordings"
+        raise BadInput(problem, str(path), "part", allowed="[[recording]]")
     return parse_spec(content, path, text)
 
 

@@ -5,11 +5,26 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator
+from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
-from datagen.recipes.settings import Between, Table
+from datagen.recipes.settings import Between, Table, refuse
 from datagen.recipes.spelling import suggestion
+
+# Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
+RANGES = {
+    "rate_hz": Between(100.0, 1e7),
+    "scale": Between(),
+    "speed_rpm": Between(0.0, 1e6),
+    "speed_hz": Between(0.0, 1e6 / 60.0),
+    "nominal_speed_rpm": Between(0.0, 1e6),
+    "extent_mm": Between(0.0, 1e4, above=True),
+    "extent_deg": Between(0.0, 360.0, above=True),
+    "depth_um": Between(0.0, 1e5, above=True),
+    "load_n": Between(0.0, 1e7),
+    "snr_db": Between(-100.0, 200.0),
+    **dict.fromkeys(("bpfo", "bpfi", "bsf", "ftf"), Between(0.0, 1e3, above=True)),
+}
 
 
 class FromVariable(Table):
@@ -17,23 +32,35 @@ class FromVariable(Table):
 
     variable: str
     """Name of the variable, as for the channels."""
-    factor: float = 1.0
+    factor: Annotated[float, Field(allow_inf_nan=False)] = 1.0
     """What it is multiplied by to have the unit of the setting."""
 
 
-def number(low: float = -math.inf, high: float = math.inf, above: bool = False) -> BeforeValidator:
-    """The check of a stated number from `low` (excluded if `above`) to `high`; a table says where it is read."""
-    allowed = Between(low, high, above)
+def number(name: str) -> BeforeValidator:
+    """The check of a stated number by its range in RANGES; a table says where it is read."""
 
     def check(value: Any) -> Any:
         if isinstance(value, dict | FromVariable):
             return value
-        if not allowed.accepts(value) or not math.isfinite(value):
-            words = f'{allowed.allowed()}, or {{variable = "NAME"}}'
+        if not in_range(name, value):
+            words = f'{RANGES[name].allowed()}, or {{variable = "NAME"}}'
             raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": words})
         return float(value)
 
     return BeforeValidator(check)
+
+
+def in_range(name: str, value: Any) -> bool:
+    """True if a number is finite and in the range of the setting `name`, stated or read from a file."""
+    return RANGES[name].accepts(value) and math.isfinite(value)
+
+
+def finite_notes(notes: dict[str, Any]) -> dict[str, Any]:
+    """The notes as they are; raises PydanticCustomError for a number that JSON does not have."""
+    wild = next((name for name, value in notes.items() if isinstance(value, float) and not math.isfinite(value)), None)
+    if wild is not None:
+        raise refuse("not a finite number", wild, "texts, finite numbers, true or false")
+    return notes
 
 
 def word(*options: str) -> AfterValidator:
@@ -46,8 +73,3 @@ def word(*options: str) -> AfterValidator:
         return value
 
     return AfterValidator(check)
-
-
-AnyNumber = Annotated[float | FromVariable, number()]
-NotNegative = Annotated[float | FromVariable, number(0.0)]
-AboveZero = Annotated[float | FromVariable, number(0.0, above=True)]

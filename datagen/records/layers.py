@@ -24,10 +24,11 @@ Layers = dict[str, Array]
 def background_layers(scenario: Scenario, signal: Array) -> Layers:
     """The layers (T, 2) that the record has, m/s², by name; scaled alike if a signal-to-noise ratio is asked for.
 
-    `signal` (T, 2) is what the sensor gives without them.
+    `signal` (T, 2) is what the sensor gives without them. A layer of which the record has nothing, as tones that all
+    lie above half its rate or knocks of which none fell into it, is absent.
     """
     found = {name: draw(scenario) for name, draw in LAYER_OF.items()}
-    layers = {name: layer for name, layer in found.items() if layer is not None}
+    layers = {name: layer for name, layer in found.items() if layer is not None and layer.any()}
     factor = _scale(scenario, signal, layers)
     return layers if factor == 1.0 else {name: factor * layer for name, layer in layers.items()}
 

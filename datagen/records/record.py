@@ -20,13 +20,13 @@ from labels.envelope import band_envelope
 from labels.noise import signal_to_noise
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
-from physics.profile import race_depth
+from physics.paths.profile import race_depth
 from physics.scene import Scene
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.recorder import recorded
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.stiffness_series import stiffness_series
+from physics.statics.stiffness_series import stiffness_series
 from physics.trace import Trace
 
 Rounded = NDArray[np.float32]
@@ -66,45 +66,61 @@ class Record:
 
 def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     """The record of `scenario` with the optional signals named in `stored`; raises SimulationFailed."""
-    scene, rate = scenario.scene, scenario.rate
-    chain = scenario.chain
-    accuracy, least_error = allowed_error(scenario)
-    trace = simulate(
-        scene,
-        rate,
-        accuracy=accuracy,
-        least_error=least_error,
-        keep_force="contact_force" in stored,
-        keep_outer=chain.needs_outer_ring,
-    )
-    signal = sensed(chain, trace)
+    trace = _simulated(scenario, keep_force="contact_force" in stored)
+    signal = sensed(scenario.chain, trace)
     layers = background_layers(scenario, signal)
-    acceleration, clipped = _recorded(chain, sum(layers.values(), signal))
+    acceleration, clipped = _recorded(scenario.chain, sum(layers.values(), signal))
     stiffness_time = stiffness_axis(scenario)
     stiffness, solved_error = _stiffness(scenario, stiffness_time)
     labels = _labels(scenario, trace, math.hypot(solved_error, interpolation_error(scenario, stiffness)))
     labels |= sensor_labels(scenario, signal, layers, clipped)
-    optional: dict[str, Callable[[], NDArray[Any]]] = {
-        "acceleration_clean": lambda: trace.acceleration.astype(np.float32),
-        "acceleration_sensor": lambda: signal.astype(np.float32),
-        "background": lambda: _stacked(layers, signal.shape),
-        "cage_angle": lambda: scene.cage.angle(trace.time),
-        "profile_depth": lambda: _profile_depth(scene),
-        "contact_force": lambda: np.asarray(trace.contact_force, dtype=np.float32),
-    }
+    optional = _optional_signals(scenario, trace, signal, layers)
     return Record(
         index=scenario.record,
         time=trace.time,
         stiffness_time=stiffness_time,
         acceleration=acceleration,
-        envelope=band_envelope(acceleration[:, 1].astype(np.float64), rate, scenario.envelope_band).astype(np.float32),
+        envelope=_envelope(scenario, acceleration),
         stiffness=stiffness.astype(np.float32),
-        passes=ball_passes(scene, trace.changes, scenario.duration),
-        spalls=scene.spalls,
+        passes=ball_passes(scenario.scene, trace.changes, scenario.duration),
+        spalls=scenario.scene.spalls,
         labels={label.name: labels[label.name] for label in LABELS},
         scenario=scenario.to_json(),
         **{name: optional[name]() for name in stored},
     )
+
+
+def _simulated(scenario: Scenario, keep_force: bool) -> Trace:
+    accuracy, least_error = allowed_error(scenario)
+    return simulate(
+        scenario.scene,
+        scenario.rate,
+        accuracy=accuracy,
+        least_error=least_error,
+        keep_force=keep_force,
+        keep_outer=scenario.chain.needs_outer_ring,
+        fastest_path=scenario.chain.fastest,
+    )
+
+
+def _optional_signals(
+    scenario: Scenario, trace: Trace, signal: NDArray[np.float64], layers: Layers
+) -> dict[str, Callable[[], NDArray[Any]]]:
+    """What gives each optional signal, by name: only those that are stored are computed."""
+    return {
+        "acceleration_clean": lambda: trace.acceleration.astype(np.float32),
+        "acceleration_sensor": lambda: signal.astype(np.float32),
+        "background": lambda: _stacked(layers, signal.shape),
+        "cage_angle": lambda: scenario.scene.cage.angle(trace.time),
+        "profile_depth": lambda: _profile_depth(scenario.scene),
+        "contact_force": lambda: np.asarray(trace.contact_force, dtype=np.float32),
+    }
+
+
+def _envelope(scenario: Scenario, acceleration: Rounded) -> Rounded:
+    """Envelope (T,) of the y axis of `acceleration` (T, 2) in the record's band, m/s²."""
+    along = acceleration[:, 1].astype(np.float64)
+    return band_envelope(along, scenario.rate, scenario.envelope_band).astype(np.float32)
 
 
 def _stiffness(scenario: Scenario, time: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

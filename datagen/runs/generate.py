@@ -11,12 +11,15 @@ from datagen.corpora.format import Identity, format_hash
 from datagen.corpora.manifest import manifest_path, read_manifest
 from datagen.corpora.netcdf import check_compression
 from datagen.errors import BadInput
+from datagen.places import require_folder
 from datagen.recipes.recipe import Recipe
 from datagen.records.versions import program_hash
 from datagen.runs.plan import plan_shards, selection
 from datagen.runs.progress import Reporter, Silence
+from datagen.runs.requirements import require_memory, require_possible_rates, require_room
 from datagen.runs.run import Run, Summary
-from datagen.runs.workers import Engine, engaged
+from datagen.runs.task import load_kernels_in_workers
+from datagen.runs.workers import Engine, engaged, no_workers
 
 
 def generate(
@@ -38,13 +41,17 @@ def generate(
     check_compression(recipe.store.compression)
     identity = corpus_identity(recipe)
     check_folder(folder, identity)
+    require_memory(recipe)
+    require_possible_rates(recipe, asked)
     with engaged(engine or Engine()):
+        workers_are_ready = load_kernels_in_workers() if not manifest_path(folder).exists() else no_workers
         planned = plan_shards(recipe, asked[-1][1])
+        require_room(recipe, planned, folder)
         _make_folder(folder)
         with locked(folder):
             run = Run(recipe, folder, identity, asked, reporter or Silence())
             try:
-                run.make(planned)
+                run.make(planned, workers_are_ready)
             finally:
                 run.finish()
     return run.summary(time.monotonic() - began)
@@ -59,8 +66,7 @@ def corpus_identity(recipe: Recipe) -> Identity:
 
 def check_folder(folder: Path, identity: Identity) -> None:
     """Raise BadInput if `folder` holds anything but nothing, or a corpus of the same identity."""
-    if folder.exists() and not folder.is_dir():
-        raise BadInput("a file of this name is in the way", str(folder), "--out")
+    require_folder(folder)
     if not manifest_path(folder).exists():
         strangers = _strangers(folder)
         if strangers:

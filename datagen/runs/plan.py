@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,13 +24,15 @@ from labels.variables import AXES, COMPONENTS, SIGNALS
 class PlannedShard:
     """A shard of the whole corpus: its number, its records and the optional signals that they all store.
 
-    `record_bytes` is about what the signals of one record need on the disk, `record_seconds` its length.
+    `record_bytes` is about what the signals of one record need on the disk, `raw_bytes` what they take in memory,
+    `record_seconds` its length.
     """
 
     number: int
     records: tuple[int, ...]
     stored: tuple[str, ...]
     record_bytes: float
+    raw_bytes: float
     record_seconds: float
 
 
@@ -50,8 +52,9 @@ def plan_shards(recipe: Recipe, stop: int) -> list[PlannedShard]:
         kind = (shard_key(scenario), stored)
         if kind not in growing:
             growing[kind] = len(shards)
-            size = stored_bytes(scenario, stored, recipe.store.compression)
-            shards.append(PlannedShard(len(shards), (), stored, size, scenario.duration))
+            on_disk = stored_bytes(scenario, stored, recipe.store.compression)
+            raw = stored_bytes(scenario, stored, "none")
+            shards.append(PlannedShard(len(shards), (), stored, on_disk, raw, scenario.duration))
         place = growing[kind]
         shards[place] = replace(shards[place], records=(*shards[place].records, record))
         if len(shards[place].records) == recipe.store.records_per_shard:
@@ -107,6 +110,11 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
 def needed_bytes(shards: Sequence[PlannedShard]) -> float:
     """About what the shards need on the disk."""
     return sum(len(shard.records) * shard.record_bytes for shard in shards)
+
+
+def longest_first(shards: Iterable[PlannedShard]) -> list[PlannedShard]:
+    """The shards in the order in which several workers end together: those with the longest records in sum first."""
+    return sorted(shards, key=lambda shard: len(shard.records) * shard.record_seconds, reverse=True)
 
 
 def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) -> tuple[Span, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from datagen.corpora.manifest import Manifest, Span, add_spans, manifest_path, r
 from datagen.corpora.shard import Failure, Sidecar, finished_shards
 from datagen.recipes.recipe import Recipe
 from datagen.records.versions import program_versions
-from datagen.runs.plan import PlannedShard, needed_bytes
+from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
 from datagen.runs.progress import Reporter, for_people
 from datagen.runs.task import make_shard, warm_kernels
 from datagen.runs.workers import WorkerLost, run_tasks
@@ -77,11 +77,14 @@ class Run:
         self.done = 0
         self.problem = ""
 
-    def make(self, planned: Sequence[PlannedShard]) -> None:
-        """Make every planned shard that is not finished; what cannot be made is remembered, not raised."""
+    def make(self, planned: Sequence[PlannedShard], workers_are_ready: Callable[[], bool]) -> None:
+        """Make every planned shard that is not finished; what cannot be made is remembered, not raised.
+
+        `workers_are_ready` waits for workers that are starting, and says whether they have loaded their kernels.
+        """
         try:
             self._begin()
-            self._make_missing(planned)
+            self._make_missing(planned, workers_are_ready)
         except OSError as problem:
             if problem.errno not in NO_SPACE:
                 raise
@@ -96,14 +99,15 @@ class Run:
         self.made_before = self._made()
         write_manifest(self.folder, self.manifest)
 
-    def _make_missing(self, planned: Sequence[PlannedShard]) -> None:
+    def _make_missing(self, planned: Sequence[PlannedShard], workers_are_ready: Callable[[], bool]) -> None:
         todo = self._unfinished(planned)
         self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
         if not todo:
-            self.reporter.say("every record asked for is there already")
+            self.reporter.say("every record asked for is there already, in files of the right size; `check` reads them")
             return
         self._announce(todo)
-        warm_kernels(self.reporter)
+        if not workers_are_ready():
+            warm_kernels(self.reporter)
         self.reporter.advance(self.done, len(self.wanted))
         self._make_persistently(todo)
 
@@ -198,9 +202,9 @@ class Run:
             self.reporter.say(f"shard {shard.number} is given up: its worker was lost every time")
 
     def _make_together(self, todo: Sequence[PlannedShard], started: set[int]) -> None:
-        """Make the shards in any order; `started` collects the numbers of those handed to workers."""
+        """Make the shards, longest first; `started` collects the numbers of those handed to workers."""
         by_number = {shard.number: shard for shard in todo}
-        for row in run_tasks(make_shard, self._tasks(todo, started), _time_limit(todo)):
+        for row in run_tasks(make_shard, self._tasks(longest_first(todo), started), _time_limit(todo)):
             shard = by_number[row.shard]
             if row.error:
                 self.errors[row.shard] = (shard, row.error)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
 from datagen.runs.progress import Reporter
+from datagen.runs.workers import no_workers, wake_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -39,6 +41,14 @@ def warm_kernels(reporter: Reporter) -> None:
     if not any(CACHE_FOLDER.iterdir()):
         reporter.say("compiling the physics, once for each version of it")
     warm_up()
+
+
+def load_kernels_in_workers() -> Callable[[], bool]:
+    """Start local workers and let them load compiled kernels, if there are any; see `wake_workers`."""
+    from physics._jit import CACHE_FOLDER
+    from physics.warming import warm_up
+
+    return wake_workers(warm_up) if any(CACHE_FOLDER.iterdir()) else no_workers
 
 
 def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:

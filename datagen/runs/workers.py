@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import threading
@@ -15,6 +16,7 @@ from datagen.errors import BadInput
 
 BACKENDS = ("loky", "dask")
 PARENT_POLL = 0.25
+SCHEDULER_PATIENCE = 5.0  # s
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,34 @@ def engaged(engine: Engine) -> Iterator[None]:
             yield
 
 
+def no_workers() -> bool:
+    """What `wake_workers` gives where there is nobody to wake."""
+    return False
+
+
+def wake_workers(function: Callable[[], Any]) -> Callable[[], bool]:
+    """Start the worker processes of this machine, each to call `function`, and return at once.
+
+    What comes back waits for them and says whether they did: not if this process does the work, or Dask.
+    """
+    from joblib import Parallel, delayed, effective_n_jobs
+    from joblib.externals.loky.process_executor import BrokenProcessPool
+    from joblib.parallel import get_active_backend
+
+    count = effective_n_jobs(None)
+    if type(get_active_backend()[0]).__name__ != "LokyBackend" or count == 1:
+        return no_workers
+    calls = Parallel(return_as="generator_unordered", batch_size=1)(delayed(function)() for _ in range(count))
+
+    def are_ready() -> bool:
+        try:
+            return len(list(calls)) == count
+        except BrokenProcessPool:
+            return False
+
+    return are_ready
+
+
 def run_tasks(
     function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], time_limit: float | None = None
 ) -> Iterator[Any]:
@@ -134,9 +164,34 @@ def _dask_client(engine: Engine) -> Any:
             dashboard_address=":0",
             set_as_default=False,
         )
-    try:
-        return Client(engine.scheduler, timeout=10, set_as_default=False)
-    except (OSError, ValueError) as problem:
+    _require_scheduler(engine.scheduler)
+    return Client(engine.scheduler, timeout=SCHEDULER_PATIENCE, set_as_default=False)
+
+
+def _require_scheduler(address: str) -> None:
+    """Raise BadInput unless something at `address` greets as Dask does: a client would wait for ever for silence.
+
+    The greeting has a thread of its own, which ends in time, as the caller may be inside an event loop (Jupyter).
+    """
+    from distributed.comm import connect
+
+    problems: list[BaseException] = []
+
+    async def greet() -> None:
+        greeting = connect(address, timeout=SCHEDULER_PATIENCE)
+        await (await asyncio.wait_for(greeting, SCHEDULER_PATIENCE + 1.0)).close()
+
+    def attempt() -> None:
+        try:
+            asyncio.run(greet())
+        except Exception as problem:  # whatever another program's answer leads to
+            problems.append(problem)
+
+    thread = threading.Thread(target=attempt, daemon=True)
+    thread.start()
+    thread.join()
+    if problems:
         raise BadInput(
-            f"no Dask scheduler answers there ({problem})", field="--scheduler", value=engine.scheduler
-        ) from problem
+            f"no Dask scheduler answers there ({_cause(problems[0])})", field="--scheduler", value=address,
+            allowed="the address of a running one, such as tcp://host:8786",
+        )  # fmt: skip

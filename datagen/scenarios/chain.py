@@ -5,8 +5,9 @@ from __future__ import annotations
 from datagen.recipes.chain_settings import ChainSettings, ModeSettings
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import Picker
+from physics.checks import require_below_nyquist
 from physics.sensor.chain import SensorChain
-from physics.sensor.mode import SensorMode, require_below_nyquist
+from physics.sensor.mode import SensorMode
 from physics.sensor.mounting import Mounting
 from physics.sensor.recorder import Recorder
 
@@ -23,7 +24,7 @@ def draw_chain(settings: ChainSettings, rate: float, draw: Draw) -> SensorChain:
     groups = [_draw_modes(group, draw.picker("sensor_modes", k)) for k, group in enumerate(settings.modes)]
     modes = tuple(mode for group in groups for mode in group)
     for frequency in (*(mode.frequency for mode in modes), *(() if cutoff is None else (cutoff,))):
-        require_below_nyquist(frequency, rate)
+        require_below_nyquist("frequency", frequency, rate)
     return SensorChain(
         modes=modes,
         resonator_gain=gain,

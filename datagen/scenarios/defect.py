@@ -17,7 +17,7 @@ from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter, require
 from physics.hertz import contact_width
-from physics.roughness import draw_roughness
+from physics.paths.roughness import draw_roughness
 from physics.spall import Spall, is_extended
 
 TURN = 2.0 * math.pi

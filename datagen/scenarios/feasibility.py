@@ -9,7 +9,7 @@ import numpy as np
 from physics.checks import require
 from physics.outcome import StaticOutcome
 from physics.scene import Scene
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 CERTAIN_REACH = 5e-3
 

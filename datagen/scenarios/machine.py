@@ -6,11 +6,11 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from datagen.recipes.recipe import FEWEST_SAMPLES, Recipe, Signal, Split
-from datagen.records.background import Background
-from datagen.scenarios.backgrounds import draw_background
+from datagen.scenarios.background import Background
 from datagen.scenarios.chain import draw_chain
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw
+from datagen.scenarios.drawn_background import draw_background
 from datagen.scenarios.drawn_rig import draw_rig
 from datagen.scenarios.imperfections import draw_imperfections
 from datagen.scenarios.picker import Picker

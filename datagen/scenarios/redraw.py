@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from datagen.errors import BadInput
-from datagen.recipes.toml_lines import line_of_setting
+from datagen.recipes.toml_lines import line_of_setting, text_of
 
 if TYPE_CHECKING:
     from datagen.recipes.recipe import Part, Recipe
@@ -58,18 +57,10 @@ def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw]) -> Ba
     counts = Counter(redraw.field or "other" for redraw in redraws)
     refused = ", ".join(f"{field} {count} times" for field, count in counts.most_common())
     place = ("part", recipe.part.index(part))
-    line = line_of_setting(_text(recipe.source), place, redraws[-1].field)
+    line = line_of_setting(text_of(recipe.source), place, redraws[-1].field)
     return BadInput(
         f'part "{part.name}", {what}: {len(redraws)} draws in a row were impossible (refused: {refused}); '
         f"the last: {redraws[-1].reason}",
         file=f"{recipe.source}, line {line}" if line else recipe.source,
         field=f"part[{place[1] + 1}]",
     )
-
-
-def _text(path: str) -> str:
-    """What the recipe's file says now, for the number of a line; empty if it is gone."""
-    try:
-        return Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        return ""

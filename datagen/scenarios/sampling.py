@@ -11,9 +11,9 @@ from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.record_order import Place
 from datagen.scenarios.accuracy import Accuracy
-from datagen.scenarios.backgrounds import draw_noise_target, draw_stretch
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw
+from datagen.scenarios.drawn_background import draw_noise_target, draw_stretch
 from datagen.scenarios.drawn_rig import RPM
 from datagen.scenarios.feasibility import require_equilibrium
 from datagen.scenarios.machine import Machine, draw_machine

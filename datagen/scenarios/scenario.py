@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from datagen.records.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.accuracy import Accuracy
+from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.streams import stream
 from labels.description import condition

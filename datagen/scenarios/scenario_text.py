@@ -9,6 +9,7 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.redraw import Redraw
+from datagen.scenarios.sampling_text import sampling_data
 from datagen.scenarios.scenario import Scenario, Seeds
 from datagen.scenarios.sensor_text import background_data, background_of, chain_data, chain_of
 from datagen.scenarios.streams import PURPOSES, RULE, SCOPES
@@ -134,12 +135,7 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         | {name: getattr(bearing, name) for name in BEARING_DETAILS},
         "rig_details": {name: getattr(rig, name) for name in RIG_DETAILS},
         "contact_law": scene.contact_law,
-        "sampling": {
-            "rate_hz": scenario.rate,
-            "duration_s": scenario.duration,
-            "samples": scenario.samples,
-            "envelope_band_hz": list(scenario.envelope_band),
-        },
+        "sampling": sampling_data(scenario),
         "accuracy": asdict(scenario.accuracy),
         "slip": _slip(scene.cage, scenario),
         "second_cage": scene.second_cage

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import Any
 
 from datagen.optional import if_given
-from datagen.records.background import Background, NoiseTarget, Stretch
+from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.scenario import Scenario
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance
@@ -22,11 +22,12 @@ from physics.sensor.recorder import Recorder
 
 Data = dict[str, Any]
 CHAIN_RULES = {
-    "sum": "the sensor signal is resonator_gain times the resonator's acceleration plus every mode's, after the "
-    "mounting",
+    "sum": "the sensor signal is resonator_gain times the resonator's acceleration plus every mode's, both lowered to "
+    "rate_hz as sampling says, after the mounting",
     "modes": "on each axis z'' + 2 damping w z' + w^2 z = -a, a being the outer ring's acceleration, w = 2 pi "
     "frequency_hz, at rest at t = 0; the mode adds -gain (2 damping w z' + w^2 z)",
-    "mounting": "a causal digital Butterworth low-pass: bilinear transform, exact at cutoff_hz, at rest at t = 0",
+    "mounting": "a causal digital Butterworth low-pass at rate_hz: bilinear transform, exact at cutoff_hz, at rest at "
+    "t = 0",
     "recorder": "step = 2 range_m_s2 / 2^bits; the record is step * clip(round(x / step), -2^(bits-1), 2^(bits-1) - 1) "
     "with halves to even, x being sensor signal plus background",
 }

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.own_code import FIELD, load_own
+from datagen.sizing.own_estimator import OwnEstimator
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.estimator import SizeEstimator
 from labels.spall_size.situation import Situation
@@ -43,5 +44,4 @@ def find_estimator(name: str | None) -> AnyEstimator:
     made = load_own(name, SPOKEN)
     if not callable(getattr(made, "estimate", None)):
         raise BadInput("it has no method estimate", field=FIELD, value=name, allowed=SPOKEN)
-    estimator: AnyEstimator = made
-    return estimator
+    return OwnEstimator(name, made, SPOKEN)

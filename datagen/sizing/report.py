@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from pathlib import Path
 
 from datagen.corpora.atomic import write_atomically
@@ -13,15 +12,6 @@ from datagen.plain import plain_json
 from datagen.sizing.score import SizeScores
 
 LISTS = ("candidates", "candidates_deg", "candidates_mm")
-
-
-def check_folder(folder: Path) -> None:
-    """Raise BadInput if `folder` can neither be written into nor made; nothing is made yet."""
-    nearest = next(path for path in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(path))
-    if not nearest.is_dir():
-        raise BadInput(f"{nearest.name} is in the way and no folder", field="--out", value=str(folder))
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise BadInput(f"cannot write into {nearest}", field="--out", value=str(folder))
 
 
 def write_report(scores: SizeScores, folder: Path) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -19,6 +20,7 @@ from datagen.sizing.summary import summarise
 from labels.schema import SPLITS
 
 ALL = "all"
+RECORDS_AT_ONCE = 4  # for each process
 NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 
 
@@ -48,22 +50,35 @@ def score_sizes(
     A record that cannot be sized has a row that says why; BadInput if that holds of all. Known `sizes` (mm) of records
     correct those of the other records of their machines.
     """
-    from joblib import Parallel, delayed
-
     own = find_estimator(estimator)
     chosen = _split(folder, split)
     splits = None if chosen == ALL else (chosen,)
     unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
     known = known_sizes(folder, sizes, own, load_known)
     records = sized_records(folder, load_known=load_known, splits=splits)
-    made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(
-        delayed(_score)(one, estimator, _factor(one, known)) for one in records
-    )
+    made = _scored(records, estimator, known, workers)
     scored = sorted([*made, *unsized], key=lambda one: one.record)
     true = [one for one in scored if one.known_truth]
     summary = summarise(true, load_known) if true else None
     told_of = estimator or "spallgen"
     return SizeScores(str(folder), told_of, chosen, load_known, scored, summary, with_effect(known, scored))
+
+
+def _scored(
+    records: Iterator[SizedRecord], estimator: str | None, known: list[KnownSize], workers: int
+) -> list[ScoredRecord]:
+    """Rows of the records, made by several processes.
+
+    They are read here, some at a time: a thread of joblib's that goes on reading netCDF files after an error crashes
+    whoever opens the next one.
+    """
+    from joblib import Parallel, delayed
+
+    made: list[ScoredRecord] = []
+    with Parallel(n_jobs=workers) as parallel:
+        while block := list(islice(records, RECORDS_AT_ONCE * workers)):
+            made += parallel(delayed(_score)(one, estimator, _factor(one, known)) for one in block)
+    return made
 
 
 def _score(sized: SizedRecord, estimator: str | None, factor: float) -> ScoredRecord:

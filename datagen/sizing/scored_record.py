@@ -14,6 +14,7 @@ from labels.event_scores import EventScores
 LONGEST_SCORED_SPACINGS = 0.9
 FEWEST_SAMPLES, FEWEST_SPACINGS = 5.0, 1.0 / 50.0
 NO_EVENT_SAMPLES = 2.0
+CLEAN_DB = 60.0  # from this ratio on a record counts as one without noise
 NO_SCORES = EventScores(0, 0, 0)
 NOT_ASKED = "not_asked"
 

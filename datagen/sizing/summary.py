@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
-from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
+from datagen.sizing.scored_record import CLEAN_DB, NO_SCORES, ScoredRecord
 from labels.event_scores import EventScores
 from labels.spall_size.known_size import known_size_factor
 
 Array = NDArray[np.float64]
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
-CLEAN_DB = 60.0
 RESAMPLES = 2000
 
 

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
-from datagen.sizing.scored_record import FEWEST_SAMPLES, FEWEST_SPACINGS, LONGEST_SCORED_SPACINGS
+from datagen.sizing.scored_record import CLEAN_DB, FEWEST_SAMPLES, FEWEST_SPACINGS, LONGEST_SCORED_SPACINGS
 from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_records
+from labels.spall_size.estimator import ONSET
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.situation import Situation
@@ -20,8 +21,6 @@ from labels.spall_size.situation import Situation
 Array = NDArray[np.float64]
 
 LEVELS_DB = (20.0, 10.0, 5.0, 0.0)
-CLEAN_DB = 60.0
-ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
 SHORTEST_LAG = 1.5  # samples
 LAG_SCALE = 0.12
 PLACE_TOLERANCE = 0.4

@@ -20,7 +20,11 @@ WIDTHS = (0.0, 0.02, 0.06)
 """Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so."""
 HANN_BINS = 1.5
 MAINS = (50.0, 60.0)
-MAINS_SPREAD = 0.001
+MAINS_SPREAD, MAINS_REACH = 0.006, 0.8
+"""Share by which mains (0.4 % in an interconnected grid, EN 50160) and a stated rate may be off together, and the most
+(Hz) that is granted for it: high multiples are weak, and would cover the axis."""
+STEADY_MAINS = 0.001
+"""The share that every multiple is granted."""
 COARSEST_STEP = 1.3
 SHAFT_MARGIN = 0.025
 """Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family."""
@@ -74,7 +78,8 @@ def without_mains(excess: Array, step: float) -> Array:
     frequency = np.arange(excess.shape[-1]) * step
     if step > COARSEST_STEP:
         return excess
-    return np.where(near_mains(frequency, 1.01 * step + MAINS_SPREAD * frequency), 1.0, excess)
+    margin = np.maximum(np.minimum(MAINS_SPREAD * frequency, MAINS_REACH), STEADY_MAINS * frequency)
+    return np.where(near_mains(frequency, 1.01 * step + margin), 1.0, excess)
 
 
 def near_mains(frequency: NDArray[Any], margin: NDArray[Any]) -> NDArray[np.bool_]:

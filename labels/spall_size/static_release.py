@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from physics.bearing import Bearing
-from physics.rolling import hanging_reach
+from physics.paths.rolling import hanging_reach
 
 # Mean over spall centres within ±25 degrees (one standard deviation) of the load's direction of its cosine.
 USUAL_SHARE_OF_PEAK = 0.91

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.checks import require, require_between, require_not_negative, require_positive
+from physics.checks import require, require_below_nyquist, require_between, require_not_negative, require_positive
 
 Array = NDArray[np.float64]
 
@@ -73,7 +73,7 @@ def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int
     """Decaying sines (T, 2) that start at `instant` (N,) s with `strength` (N, 2), exact at the samples."""
     from scipy.signal import lfilter
 
-    require_between("impulse resonance", resonance.frequency, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
+    require_below_nyquist("impulse resonance", resonance.frequency, rate)
     turn = 2.0 * math.pi * resonance.frequency / rate
     decay = math.exp(-resonance.damping * turn)
     first = np.ceil(instant * rate).astype(np.int64)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.checks import require_between, require_not_negative, require_positive
+from physics.checks import require_below_nyquist, require_between, require_not_negative, require_positive
 
 Array = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ def pink_noise(generator: np.random.Generator, noise: PinkNoise, samples: int, r
     density × rate / 2: the density belongs to the machine, whatever the length of the record. InvalidParameter if the
     lowest frequency does not lie below half the `rate` (Hz).
     """
-    require_between("pink lowest frequency", noise.lowest, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
+    require_below_nyquist("pink lowest frequency", noise.lowest, rate)
     white = np.fft.rfft(generator.standard_normal((samples, 2)), axis=0)
     frequency = np.asarray(np.fft.rfftfreq(samples, 1.0 / rate), dtype=np.float64)
     weight = np.sqrt(pink_density(noise, frequency, rate) * rate / 2.0)

@@ -25,24 +25,24 @@ def tones(frequency: Array, amplitude: Array, phase: Array, samples: int, rate: 
     within = turn[:, None] * np.arange(BLOCK)
     start = turn[:, None, None] * (BLOCK * np.arange(blocks)) + phase[heard][:, :, None]
     loud = amplitude[heard][:, None, None]
-    total = np.zeros((samples, 2))
+    total = np.zeros((2, blocks * BLOCK))
     _add_up(loud * np.cos(start), loud * np.sin(start), np.cos(within), np.sin(within), total)
-    return total
+    return np.ascontiguousarray(total[:, :samples].T)
 
 
 @njit_lean
 def _add_up(cosine: Array, sine: Array, within_cosine: Array, within_sine: Array, total: Array) -> None:
-    """Add the lines that start the blocks as `cosine` and `sine` (L, 2, B) and go on `within` (L, K) to `total`."""
-    samples, width = total.shape[0], within_cosine.shape[1]
+    """Add the lines that start the blocks as `cosine` and `sine` (L, 2, B) and go on `within` (L, K) to `total`
+    (2, B · K)."""
+    width = within_cosine.shape[1]
     for block in range(cosine.shape[2]):
-        first = block * width
-        for line in range(cosine.shape[0]):
-            cx, sx = cosine[line, 0, block], sine[line, 0, block]
-            cy, sy = cosine[line, 1, block], sine[line, 1, block]
-            for k in range(min(width, samples - first)):
-                c, s = within_cosine[line, k], within_sine[line, k]
-                total[first + k, 0] += cx * c - sx * s
-                total[first + k, 1] += cy * c - sy * s
+        for axis in range(2):
+            sums = total[axis, block * width : (block + 1) * width]
+            for line in range(cosine.shape[0]):
+                a, b = cosine[line, axis, block], sine[line, axis, block]
+                c, s = within_cosine[line], within_sine[line]
+                for k in range(width):
+                    sums[k] += a * c[k] - b * s[k]
 
 
 def draw_phases(generator: np.random.Generator, lines: int) -> Array:

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit
-from physics.contact import ACTIVE, COMPRESSION, COSINE, FRAME_COSINE, FRAME_SINE, FRAME_SPEED, SINE, Law, law_power
-
-Array = NDArray[np.float64]
+from physics.contact.forces import (
+    ACTIVE,
+    COMPRESSION,
+    COSINE,
+    FRAME_COSINE,
+    FRAME_SINE,
+    FRAME_SPEED,
+    SINE,
+    Contacts,
+    law_power,
+)
 
 
 @njit
-def contact_tangent(balls: Array, frames: Array, law: Law, rate: float) -> tuple[float, float, float, float]:
+def contact_tangent(contacts: Contacts, rate: float) -> tuple[float, float, float, float]:
     """Derivatives (xx, xy, yx, yy), N/m, of the net force of the contact set to the displacement.
 
     The velocity is taken to grow by `rate` (1/s) times the displacement. `press` must have been called.
     """
+    balls, frames, law = contacts.balls, contacts.frames, contacts.law
     xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0
     for cage in range(balls.shape[0]):
         cosine, sine, speed = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE], frames[cage, FRAME_SPEED]

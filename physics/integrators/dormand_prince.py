@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import Law, set_time
-from physics.contact_set import count_changes
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import press_state
+from physics.integrators.trial import Trial
 from physics.motion import MotionModel
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -52,12 +52,10 @@ DENSE = np.array(
 
 
 @njit
-def slope(
-    balls: Array, frames: Array, law: Law, track: Track, motion: MotionModel, time: float, state: Array, rate: Array
-) -> tuple[float, float]:
+def slope(contacts: Contacts, motion: MotionModel, time: float, state: Array, rate: Array) -> tuple[float, float]:
     """Fill `rate` (12,) with the time derivative of `state` (12,) under the frozen contact set; the net force (N)."""
-    set_time(balls, frames, track, time)
-    force = press_state(balls, frames, law, state)
+    set_time(contacts, time)
+    force = press_state(contacts, state)
     for i in range(6):
         rate[i] = state[6 + i]
     accelerations(motion, time, state, force, rate[6:])
@@ -66,32 +64,29 @@ def slope(
 
 @njit
 def attempt(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
     time: float,
     step: float,
-    state: Array,
+    now: Array,
+    force: tuple[float, float],
+    then: Array,
     rates: Array,
-    trial: Array,
-) -> tuple[float, float, int]:
-    """One step from `state` into `trial` (12,), its first row of `rates` (7, 12) given; fills the others.
+) -> Trial:
+    """A step from `now` (12,), where the net `force` (N, N) and the first row of `rates` (7, 12) are known, to `then`.
 
-    Leaves `balls` at the end time; returns the net force there (N, N) and how many contradictions of the contact set
-    the stages met.
+    Fills the other rows; leaves `contacts` at the end time. Every stage looks for contradictions of the contact set.
     """
-    force, contradicted = (0.0, 0.0), 0
+    after, contradicted = force, 0
     for stage in range(1, STAGES):
         for i in range(12):
             moved = 0.0
             for earlier in range(stage):
                 moved += WEIGHTS[stage, earlier] * rates[earlier, i]
-            trial[i] = state[i] + step * moved
-        force = slope(balls, frames, law, track, motion, time + NODES[stage] * step, trial, rates[stage])
-        contradicted += count_changes(balls, law)
-    return force[0], force[1], contradicted
+            then[i] = now[i] + step * moved
+        after = slope(contacts, motion, time + NODES[stage] * step, then, rates[stage])
+        contradicted += count_changes(contacts)
+    return Trial(time, step, now, force, then, after, contradicted)
 
 
 @njit

@@ -13,10 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import ACTIVE, Law, of_ball, set_time
-from physics.contact_set import count_changes, reset_contact
+from physics.contact.contact_set import count_changes, reset_contact
+from physics.contact.forces import Contacts, set_time
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
-from physics.integrators.march import KINK_NUDGE_SHARE, MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, locate, press_state
+from physics.integrators.march import (
+    KINK_NUDGE_SHARE,
+    MOST_CHANGES_PER_STEP,
+    SMALLEST_STEP_SHARE,
+    find_contact,
+    locate,
+    press_state,
+)
 from physics.integrators.output import (
     DONE,
     LOG_FULL,
@@ -31,8 +38,8 @@ from physics.integrators.output import (
 )
 from physics.integrators.propagator import PowerSeries
 from physics.integrators.stops import Stops, next_kink, passed_kinks
+from physics.integrators.trial import Trial
 from physics.motion import MotionModel
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -44,10 +51,10 @@ MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 40, 20_000
 
 
 class Workspace(NamedTuple):
-    """Scratch of one march: `rates` (7, 12) of the stages, `trial`, `between`, `scale`, `deviation` (12,)."""
+    """Scratch of one march: `rates` (7, 12) of the stages, `then`, `between`, `scale`, `deviation` (12,)."""
 
     rates: Array
-    trial: Array
+    then: Array
     between: Array
     scale: Array
     deviation: Array
@@ -66,25 +73,21 @@ def _widen(work: Workspace, start: Array, state: Array, fastest: float) -> None:
 
 @njit
 def _sample(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
     period: float,
     sample: int,
-    time: float,
-    step: float,
-    now: Array,
+    trial: Trial,
     work: Workspace,
     output: Output,
 ) -> int:
     """Write the samples up to the end of the step; the number of the next one, or −1 if one is not finite."""
+    time, step = trial.time, trial.step
     while sample < output.acceleration.shape[0] and sample * period <= time + step:
-        dense_output(work.rates, step, now, (sample * period - time) / step, work.between)
-        set_time(balls, frames, track, sample * period)
-        force = press_state(balls, frames, law, work.between)
-        if not record(balls, motion, work.between, force, sample, output):
+        dense_output(work.rates, step, trial.now, (sample * period - time) / step, work.between)
+        set_time(contacts, sample * period)
+        force = press_state(contacts, work.between)
+        if not record(contacts.balls, motion, work.between, force, sample, output):
             return -1
         sample += 1
     return sample
@@ -100,39 +103,15 @@ def _control(error: float, tolerance: float, rejected: bool) -> float:
 
 
 @njit
-def _prepare(
-    balls: Array, frames: Array, law: Law, track: Track, motion: MotionModel, state: Array, rates: Array, output: Output
-) -> tuple[float, float]:
-    """Contact set and first row of `rates` at t = 0; the net force (N)."""
-    set_time(balls, frames, track, 0.0)
-    press_state(balls, frames, law, state)
-    reset_contact(balls, law)
-    for ball in range(output.initial.size):
-        output.initial[ball] = of_ball(balls, ACTIVE, ball)
-    return slope(balls, frames, law, track, motion, 0.0, state, rates[0])
-
-
-@njit
-def _cut(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    motion: MotionModel,
-    time: float,
-    step: float,
-    now: Array,
-    force: tuple[float, float],
-    after: tuple[float, float],
-    work: Workspace,
-) -> tuple[float, int]:
-    """Repeat the tried step up to the first contact change in it: its new length (s) and the ball, −1 if none."""
-    share, ball = locate(balls, frames, law, track, motion, time, step, now, force, work.trial, after, True)
+def _cut(contacts: Contacts, motion: MotionModel, trial: Trial, work: Workspace) -> tuple[Trial, int]:
+    """The `trial` repeated up to the first contact change in it, and the ball; the trial itself and −1 if none."""
+    share, ball = locate(contacts, motion, trial)
     if ball < 0:
-        return step, ball
-    if share > 0.0:
-        attempt(balls, frames, law, track, motion, time, share * step, now, work.rates, work.trial)
-    return share * step, ball
+        return trial, ball
+    step = share * trial.step
+    if step > 0.0:
+        return attempt(contacts, motion, trial.time, step, trial.now, trial.force, work.then, work.rates), ball
+    return Trial(trial.time, 0.0, trial.now, trial.force, trial.now, trial.force, 0), ball
 
 
 @njit
@@ -145,10 +124,7 @@ def _hop(time: float, gap: float, now: Array) -> float:
 
 @njit
 def _settle(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     time: float,
     now: Array,
     ball: int,
@@ -156,21 +132,18 @@ def _settle(
     output: Output,
 ) -> None:
     """Take over the contact set at the end of a step: of the located `ball`, or of all that `changed` unlocated."""
-    set_time(balls, frames, track, time)
+    set_time(contacts, time)
     if ball >= 0:
-        toggle(balls, ball, time, output)
+        toggle(contacts.balls, ball, time, output)
     elif changed > 0:
-        press_state(balls, frames, law, now)
-        output.tally[UNLOCATED] += count_changes(balls, law)
-        reset_contact(balls, law)
+        press_state(contacts, now)
+        output.tally[UNLOCATED] += count_changes(contacts)
+        reset_contact(contacts)
 
 
 @njit
 def march_dormand_prince(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
     series: PowerSeries,
     grid: Grid,
@@ -185,9 +158,10 @@ def march_dormand_prince(
     tolerance = LOOSEST_TOLERANCE / float(grid.substeps) ** 5
     smallest, nudge = SMALLEST_STEP_SHARE * period, KINK_NUDGE_SHARE * period
     finish, fastest = (grid.samples - 1) * period, series.reach / series.step
-    force = _prepare(balls, frames, law, track, motion, now, work.rates, output)
+    find_contact(contacts, now, output)
+    force = slope(contacts, motion, 0.0, now, work.rates[0])
     _widen(work, start_state, now, fastest)
-    if not record(balls, motion, now, force, 0, output):
+    if not record(contacts.balls, motion, now, force, 0, output):
         return NOT_FINITE
     time, step, place, sample, tried, rejected = 0.0, FIRST_STEP_SHARE * period, 0, 1, 0, False
     steps_left = MOST_STEPS_PER_SAMPLE * grid.substeps * grid.samples + SPARE_STEPS
@@ -196,34 +170,33 @@ def march_dormand_prince(
         if steps_left < 0:
             return OUT_OF_STEPS
         place = passed_kinks(stops, place, time + smallest)
-        kink = next_kink(balls, stops, place, min(time + step, finish) + smallest)
+        kink = next_kink(contacts.balls, stops, place, min(time + step, finish) + smallest)
         meets = kink < min(time + step, finish) + smallest
         length = kink - nudge - time if meets else min(step, finish + smallest - time)
-        fx, fy, contradicted = attempt(balls, frames, law, track, motion, time, length, now, work.rates, work.trial)
+        trial = attempt(contacts, motion, time, length, now, force, work.then, work.rates)
         error = local_error(work.rates, length, work.scale)
         if error > tolerance and length > smallest:
             step, rejected = length * _control(error, tolerance, True), True
             continue
-        ball, changed = -1, count_changes(balls, law)
-        if contradicted > 0 and tried < MOST_CHANGES_PER_STEP:
-            length, ball = _cut(balls, frames, law, track, motion, time, length, now, force, (fx, fy), work)
+        ball, changed = -1, count_changes(contacts)
+        if trial.halfway > 0 and tried < MOST_CHANGES_PER_STEP:
+            trial, ball = _cut(contacts, motion, trial, work)
         if ball >= 0:
             tried, meets = tried + 1, False
         elif not meets:
             step = min(period, length * _control(error, tolerance, rejected))
-        if length > 0.0:
-            next_sample = _sample(balls, frames, law, track, motion, period, sample, time, length, now, work, output)
+        if trial.step > 0.0:
+            next_sample = _sample(contacts, motion, period, sample, trial, work, output)
             if next_sample < 0:
                 return NOT_FINITE
             tried = tried if next_sample == sample else 0
             sample = next_sample
-            now[:] = work.trial
-        time += length
-        time = _hop(time, 2.0 * nudge if meets else 0.0, now)
+            now[:] = work.then
+        time = _hop(time + trial.step, 2.0 * nudge if meets else 0.0, now)
         rejected = False
         _widen(work, start_state, now, fastest)
-        _settle(balls, frames, law, track, time, now, ball, changed, output)
+        _settle(contacts, time, now, ball, changed, output)
         if output.tally[LOGGED] >= output.change_time.size:
             return LOG_FULL
-        force = slope(balls, frames, law, track, motion, time, now, work.rates[0])
+        force = slope(contacts, motion, time, now, work.rates[0])
     return DONE

@@ -8,14 +8,15 @@ go by, by the Illinois variant of false position.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.contact import ACTIVE, Law, compression_of, law_power, of_ball
-from physics.contact_set import touches
+from physics.contact.contact_set import touches
+from physics.contact.forces import ACTIVE, Contacts, compression_of, law_power, of_ball, press, set_time
 from physics.motion import MotionModel, outer_load, relative_acceleration
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -25,11 +26,23 @@ SURE_SHARE = 1e-5
 MOST_ITERATIONS, GUESS_ITERATIONS = 60, 3
 
 
+class Way(NamedTuple):
+    """How inner and outer ring move relative to each other in a step that begins at `time` (s) and takes `step` (s).
+
+    `begin`, `end` (3, 2): displacement, step · velocity and step² · acceleration along x and y.
+    """
+
+    time: float
+    step: float
+    begin: Array
+    end: Array
+
+
 @njit_inner
 def relative_motion(
     motion: MotionModel, time: float, step: float, state: Array, force: tuple[float, float], ends: Array
 ) -> None:
-    """Fill `ends` (3, 2): displacement, step · velocity and step² · acceleration of inner relative to outer ring."""
+    """Fill `ends` (3, 2), one end of a `Way`, from the `state` (12,) and the net contact `force` (N) at `time` (s)."""
     load = outer_load(motion, time)
     for axis in range(2):
         ends[0, axis] = state[axis] - state[2 + axis]
@@ -38,8 +51,9 @@ def relative_motion(
 
 
 @njit_inline
-def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float]:
+def quintic(way: Way, axis: int, x: float) -> tuple[float, float]:
     """Value, and derivative to the share x, of the quintic through both ends at the share `x` (0 to 1) of the step."""
+    begin, end = way.begin, way.end
     rise = end[0, axis] - begin[0, axis] - begin[1, axis] - 0.5 * begin[2, axis]
     speed = end[1, axis] - begin[1, axis] - begin[2, axis]
     bend = end[2, axis] - begin[2, axis]
@@ -52,14 +66,13 @@ def quintic(begin: Array, end: Array, axis: int, x: float) -> tuple[float, float
 
 
 @njit_inline
-def contact_condition(
-    balls: Array, law: Law, track: Track, ball: int, time: float, step: float, share: float, begin: Array, end: Array
-) -> tuple[float, float, float]:
+def contact_condition(contacts: Contacts, way: Way, ball: int, share: float) -> tuple[float, float, float]:
     """A number above zero while `ball` touches, its slope over the share of the step or 0 if it is not known, and the
     rate of compression, m/s, at the `share` of the step."""
-    x, u = quintic(begin, end, 0, share)
-    y, v = quintic(begin, end, 1, share)
-    compression, rate = compression_of(balls, track, ball, time + share * step, x, y, u / step, v / step)
+    x, u = quintic(way, 0, share)
+    y, v = quintic(way, 1, share)
+    step, law = way.step, contacts.law
+    compression, rate = compression_of(contacts, ball, way.time + share * step, x, y, u / step, v / step)
     if law.no_tension:
         # Compression (m) is brought to the scale of a force so that one number carries both conditions.
         force = law.stiffness * max(compression, 0.0) * law_power(law, compression) + law.damping * rate
@@ -67,43 +80,57 @@ def contact_condition(
     return compression, rate * step, rate
 
 
-@njit_inner
-def earliest_change(
-    balls: Array, law: Law, track: Track, time: float, step: float, begin: Array, end: Array, suspects: Array
-) -> tuple[float, int, float]:
+@njit_inline
+def _mark_suspects(contacts: Contacts, share: float, suspects: Array) -> None:
+    """Note `share` for every ball that contradicts the contact set now and was not noted for an earlier one."""
+    for cage in range(suspects.shape[0]):
+        for j in range(suspects.shape[1]):
+            contradicts = touches(contacts, cage, j) != (contacts.balls[cage, ACTIVE, j] > 0.5)
+            if contradicts and (suspects[cage, j] == 0.0 or share < suspects[cage, j]):
+                suspects[cage, j] = share
+
+
+@njit_inline
+def earliest_change(contacts: Contacts, way: Way, halfway: bool, suspects: Array) -> tuple[float, int, float]:
     """Share of the step, number and rate of compression (m/s) of the ball that first contradicts the contact set.
 
-    `suspects` (G, M) holds, per ball, the share of the step at which it was seen to contradict the set, or 0.
-    Returns (2.0, −1, 0.0) if no suspect is confirmed.
+    Suspects are the balls that contradict it at the end of the step, where `press` has left them, if `halfway` those
+    that do there, and those for which `suspects` (G, M) holds the share of the step at which they were seen to, not 0.
+    Returns (2.0, −1, 0.0) if no suspect is confirmed. Leaves `contacts` somewhere inside the step.
     """
+    _mark_suspects(contacts, 1.0, suspects)
+    if halfway:
+        set_time(contacts, way.time + 0.5 * way.step)
+        x, u = quintic(way, 0, 0.5)
+        y, v = quintic(way, 1, 0.5)
+        press(contacts, x, y, u / way.step, v / way.step)
+        _mark_suspects(contacts, 0.5, suspects)
     first_share, first_ball, first_rate = 2.0, -1, 0.0
     for cage in range(suspects.shape[0]):
         for j in range(suspects.shape[1]):
             if suspects[cage, j] > 0.0:
                 ball, upper = cage * suspects.shape[1] + j, min(suspects[cage, j], first_share)
-                share, rate = _root(balls, law, track, ball, time, step, begin, end, upper)
+                share, rate = _root(contacts, way, ball, upper)
                 if share < first_share:
                     first_share, first_ball, first_rate = share, ball, rate
     return first_share, first_ball, first_rate
 
 
 @njit_pasted
-def _root(
-    balls: Array, law: Law, track: Track, ball: int, time: float, step: float, begin: Array, end: Array, upper: float
-) -> tuple[float, float]:
+def _root(contacts: Contacts, way: Way, ball: int, upper: float) -> tuple[float, float]:
     """Earliest share at which `ball` leaves the contact set's state, and the rate there; 2.0 if not by `upper`."""
-    sign = 1.0 if of_ball(balls, ACTIVE, ball) > 0.5 else -1.0
+    sign = 1.0 if of_ball(contacts.balls, ACTIVE, ball) > 0.5 else -1.0
     high, low = upper, 0.0
-    value, slope_high, rate = contact_condition(balls, law, track, ball, time, step, high, begin, end)
+    value, slope_high, rate = contact_condition(contacts, way, ball, high)
     at_high = sign * value
     if at_high > 0.0:
         return 2.0, 0.0
-    value, slope_low, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+    value, slope_low, rate_low = contact_condition(contacts, way, ball, low)
     at_low = sign * value
     if at_low <= 0.0:
         # A ball toggled at the start of the step sits at zero to round-off: look just behind it.
         low = 1e-4 * upper
-        value, slope_low, rate_low = contact_condition(balls, law, track, ball, time, step, low, begin, end)
+        value, slope_low, rate_low = contact_condition(contacts, way, ball, low)
         at_low = sign * value
         if at_low <= 0.0:
             return 0.0, rate_low
@@ -111,7 +138,7 @@ def _root(
     for _ in range(MOST_ITERATIONS):
         if not low < guess < high:
             guess = 0.5 * (low + high)
-        value, slope, rate = contact_condition(balls, law, track, ball, time, step, guess, begin, end)
+        value, slope, rate = contact_condition(contacts, way, ball, guess)
         value, slope = sign * value, sign * slope
         if value > 0.0:
             low, at_low = guess, value
@@ -149,13 +176,3 @@ def hermite_root(low: float, high: float, at_low: float, at_high: float, slope_l
             break
         guess -= value / slope
     return low + guess
-
-
-@njit_inline
-def mark_suspects(balls: Array, law: Law, share: float, suspects: Array) -> None:
-    """Note `share` for every ball that contradicts the contact set now and was not noted for an earlier one."""
-    for cage in range(suspects.shape[0]):
-        for j in range(suspects.shape[1]):
-            contradicts = touches(balls, law, cage, j) != (balls[cage, ACTIVE, j] > 0.5)
-            if contradicts and (suspects[cage, j] == 0.0 or share < suspects[cage, j]):
-                suspects[cage, j] = share

@@ -20,15 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline
-from physics.contact import ACTIVE, Law, set_time
-from physics.contact_set import count_changes
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import ACTIVE, Contacts, set_time
 from physics.integrators.exponential_rk4 import OUTER_STATE, flow_component, step_exponential_rk4
-from physics.integrators.march import bind_method, press_state
-from physics.integrators.output import Grid, Output
-from physics.integrators.propagator import CUBE, FIRST, LAST, MIDDLE, WHOLE, PowerSeries
-from physics.integrators.stops import Stops
+from physics.integrators.march import Workspace, bind_method, carrying, press_state
+from physics.integrators.propagator import CUBE, FIRST, LAST, MIDDLE, WHOLE
 from physics.motion import MotionModel, outer_load
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -53,21 +50,17 @@ def contact_mark(balls: Array) -> float:
 
 @njit
 def _restart(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
-    weights: Array,
+    work: Workspace,
     time: float,
     step: float,
     start: Array,
     force: tuple[float, float],
     end: Array,
-    stage: Array,
 ) -> int:
     """The Runge-Kutta step as a called function: it is pasted once, here, and not wherever the Adams step is."""
-    return step_exponential_rk4(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)
+    return step_exponential_rk4(contacts, motion, work, time, step, start, force, end)
 
 
 @njit
@@ -133,35 +126,31 @@ def _advance(
 
 @njit_inline
 def step_exponential_adams(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
-    weights: Array,
+    work: Workspace,
     time: float,
     step: float,
     start: Array,
     force: tuple[float, float],
     end: Array,
-    stage: Array,
 ) -> int:
     """One step of length `step` from `start` (23,), where the net contact force is `force`, into `end` (23,).
 
-    The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set at the
+    The contact set stays frozen. Leaves `contacts` at the end time; returns how many balls contradict the set at the
     predicted end, or halfway in a restarting step.
     """
-    mark, known = contact_mark(balls), int(start[KNOWN])
+    mark, known = contact_mark(contacts.balls), int(start[KNOWN])
     if abs(start[LENGTH] - step) > SAME * step or abs(start[END] - time) > SAME * step or start[CONTACTS] != mark:
         known = 0
     if known >= int(start[ORDER]):
-        _advance(motion, weights, time, step, start, force, force, False, end)
-        set_time(balls, frames, track, time + step)
-        ahead = press_state(balls, frames, law, end)
-        contradicted = count_changes(balls, law)
-        _advance(motion, weights, time, step, start, force, ahead, True, end)
+        _advance(motion, work.weights, time, step, start, force, force, False, end)
+        set_time(contacts, time + step)
+        ahead = press_state(contacts, end)
+        contradicted = count_changes(contacts)
+        _advance(motion, work.weights, time, step, start, force, ahead, True, end)
     else:
-        contradicted = _restart(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)
+        contradicted = _restart(contacts, motion, work, time, step, start, force, end)
     end[ORDER], end[LENGTH], end[END], end[CONTACTS] = start[ORDER], step, time + step, mark
     end[KNOWN] = min(known + 1, 4)
     end[PAST], end[PAST + 1] = force[0], force[1]
@@ -175,20 +164,6 @@ _march = bind_method("exponential_adams", step_exponential_adams)
 
 def march_of_order(order: int) -> Callable[..., int]:
     """The march of the method of `order` 2, 3 or 4, from the state (12,) at t = 0."""
-
-    def march(
-        balls: Array,
-        frames: Array,
-        law: Law,
-        track: Track,
-        motion: MotionModel,
-        series: PowerSeries,
-        grid: Grid,
-        stops: Stops,
-        start_state: Array,
-        output: Output,
-    ) -> int:
-        start = np.concatenate([start_state, [float(order)], np.zeros(CARRIED - 13)])
-        return int(_march(balls, frames, law, track, motion, series, grid, stops, start, output))
-
-    return march
+    carried = np.zeros(CARRIED - ORDER)
+    carried[0] = order
+    return carrying(_march, carried)

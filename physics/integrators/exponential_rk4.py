@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline
-from physics.contact import Law, move_to, press
-from physics.contact_set import count_changes
-from physics.integrators.march import bind_method
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import Contacts, move_to, press
+from physics.integrators.march import Workspace, bind_method
 from physics.integrators.propagator import FIRST, HALF, LAST, MIDDLE, TO_2_3, TO_3_4, TO_4, WHOLE
 from physics.motion import MotionModel, outer_load
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -29,51 +28,40 @@ OUTER_STATE = (2, 8, 4, 10)
 
 @njit_inline
 def step_exponential_rk4(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
-    weights: Array,
+    work: Workspace,
     time: float,
     step: float,
     start: Array,
     force: tuple[float, float],
     end: Array,
-    stage: Array,
 ) -> int:
     """One step of length `step` from `start` (12,), where the net contact force is `force`, into `end` (12,).
 
-    The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set halfway.
-    `stage` (4, 6) is scratch: relative displacement and velocity of the free flow, then of the stage, a row an axis.
+    The contact set stays frozen. Leaves `contacts` at the end time; returns how many balls contradict the set halfway.
     """
-    square = step * step
+    weights, square = work.weights, step * step
+    # Relative displacement and velocity of the free flow, then of the stage, a row an axis.
+    stage = work.stage
     load = outer_load(motion, time)
     g1 = ((load[0] - force[0]) / motion.inner_mass, (load[1] - force[1]) / motion.inner_mass)
+    flow_freely(weights, step, start, stage, end)
     for axis in range(2):
-        x, v, r, u = start[2 + axis], start[8 + axis], start[4 + axis], start[10 + axis]
-        outer = flow_component(weights, axis, HALF, x, v, r, u)
-        outer_rate = flow_component(weights, axis, HALF + 1, x, v, r, u)
-        stage[axis, 0] = start[axis] + 0.5 * step * start[6 + axis] - outer
-        stage[axis, 1] = start[6 + axis] - outer_rate
         stage[axis, 2] = stage[axis, 0] + 0.125 * square * g1[axis] - weights[axis, TO_2_3, 0] * force[axis]
         stage[axis, 3] = stage[axis, 1] + 0.5 * step * g1[axis] - weights[axis, TO_2_3, 1] * force[axis]
-        end[2 + axis] = flow_component(weights, axis, WHOLE, x, v, r, u)
-        end[8 + axis] = flow_component(weights, axis, WHOLE + 1, x, v, r, u)
-        end[4 + axis] = flow_component(weights, axis, WHOLE + 2, x, v, r, u)
-        end[10 + axis] = flow_component(weights, axis, WHOLE + 3, x, v, r, u)
 
-    move_to(balls, frames, track, time + 0.5 * step)
+    move_to(contacts, time + 0.5 * step)
     load = outer_load(motion, time + 0.5 * step)
-    f2 = press(balls, frames, law, stage[0, 2], stage[1, 2], stage[0, 3], stage[1, 3])
+    f2 = press(contacts, stage[0, 2], stage[1, 2], stage[0, 3], stage[1, 3])
     g2 = ((load[0] - f2[0]) / motion.inner_mass, (load[1] - f2[1]) / motion.inner_mass)
     for axis in range(2):
         kick = weights[axis, TO_2_3, 2] * force[axis] + weights[axis, TO_3_4, 0] * f2[axis]
         kick_rate = weights[axis, TO_2_3, 3] * force[axis] + weights[axis, TO_3_4, 1] * f2[axis]
         stage[axis, 2] = stage[axis, 0] + square / 24.0 * (g1[axis] + 2.0 * g2[axis]) - kick
         stage[axis, 3] = stage[axis, 1] + 0.5 * step * g2[axis] - kick_rate
-    f3 = press(balls, frames, law, stage[0, 2], stage[1, 2], stage[0, 3], stage[1, 3])
-    contradicted = count_changes(balls, law)
+    f3 = press(contacts, stage[0, 2], stage[1, 2], stage[0, 3], stage[1, 3])
+    contradicted = count_changes(contacts)
     g3 = ((load[0] - f3[0]) / motion.inner_mass, (load[1] - f3[1]) / motion.inner_mass)
     for axis in range(2):
         kick = weights[axis, TO_3_4, 2] * force[axis] + weights[axis, TO_4, 0] * f3[axis]
@@ -82,9 +70,9 @@ def step_exponential_rk4(
         stage[axis, 2] = inner - end[2 + axis] - kick
         stage[axis, 3] = start[6 + axis] + step * g3[axis] - end[8 + axis] - kick_rate
 
-    move_to(balls, frames, track, time + step)
+    move_to(contacts, time + step)
     load = outer_load(motion, time + step)
-    f4 = press(balls, frames, law, stage[0, 2], stage[1, 2], stage[0, 3], stage[1, 3])
+    f4 = press(contacts, stage[0, 2], stage[1, 2], stage[0, 3], stage[1, 3])
     for axis in range(2):
         g4 = (load[axis] - f4[axis]) / motion.inner_mass
         middle = f2[axis] + f3[axis]
@@ -97,6 +85,20 @@ def step_exponential_rk4(
                 + weights[axis, LAST, component] * f4[axis]
             )
     return contradicted
+
+
+@njit_inline
+def flow_freely(weights: Array, step: float, start: Array, stage: Array, end: Array) -> None:
+    """The motion from `start` without contact: relative displacement (m) and velocity (m/s) halfway into the first two
+    columns of `stage`, a row an axis, and outer ring and resonator at the end of the step into `end`."""
+    for axis in range(2):
+        x, v, r, u = start[2 + axis], start[8 + axis], start[4 + axis], start[10 + axis]
+        outer = flow_component(weights, axis, HALF, x, v, r, u)
+        outer_rate = flow_component(weights, axis, HALF + 1, x, v, r, u)
+        stage[axis, 0] = start[axis] + 0.5 * step * start[6 + axis] - outer
+        stage[axis, 1] = start[6 + axis] - outer_rate
+        for component in range(4):
+            end[OUTER_STATE[component] + axis] = flow_component(weights, axis, WHOLE + component, x, v, r, u)
 
 
 @njit

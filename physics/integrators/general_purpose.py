@@ -16,15 +16,14 @@ from scipy.integrate import DOP853, RK45
 
 from physics._jit import njit, specialise
 from physics.assembly import assemble
-from physics.contact import Law, set_time
-from physics.contact_set import count_changes, reset_contact
+from physics.contact.contact_set import count_changes, reset_contact
+from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.ball_by_ball import ball_by_ball_slopes
 from physics.integrators.march import press_state
 from physics.integrators.reference_equations import Equations, write_equations
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -50,10 +49,7 @@ class Tableau(NamedTuple):
 class Kernel(NamedTuple):
     """This package's contact kernel with its equations of motion."""
 
-    balls: Array
-    frames: Array
-    law: Law
-    track: Track
+    contacts: Contacts
     motion: MotionModel
 
 
@@ -76,11 +72,11 @@ def _padded(table: Array, stages: int) -> Array:
 @njit
 def kernel_slopes(model: Kernel, time: float, state: Array) -> Array:
     """Time derivative (12,) of the state by the contact kernel, each ball touching if it is compressed now."""
-    set_time(model.balls, model.frames, model.track, time)
-    force = press_state(model.balls, model.frames, model.law, state)
-    if count_changes(model.balls, model.law) > 0:
-        reset_contact(model.balls, model.law)
-        force = press_state(model.balls, model.frames, model.law, state)
+    set_time(model.contacts, time)
+    force = press_state(model.contacts, state)
+    if count_changes(model.contacts) > 0:
+        reset_contact(model.contacts)
+        force = press_state(model.contacts, state)
     result = np.empty(12)
     result[:6] = state[6:]
     accelerations(model.motion, time, state, force, result[6:])
@@ -176,15 +172,12 @@ def right_hand_side(scene: Scene, kind: str) -> tuple[Callable[..., Array], Equa
     """A compiled right-hand side slope(model, time, state) → (12,) of `kind`, and its model of `scene`."""
     if kind == BALL_BY_BALL:
         return _SLOPES[kind], write_equations(scene)
-    contact = assemble(scene)
-    return _SLOPES[kind], Kernel(contact.balls, contact.frames, contact.law, contact.track, motion_model(scene))
+    return _SLOPES[kind], Kernel(assemble(scene), motion_model(scene))
 
 
 def absolute_tolerance(scene: Scene, tolerance: float) -> Array:
     """Absolute tolerances (12,), m and m/s, that go with a relative one."""
-    rig = scene.rig
-    fastest = math.sqrt(rig.resonator_stiffness * (1.0 / rig.resonator_mass + 1.0 / rig.outer_mass))
-    return tolerance * np.repeat([TYPICAL_DEVIATION, TYPICAL_DEVIATION * fastest], 6)
+    return tolerance * np.repeat([TYPICAL_DEVIATION, TYPICAL_DEVIATION * scene.rig.free_resonance], 6)
 
 
 def integrate_compiled(

@@ -17,16 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact import Law, press, set_time
-from physics.contact_set import count_changes
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import Contacts, press, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.contact_tangent import contact_tangent
-from physics.integrators.march import bind_method, press_state
-from physics.integrators.output import Grid, Output
-from physics.integrators.propagator import PowerSeries
-from physics.integrators.stops import Stops
+from physics.integrators.march import Workspace, bind_method, carrying, press_state
 from physics.motion import MotionModel, outer_load
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -97,34 +93,30 @@ def _free(motion: MotionModel, axis: int, load: float, step: float, start: Array
 
 
 @njit
-def _pressed(
-    balls: Array, frames: Array, law: Law, x: Free, y: Free, dx: float, dy: float, rate: float
-) -> tuple[float, float]:
+def _pressed(contacts: Contacts, x: Free, y: Free, dx: float, dy: float, rate: float) -> tuple[float, float]:
     """Contact force (N, N) minus the force that the motion needs to be at the displacement (dx, dy), m."""
     away_x, away_y = dx - x.displacement, dy - y.displacement
-    force = press(balls, frames, law, dx, dy, x.velocity + rate * away_x, y.velocity + rate * away_y)
+    force = press(contacts, dx, dy, x.velocity + rate * away_x, y.velocity + rate * away_y)
     return force[0] + away_x / x.compliance, force[1] + away_y / y.compliance
 
 
 @njit
-def _meet(
-    balls: Array, frames: Array, law: Law, x: Free, y: Free, rate: float, force: tuple[float, float]
-) -> tuple[float, float]:
+def _meet(contacts: Contacts, x: Free, y: Free, rate: float, force: tuple[float, float]) -> tuple[float, float]:
     """Contact force (N, N) at the α-point by Newton's method from the guess `force`; not a number if none is found.
 
     The sought zero is that of a rising function, so a move that does not lessen the misfit is too long.
     """
     dx, dy = x.displacement - x.compliance * force[0], y.displacement - y.compliance * force[1]
-    miss_x, miss_y = _pressed(balls, frames, law, x, y, dx, dy, rate)
+    miss_x, miss_y = _pressed(contacts, x, y, dx, dy, rate)
     for _ in range(MOST_ITERATIONS):
-        xx, xy, yx, yy = contact_tangent(balls, frames, law, rate)
+        xx, xy, yx, yy = contact_tangent(contacts, rate)
         xx += 1.0 / x.compliance
         yy += 1.0 / y.compliance
         determinant = xx * yy - xy * yx
         move_x, move_y = (xy * miss_y - yy * miss_x) / determinant, (yx * miss_x - xx * miss_y) / determinant
         miss = math.hypot(miss_x, miss_y)
         for _ in range(MOST_SHORTENINGS):
-            miss_x, miss_y = _pressed(balls, frames, law, x, y, dx + move_x, dy + move_y, rate)
+            miss_x, miss_y = _pressed(contacts, x, y, dx + move_x, dy + move_y, rate)
             if math.hypot(miss_x, miss_y) <= miss:
                 break
             move_x *= 0.5
@@ -138,22 +130,18 @@ def _meet(
 
 @njit
 def step_generalised_alpha(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
-    weights: Array,
+    work: Workspace,
     time: float,
     step: float,
     start: Array,
     force: tuple[float, float],
     end: Array,
-    stage: Array,
 ) -> int:
     """One step of length `step` from `start` (19,), where the net contact force is `force`, into `end` (19,).
 
-    The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set at the
+    The contact set stays frozen. Leaves `contacts` at the end time; returns how many balls contradict the set at the
     α-point, near the middle of the step.
     """
     lead = np.empty(6)
@@ -167,9 +155,9 @@ def step_generalised_alpha(
         _free(motion, 0, load[0], step, start, lead),
         _free(motion, 1, load[1], step, start, lead),
     )
-    set_time(balls, frames, track, middle)
-    met = _meet(balls, frames, law, x, y, GAMMA / (BETA * step), force)
-    contradicted = count_changes(balls, law)
+    set_time(contacts, middle)
+    met = _meet(contacts, x, y, GAMMA / (BETA * step), force)
+    contradicted = count_changes(contacts)
     for axis in range(2):
         free = x if axis == 0 else y
         pushed = met[axis]
@@ -180,29 +168,13 @@ def step_generalised_alpha(
         moved = (0.5 - BETA) * lead[i] + BETA * end[12 + i]
         end[i] = start[i] + step * start[6 + i] + step * step * moved
         end[6 + i] = start[6 + i] + step * ((1.0 - GAMMA) * lead[i] + GAMMA * end[12 + i])
-    set_time(balls, frames, track, time + step)
-    accelerations(motion, time + step, end, press_state(balls, frames, law, end), lead)
+    set_time(contacts, time + step)
+    accelerations(motion, time + step, end, press_state(contacts, end), lead)
     for i in range(6):
         end[12 + i] -= lead[i]
     end[18] = step
     return contradicted
 
 
-_march = bind_method("generalised_alpha", step_generalised_alpha)
-
-
-def march_generalised_alpha(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    motion: MotionModel,
-    series: PowerSeries,
-    grid: Grid,
-    stops: Stops,
-    start_state: Array,
-    output: Output,
-) -> int:
-    """The march from the state (12,) at t = 0, whose accelerations are those of the equations of motion."""
-    start = np.concatenate([start_state, np.zeros(7)])
-    return int(_march(balls, frames, law, track, motion, series, grid, stops, start, output))
+# The march begins with the accelerations of the equations of motion.
+march_generalised_alpha = carrying(bind_method("generalised_alpha", step_generalised_alpha), np.zeros(7))

@@ -8,20 +8,20 @@ there. Times at which a ball crosses an edge of its path are known beforehand an
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, specialise
-from physics.contact import ACTIVE, Law, of_ball, press, set_time
-from physics.contact_set import count_changes, reset_contact
-from physics.integrators.events import earliest_change, mark_suspects, quintic, relative_motion
+from physics.contact.contact_set import count_changes, reset_contact
+from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
+from physics.integrators.events import Way, earliest_change, relative_motion
 from physics.integrators.output import DONE, LOG_FULL, LOGGED, NOT_FINITE, UNLOCATED, Grid, Output, record, toggle
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
 from physics.integrators.stops import Stops, next_kink, passed_kinks
+from physics.integrators.trial import Trial
 from physics.motion import MotionModel
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -33,137 +33,176 @@ MOST_CHANGES_PER_STEP = 100
 SHORTEST_GRADED_SHARE = 1.0 / 16.0
 
 
-@njit
-def locate(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    motion: MotionModel,
-    time: float,
-    step: float,
-    now: Array,
-    force: tuple[float, float],
-    then: Array,
-    after: tuple[float, float],
-    halfway: bool,
-) -> tuple[float, int]:
-    """Share of the step and ball of the first contact change in the trial step `now` to `then`; ball −1 if none.
+class Workspace(NamedTuple):
+    """What the step of a method may use: the propagator's `weights` (2, 13, 4) for its length, and scratch (4, 6)."""
 
-    `balls` is as `press` left it at the end of the step; leaves it somewhere inside.
+    weights: Array
+    stage: Array
+
+
+class Span(NamedTuple):
+    """The time from `start` to `finish` (s), and the first of the known kinks that is not behind."""
+
+    start: float
+    finish: float
+    kink: int
+
+
+@njit
+def locate(contacts: Contacts, motion: MotionModel, trial: Trial) -> tuple[float, int]:
+    """Share of the step and ball of the first contact change in the `trial`; ball −1 if none.
+
+    `contacts` are as `press` left them at its end; leaves them somewhere inside it.
     """
     begin, end = np.empty((3, 2)), np.empty((3, 2))
-    suspects = np.zeros((balls.shape[0], balls.shape[2]))
-    relative_motion(motion, time, step, now, force, begin)
-    relative_motion(motion, time + step, step, then, after, end)
-    mark_suspects(balls, law, 1.0, suspects)
-    if halfway:
-        set_time(balls, frames, track, time + 0.5 * step)
-        x, u = quintic(begin, end, 0, 0.5)
-        y, v = quintic(begin, end, 1, 0.5)
-        press(balls, frames, law, x, y, u / step, v / step)
-        mark_suspects(balls, law, 0.5, suspects)
-    share, ball, _ = earliest_change(balls, law, track, time, step, begin, end, suspects)
+    relative_motion(motion, trial.time, trial.step, trial.now, trial.force, begin)
+    relative_motion(motion, trial.time + trial.step, trial.step, trial.then, trial.after, end)
+    suspects = np.zeros((contacts.balls.shape[0], contacts.balls.shape[2]))
+    share, ball, _ = earliest_change(contacts, Way(trial.time, trial.step, begin, end), trial.halfway > 0, suspects)
     return share, ball
 
 
 @njit
-def press_state(balls: Array, frames: Array, law: Law, state: Array) -> tuple[float, float]:
+def press_state(contacts: Contacts, state: Array) -> tuple[float, float]:
     """Net force (N) of the contact set in `state` (12,)."""
-    return press(balls, frames, law, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
+    return press(contacts, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
+
+
+@njit
+def find_contact(contacts: Contacts, state: Array, output: Output) -> tuple[float, float]:
+    """Make the contact set, and the first one in `output`, what the `state` (12,) at t = 0 says; the net force (N)."""
+    set_time(contacts, 0.0)
+    press_state(contacts, state)
+    reset_contact(contacts)
+    for ball in range(output.initial.size):
+        output.initial[ball] = of_ball(contacts.balls, ACTIVE, ball)
+    return press_state(contacts, state)
+
+
+@njit
+def workspace() -> Workspace:
+    """Room for the steps of one march."""
+    return Workspace(np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6)))
 
 
 def _unbound(*_arguments: object) -> Any:
     raise RuntimeError("a march needs the step of a method: use bind_method")
 
 
-# Bound by `bind_method`: the step of the method, pasted into the march's fast path and called from its slow path.
+# Bound by `bind_method`: the step of the method, pasted into the march's fast path and called from its slow path, and
+# the parts of the slow path.
 step_pasted: Callable[..., int] = _unbound
 step_called: Callable[..., int] = _unbound
+attempt: Callable[..., Trial] = _unbound
+approach: Callable[..., tuple[float, tuple[float, float]]] = _unbound
 cross: Callable[..., tuple[float, float]] = _unbound
 
 
-def _cross(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+def _attempt(
+    contacts: Contacts,
     motion: MotionModel,
     series: PowerSeries,
-    full_step: float,
-    stops: Stops,
-    place: int,
-    start: float,
-    finish: float,
+    work: Workspace,
+    time: float,
+    step: float,
     now: Array,
     force: tuple[float, float],
     then: Array,
+) -> Trial:
+    """Try one step of any length up to that of the `series`; leaves `contacts` as `press` does at its end."""
+    set_step(series, work.weights, step / series.step)
+    halfway = step_called(contacts, motion, work, time, step, now, force, then)
+    return Trial(time, step, now, force, then, press_state(contacts, then), halfway)
+
+
+def _approach(
+    contacts: Contacts,
+    motion: MotionModel,
+    series: PowerSeries,
+    work: Workspace,
+    trial: Trial,
+    share: float,
+    ball: int,
+    pace: Array,
+    output: Output,
+) -> tuple[float, tuple[float, float]]:
+    """Repeat the `trial` up to the change of `ball` located at a `share` of it, and let the ball change sides; the time
+    (s) and the net force (N) then. Shortens the `pace` if contact is made."""
+    losing = of_ball(contacts.balls, ACTIVE, ball) > 0.5
+    time, force, left = trial.time, trial.force, share * trial.step
+    while left > SMALLEST_STEP_SHARE * series.step:
+        length = 0.5 * left if losing and left > SHORTEST_GRADED_SHARE * series.step else left
+        force = attempt(contacts, motion, series, work, time, length, trial.now, force, trial.then).after
+        trial.now[:] = trial.then
+        time += length
+        left -= length
+    set_time(contacts, time)
+    toggle(contacts.balls, ball, time, output)
+    if not losing:
+        pace[0] = SHORTEST_GRADED_SHARE * series.step
+    return time, press_state(contacts, trial.now)
+
+
+@njit
+def _end_of_part(
+    balls: Array, stops: Stops, place: int, time: float, finish: float, pace: float, full_step: float
+) -> tuple[float, float]:
+    """Where the next step ends (s): at `finish`, at the `pace` or before a kink; and where to go on (s)."""
+    smallest, nudge = SMALLEST_STEP_SHARE * full_step, KINK_NUDGE_SHARE * full_step
+    target, beyond = finish, finish
+    kink = next_kink(balls, stops, place, finish - smallest)
+    if kink < finish - smallest:
+        target, beyond = kink - nudge, kink + nudge
+    if target - time > pace + smallest:
+        target = beyond = time + pace
+    return target, beyond
+
+
+def _cross(
+    contacts: Contacts,
+    motion: MotionModel,
+    series: PowerSeries,
+    stops: Stops,
+    span: Span,
+    now: Array,
+    force: tuple[float, float],
     pace: Array,
     output: Output,
 ) -> tuple[float, float]:
-    """Advance `now` from `start` to `finish` in as many parts as kinks and contact changes ask for.
+    """Advance `now` over the `span` in as many parts as kinks and contact changes ask for; the net force (N) then.
 
     `pace` (1,) is the longest step allowed (s): short after contact was made, then doubling with every step.
     """
-    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6))
-    time, tried = start, 0
-    smallest, nudge = SMALLEST_STEP_SHARE * full_step, KINK_NUDGE_SHARE * full_step
-    while finish - time > smallest:
+    work, then = workspace(), np.empty(now.size)
+    time, place, tried = span.start, span.kink, 0
+    smallest = SMALLEST_STEP_SHARE * series.step
+    while span.finish - time > smallest:
         place = passed_kinks(stops, place, time + smallest)
-        target, beyond = finish, finish
-        kink = next_kink(balls, stops, place, finish - smallest)
-        if kink < finish - smallest:
-            target, beyond = kink - nudge, kink + nudge
-        if target - time > pace[0] + smallest:
-            target = beyond = time + pace[0]
-        step = target - time
-        set_step(series, weights, step / full_step)
-        contradicted = step_called(balls, frames, law, track, motion, weights, time, step, now, force, then, stage)
-        after = press_state(balls, frames, law, then)
-        changed = count_changes(balls, law)
-        if (changed > 0 or contradicted > 0) and tried < MOST_CHANGES_PER_STEP:
+        target, beyond = _end_of_part(contacts.balls, stops, place, time, span.finish, pace[0], series.step)
+        trial = attempt(contacts, motion, series, work, time, target - time, now, force, then)
+        changed = count_changes(contacts)
+        settled = changed + trial.halfway == 0 and beyond == target
+        if changed + trial.halfway > 0 and tried < MOST_CHANGES_PER_STEP:
             tried += 1
-            share, ball = locate(
-                balls, frames, law, track, motion, time, step, now, force, then, after, contradicted > 0
-            )
+            share, ball = locate(contacts, motion, trial)
             if ball >= 0:
-                losing = of_ball(balls, ACTIVE, ball) > 0.5
-                left = share * step
-                while left > smallest:
-                    length = 0.5 * left if losing and left > SHORTEST_GRADED_SHARE * full_step else left
-                    set_step(series, weights, length / full_step)
-                    step_called(balls, frames, law, track, motion, weights, time, length, now, force, then, stage)
-                    force = press_state(balls, frames, law, then)
-                    now[:] = then
-                    time += length
-                    left -= length
-                set_time(balls, frames, track, time)
-                toggle(balls, ball, time, output)
-                if not losing:
-                    pace[0] = SHORTEST_GRADED_SHARE * full_step
-                force = press_state(balls, frames, law, now)
+                time, force = approach(contacts, motion, series, work, trial, share, ball, pace, output)
                 continue
-            set_time(balls, frames, track, target)
-            after = press_state(balls, frames, law, then)
+            set_time(contacts, target)
         elif changed > 0:
             output.tally[UNLOCATED] += changed
-            reset_contact(balls, law)
-            after = press_state(balls, frames, law, then)
+            reset_contact(contacts)
         now[:] = then
-        force = after
         time = beyond
         if beyond > target:
-            set_time(balls, frames, track, time)
-            force = press_state(balls, frames, law, now)
-        pace[0] = min(2.0 * pace[0], full_step)
+            set_time(contacts, time)
+        force = trial.after if settled else press_state(contacts, now)
+        pace[0] = min(2.0 * pace[0], series.step)
     return force
 
 
 def _march(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
     series: PowerSeries,
     grid: Grid,
@@ -175,19 +214,12 @@ def _march(
 
     Returns DONE, NOT_FINITE or LOG_FULL.
     """
-    now, then = start_state.copy(), np.empty(start_state.size)
-    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6))
-    set_step(series, weights, 1.0)
-    set_time(balls, frames, track, 0.0)
-    press_state(balls, frames, law, now)
-    reset_contact(balls, law)
-    for ball in range(output.initial.size):
-        output.initial[ball] = of_ball(balls, ACTIVE, ball)
-    force = press_state(balls, frames, law, now)
-    place = 0
-    pace = np.full(1, grid.step)
+    now, then, work = start_state.copy(), np.empty(start_state.size), workspace()
+    set_step(series, work.weights, 1.0)
+    force = find_contact(contacts, now, output)
+    place, pace = 0, np.full(1, grid.step)
     for sample in range(grid.samples):
-        if not record(balls, motion, now, force, sample, output):
+        if not record(contacts.balls, motion, now, force, sample, output):
             return NOT_FINITE
         if sample == grid.samples - 1:
             break
@@ -195,51 +227,62 @@ def _march(
             start = (sample * grid.substeps + substep) * grid.step
             finish = (sample * grid.substeps + substep + 1) * grid.step
             place = passed_kinks(stops, place, start)
-            if pace[0] >= grid.step and next_kink(balls, stops, place, finish) >= finish:
-                contradicted = step_pasted(
-                    balls, frames, law, track, motion, weights, start, grid.step, now, force, then, stage
-                )
-                after = press_state(balls, frames, law, then)
-                if contradicted + count_changes(balls, law) == 0:
+            if pace[0] >= grid.step and next_kink(contacts.balls, stops, place, finish) >= finish:
+                contradicted = step_pasted(contacts, motion, work, start, grid.step, now, force, then)
+                after = press_state(contacts, then)
+                if contradicted + count_changes(contacts) == 0:
                     now, then = then, now
                     force = after
                     continue
-            force = cross(
-                balls, frames, law, track, motion, series, grid.step, stops, place,
-                start, finish, now, force, then, pace, output,
-            )  # fmt: skip
+            force = cross(contacts, motion, series, stops, Span(start, finish, place), now, force, pace, output)
             if output.tally[LOGGED] >= output.change_time.size:
                 return LOG_FULL
     return DONE
 
 
 def _step(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
-    weights: Array,
+    work: Workspace,
     time: float,
     step: float,
     start: Array,
     force: tuple[float, float],
     end: Array,
-    stage: Array,
 ) -> int:
     """The step of the method as a called function."""
-    return step_pasted(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)
+    return step_pasted(contacts, motion, work, time, step, start, force, end)
 
 
 def bind_method(name: str, step: Callable[..., int]) -> Callable[..., int]:
     """The march with `step` built in, compiled and cached under the method's `name`.
 
-    `step(balls, frames, law, track, motion, weights, time, step, start, force, end, stage)` makes one step of `step`
-    (s) from `time` (s) with the contact set frozen: from the state `start` (12,), where `balls` stand and the contacts'
-    net `force` (N, N) is known, to `end` (12,), leaving `balls` moved to the end of the step but not pressed there.
-    `weights` (2, 13, 4) are the propagator's for this length and `stage` (4, 6) is scratch; a method need not use
-    either. It returns how many balls contradict the contact set at a stage inside the step, 0 if it does not look.
+    `step(contacts, motion, work, time, step, start, force, end)` makes one step of `step` (s) from `time` (s) with the
+    contact set frozen: from the state `start` (12,), where `contacts` stand and their net `force` (N, N) is known, to
+    `end` (12,), leaving `contacts` moved to the end of the step but not pressed there. `work` is a Workspace, whose
+    weights are of this length; a method need not use it. It returns how many balls contradict the contact set at a
+    stage inside the step, 0 if it does not look.
     """
     called = specialise(_step, f"step_{name}_called", step_pasted=step)
-    crossing = specialise(_cross, f"cross_{name}", step_called=called)
+    attempting = specialise(_attempt, f"attempt_{name}", step_called=called)
+    approaching = specialise(_approach, f"approach_{name}", attempt=attempting)
+    crossing = specialise(_cross, f"cross_{name}", attempt=attempting, approach=approaching)
     return specialise(_march, f"march_{name}", step_pasted=step, cross=crossing)
+
+
+def carrying(march: Callable[..., int], carried: Array) -> Callable[..., int]:
+    """The `march` of a method whose state is longer by what it carries along, from the state (12,) at t = 0 with this
+    behind it."""
+
+    def longer(
+        contacts: Contacts,
+        motion: MotionModel,
+        series: PowerSeries,
+        grid: Grid,
+        stops: Stops,
+        start_state: Array,
+        output: Output,
+    ) -> int:
+        return march(contacts, motion, series, grid, stops, np.concatenate([start_state, carried]), output)
+
+    return longer

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
-from physics.contact import ACTIVE, FORCE, of_ball
+from physics.contact.forces import ACTIVE, FORCE, of_ball
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
 
 Array = NDArray[np.float64]
@@ -16,10 +16,11 @@ Array = NDArray[np.float64]
 DONE, NOT_FINITE, LOG_FULL, OUT_OF_STEPS = range(4)
 LARGEST_ACCELERATION = 1e12
 
-# Entries of the tally: contact changes logged, changes left unlocated, ball-samples in contact and in tension, steps;
-# and for the next sample, balls in contact and in tension at the last.
-LOGGED, UNLOCATED, HELD, PULLED, STEPS, HELD_BEFORE, PULLED_BEFORE = range(7)
-TALLY_ENTRIES = 7
+# Entries of the tally: contact changes logged, changes left unlocated, steps.
+LOGGED, UNLOCATED, STEPS = range(3)
+TALLY_ENTRIES = 3
+# Entries of `touched`: how long balls were in contact and in tension, summed over the balls, in one unit or another.
+HELD, PULLED = range(2)
 
 
 class Grid(NamedTuple):
@@ -34,8 +35,8 @@ class Output(NamedTuple):
     """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
     (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
     `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
-    contact set; `tally` (7,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are wrong, if the
-    method knows."""
+    contact set; `tally` (3,); `touched` (2,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are
+    wrong, if the method knows."""
 
     acceleration: Array
     state: Array
@@ -46,6 +47,7 @@ class Output(NamedTuple):
     change_made: NDArray[np.bool_]
     initial: Array
     tally: NDArray[np.int64]
+    touched: Array
     budget: Array
 
 
@@ -84,7 +86,7 @@ def record(
         for j in range(balls.shape[2]):
             held += balls[cage, ACTIVE, j] > 0.5
             pulled += balls[cage, FORCE, j] < 0.0
-    output.tally[HELD] += held
-    output.tally[PULLED] += pulled
+    output.touched[HELD] += held
+    output.touched[PULLED] += pulled
     size = abs(output.acceleration[sample, 0]) + abs(output.acceleration[sample, 1])
     return size < LARGEST_ACCELERATION

@@ -18,8 +18,8 @@ from scipy.integrate import DOP853
 
 from physics.integrators.reference_equations import contact_set, slopes, write_equations
 from physics.outcome import Outcome, SimulationFailed
-from physics.passages import passages
-from physics.profile import build_path
+from physics.paths.passages import passages
+from physics.paths.profile import build_path
 from physics.scene import Scene
 
 Array = NDArray[np.float64]
@@ -61,8 +61,7 @@ class _Run:
     def __init__(self, scene: Scene, start: Array, times: Array) -> None:
         self.scene, self.start, self.times = scene, start, times
         self.equations = write_equations(scene)
-        rig = scene.rig
-        fastest = math.sqrt(rig.resonator_stiffness * (1.0 / rig.resonator_mass + 1.0 / rig.outer_mass))
+        fastest = scene.rig.free_resonance
         self.longest_step = LONGEST_STEP * 2.0 * math.pi / fastest
         # Deviations, since the resonator moves by some 1e-10 m around a deflection of some 1e-5 m.
         self.tolerance = np.repeat([DISPLACEMENT_TOLERANCE, DISPLACEMENT_TOLERANCE * fastest], 6)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from physics._jit import njit
 from physics.cage import CagePath
-from physics.depth_path import DepthPath
-from physics.profile import build_path
+from physics.paths.depth_path import DepthPath
+from physics.paths.profile import build_path
 from physics.scene import Scene
 
 Array = NDArray[np.float64]

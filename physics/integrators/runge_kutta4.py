@@ -11,55 +11,49 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.contact import Law, move_to, press
-from physics.contact_set import count_changes
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import Contacts, move_to
 from physics.integrators.accelerations import accelerations
-from physics.integrators.march import bind_method
+from physics.integrators.march import Workspace, bind_method, press_state
 from physics.motion import MotionModel
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
 
 @njit_inline
 def step_runge_kutta4(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     motion: MotionModel,
-    weights: Array,
+    work: Workspace,
     time: float,
     step: float,
     start: Array,
     force: tuple[float, float],
     end: Array,
-    stage: Array,
 ) -> int:
     """One step of length `step` from `start` (12,), where the net contact force is `force`, into `end` (12,).
 
-    The contact set stays frozen. Leaves `balls` at the end time; returns how many balls contradict the set halfway.
-    `stage` (4, 6) is scratch: the accelerations of the stages.
+    The contact set stays frozen. Leaves `contacts` at the end time; returns how many balls contradict the set halfway.
     """
-    square = step * step
+    square, stage = step * step, work.stage
     accelerations(motion, time, start, force, stage[0])
     for i in range(6):
         end[i] = start[i] + 0.5 * step * start[6 + i]
         end[6 + i] = start[6 + i] + 0.5 * step * stage[0, i]
-    move_to(balls, frames, track, time + 0.5 * step)
-    pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
+    move_to(contacts, time + 0.5 * step)
+    pushed = press_state(contacts, end)
     accelerations(motion, time + 0.5 * step, end, pushed, stage[1])
     for i in range(6):
         end[i] = start[i] + 0.5 * step * start[6 + i] + 0.25 * square * stage[0, i]
         end[6 + i] = start[6 + i] + 0.5 * step * stage[1, i]
-    pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
-    contradicted = count_changes(balls, law)
+    pushed = press_state(contacts, end)
+    contradicted = count_changes(contacts)
     accelerations(motion, time + 0.5 * step, end, pushed, stage[2])
     for i in range(6):
         end[i] = start[i] + step * start[6 + i] + 0.5 * square * stage[1, i]
         end[6 + i] = start[6 + i] + step * stage[2, i]
-    move_to(balls, frames, track, time + step)
-    pushed = press(balls, frames, law, end[0] - end[2], end[1] - end[3], end[6] - end[8], end[7] - end[9])
+    move_to(contacts, time + step)
+    pushed = press_state(contacts, end)
     accelerations(motion, time + step, end, pushed, stage[3])
     for i in range(6):
         end[i] = start[i] + step * start[6 + i] + square / 6.0 * (stage[0, i] + stage[1, i] + stage[2, i])

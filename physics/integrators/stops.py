@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.contact import ACTIVE, of_ball
+from physics.contact.forces import ACTIVE, of_ball
 
 Array = NDArray[np.float64]
 

@@ -18,12 +18,12 @@ from scipy.linalg import eigh
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
 from physics.modes import coupled_matrix
-from physics.passages import passages
-from physics.profile import build_path
+from physics.paths.passages import passages
+from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics import carried
-from physics.stiffness import matrix
+from physics.statics.load_distribution import carried
+from physics.statics.stiffness import matrix
 from physics.trace import ContactChanges, Trace
 
 Array = NDArray[np.float64]

@@ -16,24 +16,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, specialise, uncompiled
-from physics.assembly import assemble
+from physics.assembly import assemble, ball_numbers
 from physics.cage import CagePath
-from physics.contact import ACTIVE, ContactModel, Law, press, set_time
-from physics.contact_set import reset_contact
+from physics.contact.contact_set import reset_contact
+from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
+from physics.contact.track import Track, cage_at
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.exponential_rk4 import step_exponential_rk4
+from physics.integrators.march import workspace
 from physics.integrators.methods import METHODS
-from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, power_series, set_step
+from physics.integrators.propagator import PowerSeries, power_series, set_step
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
 from physics.motion import MotionModel, motion_model, resonator_acceleration, starting_state
 from physics.outcome import Outcome, SimulationFailed
-from physics.rest import NO_EQUILIBRIUM, solve_at
+from physics.response.stability import require_stable, stable_substeps
 from physics.scene import Scene
-from physics.stability import require_stable, stable_substeps
-from physics.statics import carried, load_vector, refuse
+from physics.statics.load_distribution import carried, load_vector, refuse
+from physics.statics.rest import NO_EQUILIBRIUM, solve_at
 from physics.trace import Trace
-from physics.track import Track, cage_at
 
 Array = NDArray[np.float64]
 
@@ -66,34 +67,41 @@ def repeats_with_the_balls(scene: Scene) -> bool:
 
 
 @njit
-def _linearise(
-    balls: Array, frames: Array, law: Law, track: Track, time: Array, loads: Array
-) -> tuple[Array, Array, NDArray[np.bool_], int]:
+def _linearise(contacts: Contacts, time: Array, loads: Array) -> tuple[Array, Array, NDArray[np.bool_], int]:
     """Table (N, 9), the position (2,) at its first time, who touches (N, M), and the first index without a position."""
     table, first = np.zeros((time.size, COLUMNS)), np.zeros(2)
-    touching = np.zeros((time.size, balls.shape[0] * balls.shape[2]), dtype=np.bool_)
+    touching = np.zeros((time.size, contacts.balls.shape[0] * contacts.balls.shape[2]), dtype=np.bool_)
     dx, dy = 0.0, 0.0
     for k in range(time.size):
-        set_time(balls, frames, track, time[k])
-        dx, dy, _, status = solve_at(balls, frames, law, loads[k, 0], loads[k, 1], dx, dy)
+        set_time(contacts, time[k])
+        dx, dy, _, status = solve_at(contacts, loads[k, 0], loads[k, 1], dx, dy)
         if status == NO_EQUILIBRIUM:
             return table, first, touching, k
         if k == 0:
             first[0], first[1] = dx, dy
-        press(balls, frames, law, dx, dy, 0.0, 0.0)
-        reset_contact(balls, law)
-        fx, fy = press(balls, frames, law, dx, dy, 0.0, 0.0)
-        xx, xy, yx, yy = contact_tangent(balls, frames, law, 0.0)
-        cxx, cxy, _, cyy = contact_tangent(balls, frames, law, 1.0)
+        press(contacts, dx, dy, 0.0, 0.0)
+        reset_contact(contacts)
+        fx, fy = press(contacts, dx, dy, 0.0, 0.0)
+        xx, xy, yx, yy = contact_tangent(contacts, 0.0)
+        cxx, cxy, _, cyy = contact_tangent(contacts, 1.0)
         table[k] = fx - xx * dx - xy * dy, fy - yx * dx - yy * dy, xx, xy, yx, yy, cxx - xx, cxy - xy, cyy - yy
         for ball in range(touching.shape[1]):
-            touching[k, ball] = balls[ball // balls.shape[2], ACTIVE, ball % balls.shape[2]] > 0.5
+            touching[k, ball] = of_ball(contacts.balls, ACTIVE, ball) > 0.5
     return table, first, touching, -1
 
 
+class LinearContacts(NamedTuple):
+    """What takes the place of the nonlinear model's contacts: the `table` (N, 9) and its `row` (9,) at some time."""
+
+    table: Array
+    place: Place
+    row: Array
+
+
 @njit_inline
-def _look_up(table: Array, row: Array, place: Place, time: float) -> None:
-    """Fill `row` (9,) with the table's values at `time`, on straight lines between nodes."""
+def _look_up(contacts: LinearContacts, time: float) -> None:
+    """Bring the row to `time` (s), on straight lines between the nodes of the table."""
+    table, place, row = contacts.table, contacts.place, contacts.row
     where = time
     if place.period > 0.0:
         angle = cage_at(place.track, 0, time)[0]
@@ -106,8 +114,9 @@ def _look_up(table: Array, row: Array, place: Place, time: float) -> None:
 
 
 @njit_inline
-def _pull(table: Array, row: Array, law: bool, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
+def _pull(contacts: LinearContacts, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
     """Net force (N) of the linear contact at a displacement (m) and velocity (m/s)."""
+    row = contacts.row
     return (
         row[0] + row[2] * dx + row[3] * dy + row[6] * vx + row[7] * vy,
         row[1] + row[4] * dx + row[5] * dy + row[7] * vx + row[8] * vy,
@@ -115,7 +124,7 @@ def _pull(table: Array, row: Array, law: bool, dx: float, dy: float, vx: float, 
 
 
 @njit_inline
-def _no_changes(table: Array, law: bool) -> int:
+def _no_changes(contacts: LinearContacts) -> int:
     return 0
 
 
@@ -134,47 +143,44 @@ def _march(
 ) -> Array:
     """Acceleration (T, 2) and `state` (T, 12) from the state `start`."""
     acceleration = np.zeros((state.shape[0], 2))
-    now, then, row = start.copy(), np.empty(12), np.empty(COLUMNS)
-    weights, stage = np.empty((2, WEIGHT_ROWS, 4)), np.empty((2, 4))
-    set_step(series, weights, 1.0)
-    _look_up(table, row, place, 0.0)
+    now, then, work = start.copy(), np.empty(12), workspace()
+    contacts = LinearContacts(table, place, np.empty(COLUMNS))
+    set_step(series, work.weights, 1.0)
+    _look_up(contacts, 0.0)
     for sample in range(state.shape[0]):
         acceleration[sample, 0] = resonator_acceleration(motion, now, 0)
         acceleration[sample, 1] = resonator_acceleration(motion, now, 1)
         state[sample] = now
         for substep in range(substeps):
             time = (sample * substeps + substep) * series.step
-            force = _pull(table, row, False, now[0] - now[2], now[1] - now[3], now[6] - now[8], now[7] - now[9])
-            _step(table, row, False, place, motion, weights, time, series.step, now, force, then, stage)
+            force = _pull(contacts, now[0] - now[2], now[1] - now[3], now[6] - now[8], now[7] - now[9])
+            _step(contacts, motion, work, time, series.step, now, force, then)
             now, then = then, now
     return acceleration
 
 
-def _table(
-    scene: Scene, model: ContactModel, samples: int, rate: float
-) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
-    """Times (N,), table (N, 9), first position (2,) and who touches (N, M); raises SimulationFailed."""
+def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Times (N,), table (N, 9) and who touches (N, M); raises SimulationFailed."""
+    contacts = assemble(scene)
     if repeats_with_the_balls(scene):
         speed = scene.cage.mean_speed
         period = scene.rig.bearing.spacing
         steady = CagePath(speed, 1.5 * period / speed)
-        model = assemble(replace(scene, cage=steady))
+        contacts = assemble(replace(scene, cage=steady))
         time = np.linspace(0.0, period / speed, NODES_PER_SPACING + 1)
     else:
         time = np.arange(NODES_PER_SAMPLE * samples + 1) / (NODES_PER_SAMPLE * rate)
     loads = load_vector(scene, time)
-    table, first, touching, lost = _linearise(model.balls, model.frames, model.law, model.track, time, loads)
+    table, _, touching, lost = _linearise(contacts, time, loads)
     if lost >= 0:
         refuse(scene, float(time[lost]))
-    return time, table, first, touching
+    return time, table, touching
 
 
-def _touching(
-    scene: Scene, model: ContactModel, touching: NDArray[np.bool_], samples: int, rate: float
-) -> NDArray[np.bool_]:
+def _touching(scene: Scene, touching: NDArray[np.bool_], samples: int, rate: float) -> NDArray[np.bool_]:
     """Who touches (T, rows, balls) at the samples, from who touches (N, M) at the nodes of the table."""
-    bearing = scene.rig.bearing
-    real = touching[:, model.ball >= 0].reshape(-1, bearing.rows, bearing.balls)
+    bearing, (_, ball) = scene.rig.bearing, ball_numbers(scene)
+    real = touching[:, ball >= 0].reshape(-1, bearing.rows, bearing.balls)
     if not repeats_with_the_balls(scene):
         return real[: NODES_PER_SAMPLE * samples : NODES_PER_SAMPLE]
     turned = scene.cage.angle(np.arange(samples) / rate) / bearing.spacing
@@ -192,14 +198,14 @@ def linear_response(scene: Scene, rate: float) -> Trace:
     position carries the load, or the contacts are too stiff for the steps that can be made.
     """
     samples = round(scene.duration * rate)
-    model, motion = assemble(scene), motion_model(scene)
+    contacts, motion = assemble(scene), motion_model(scene)
     substeps = stable_substeps(scene, METHODS[METHOD], carried(scene, np.zeros(1)), rate)
     require_stable(METHODS[METHOD], rate, substeps, substeps)
-    time, table, _, touching = _table(scene, model, samples, rate)
+    time, table, touching = _table(scene, samples, rate)
     repeats = repeats_with_the_balls(scene)
     width = scene.rig.bearing.spacing / NODES_PER_SPACING if repeats else float(time[1])
-    place = Place(model.track, scene.rig.bearing.spacing if repeats else 0.0, width)
-    now = _linearise(model.balls, model.frames, model.law, model.track, np.zeros(1), load_vector(scene, np.zeros(1)))[1]
+    place = Place(contacts.track, scene.rig.bearing.spacing if repeats else 0.0, width)
+    now = _linearise(contacts, np.zeros(1), load_vector(scene, np.zeros(1)))[1]
     state = np.zeros((samples, 12))
     series = power_series(motion, 1.0 / (rate * substeps))
     acceleration = _march(table, place, motion, series, substeps, starting_state(motion, now), state)
@@ -211,7 +217,7 @@ def linear_response(scene: Scene, rate: float) -> Trace:
         rate=rate,
         time=np.arange(samples) / rate,
         acceleration=acceleration,
-        changes=changes_between_samples(_touching(scene, model, touching, samples, rate), rate),
+        changes=changes_between_samples(_touching(scene, touching, samples, rate), rate),
         model=LINEAR_TIME_VARYING.name,
         method=METHOD,
         step=series.step,

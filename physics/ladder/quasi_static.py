@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
 from physics.scene import Scene
-from physics.statics import carried, load_vector
+from physics.statics.load_distribution import carried, load_vector
 from physics.trace import Trace
 
 Array = NDArray[np.float64]

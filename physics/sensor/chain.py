@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.checks import require_not_negative
+from physics.checks import require_below_nyquist, require_not_negative
+from physics.response.resampling import decimate
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
 from physics.sensor.recorder import Recorder
@@ -36,12 +37,18 @@ class SensorChain:
         """True if the trace must keep the outer ring's motion."""
         return bool(self.modes)
 
+    @property
+    def fastest(self) -> float:
+        """Frequency of the fastest mode, Hz; 0 without modes."""
+        return max((mode.frequency for mode in self.modes), default=0.0)
+
 
 def sensed(chain: SensorChain, trace: Trace) -> Array:
     """What the sensor gives (T, 2), m/s², before background and recorder.
 
-    ValueError if the chain has modes and the trace kept no motion of the outer ring (`simulate(keep_outer=True)`);
-    InvalidParameter if a resonance or the cutoff does not lie below half the trace's rate.
+    Modes are solved at the rate of the outer ring's motion and then lowered to the trace's. ValueError if the chain has
+    modes and the trace kept no motion of the outer ring (`simulate(keep_outer=True)`); InvalidParameter if a resonance
+    or the cutoff does not lie below half the trace's rate.
     """
     signal = trace.acceleration if chain.resonator_gain == 1.0 else chain.resonator_gain * trace.acceleration
     if chain.modes:
@@ -52,5 +59,8 @@ def sensed(chain: SensorChain, trace: Trace) -> Array:
 def _of_outer_ring(modes: tuple[SensorMode, ...], trace: Trace) -> Array:
     if trace.outer_displacement is None or trace.outer_velocity is None or trace.outer_acceleration is None:
         raise ValueError("sensor modes need a trace that kept the outer ring's motion: simulate(..., keep_outer=True)")
+    for mode in modes:
+        require_below_nyquist("frequency", mode.frequency, trace.rate)
     motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
-    return mode_accelerations(modes, *motion, trace.rate)
+    raised = mode_accelerations(modes, *motion, trace.outer_rate)
+    return decimate(raised, round(trace.outer_rate / trace.rate))

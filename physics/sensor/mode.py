@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from physics.checks import require_between, require_finite, require_positive
+from physics._jit import njit, njit_inline
+from physics.checks import require_below_nyquist, require_between, require_finite, require_positive
 
 Array = NDArray[np.float64]
 
@@ -46,46 +47,76 @@ def mode_accelerations(
     (m/s) and acceleration (m/s²) at both, so that a push that ends between samples keeps its size. InvalidParameter if
     a resonance does not lie below half the rate.
     """
-    push = _cubics(displacement, velocity, acceleration, 1.0 / rate)
-    return sum((_driven(mode, push, rate) for mode in modes), np.zeros_like(acceleration))
+    for mode in modes:
+        require_below_nyquist("frequency", mode.frequency, rate)
+    steps = [_discretised(mode, 1.0 / rate) for mode in modes]
+    total = np.zeros_like(acceleration)
+    _carry_modes(
+        np.ascontiguousarray(displacement),
+        np.ascontiguousarray(velocity),
+        np.ascontiguousarray(acceleration),
+        1.0 / rate,
+        np.array([transition for transition, _ in steps]).reshape(-1, 2, 2),
+        np.array([response for _, response in steps]).reshape(-1, 2, CUBIC),
+        np.array([_reading(mode) for mode in modes]).reshape(-1, 2),
+        total,
+    )
+    return total
 
 
-def _driven(mode: SensorMode, push: Array, rate: float) -> Array:
-    """Acceleration (T, 2) of one mode under the cubics (4, T − 1, 2) of the outer ring's acceleration."""
-    from scipy.signal import lfilter
+@njit
+def _carry_modes(
+    displacement: Array,
+    velocity: Array,
+    acceleration: Array,
+    step: float,
+    transition: Array,
+    response: Array,
+    reading: Array,
+    total: Array,
+) -> None:
+    """Add to `total` (T, 2) what M modes read while the outer ring moves from sample to sample.
 
-    require_below_nyquist(mode.frequency, rate)
-    transition, response = _discretised(mode, 1.0 / rate)
-    omega = 2.0 * math.pi * mode.frequency
-    read = -np.array([omega**2, 2.0 * mode.damping * omega])
-    trace, determinant = float(np.trace(transition)), float(np.linalg.det(transition))
-    now, before = -read @ response, -(read @ transition - trace * read) @ response
-    source = np.zeros((push.shape[1] + 1, 2))
-    for power in range(CUBIC):
-        source[1:] += now[power] * push[power]
-        source[2:] += before[power] * push[power, :-1]
-    return mode.gain * np.asarray(lfilter([1.0], [1.0, -trace, determinant], source, axis=0))
+    `transition` (M, 2, 2) and `response` (M, 2, 4) of lag and rate over a step, `reading` (M, 2) of both: the lag is
+    how far a mass stays behind the ring, −z.
+    """
+    state = np.zeros((transition.shape[0], 2, 2))
+    for k in range(total.shape[0] - 1):
+        for axis in range(2):
+            first, second, third, fourth = _cubic(displacement, velocity, acceleration, step, k, axis)
+            for mode in range(transition.shape[0]):
+                lag, rate = state[mode, axis, 0], state[mode, axis, 1]
+                for part in range(2):
+                    w = response[mode, part]
+                    state[mode, axis, part] = (transition[mode, part, 0] * lag + transition[mode, part, 1] * rate) + (
+                        w[0] * first + w[1] * second + w[2] * third + w[3] * fourth
+                    )
+                lag, rate = state[mode, axis, 0], state[mode, axis, 1]
+                total[k + 1, axis] += reading[mode, 0] * lag + reading[mode, 1] * rate
 
 
-def require_below_nyquist(frequency: float, rate: float) -> None:
-    """Raise InvalidParameter unless `frequency` (Hz) lies below half the `rate` (Hz)."""
-    require_positive("rate", rate, "Hz")
-    require_between("frequency", frequency, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
-
-
-def _cubics(displacement: Array, velocity: Array, acceleration: Array, step: float) -> Array:
-    """Coefficients (4, T − 1, 2) of the acceleration, m/s², over each interval, from its quintic displacement."""
-    travel = (displacement[1:] - displacement[:-1]) / step**2
-    start, stop = velocity[:-1] / step, velocity[1:] / step
-    early, late = acceleration[:-1], acceleration[1:]
+@njit_inline
+def _cubic(
+    displacement: Array, velocity: Array, acceleration: Array, step: float, k: int, axis: int
+) -> tuple[float, float, float, float]:
+    """Coefficients of 1, τ, τ², τ³ of the acceleration, m/s², over interval `k`, from its quintic displacement."""
+    travel = (displacement[k + 1, axis] - displacement[k, axis]) / step**2
+    start, stop = velocity[k, axis] / step, velocity[k + 1, axis] / step
+    early, late = acceleration[k, axis], acceleration[k + 1, axis]
     third = 10.0 * travel - 6.0 * start - 4.0 * stop - 1.5 * early + 0.5 * late
     fourth = -15.0 * travel + 8.0 * start + 7.0 * stop + 1.5 * early - late
     fifth = 6.0 * travel - 3.0 * (start + stop) - 0.5 * (early - late)
-    return np.stack([early, 6.0 * third, 12.0 * fourth, 20.0 * fifth])
+    return early, 6.0 * third, 12.0 * fourth, 20.0 * fifth
+
+
+def _reading(mode: SensorMode) -> Array:
+    """What lag and its rate (2,) add to the mode's acceleration, gain included."""
+    omega = 2.0 * math.pi * mode.frequency
+    return mode.gain * np.array([omega**2, 2.0 * mode.damping * omega])
 
 
 def _discretised(mode: SensorMode, step: float) -> tuple[Array, Array]:
-    """Transition (2, 2) of stretch and its rate over one step, and what unit coefficients of the push add (2, 4)."""
+    """Transition (2, 2) of lag and its rate over one step, and what unit coefficients of the push add (2, 4)."""
     omega = 2.0 * math.pi * mode.frequency
     system = np.zeros((2 + CUBIC, 2 + CUBIC))
     system[0, 1] = step

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.checks import require_between, require_count, require_positive
+from physics.checks import require_below_nyquist, require_count, require_positive
 
 Array = NDArray[np.float64]
 
@@ -35,6 +35,6 @@ def mounted(mounting: Mounting, signal: Array, rate: float) -> Array:
     """
     from scipy.signal import butter, sosfilt
 
-    require_between("mounting cutoff", mounting.cutoff, 0.0, np.nextafter(rate / 2.0, 0.0), "Hz")
+    require_below_nyquist("mounting cutoff", mounting.cutoff, rate)
     sections = butter(mounting.order, mounting.cutoff, fs=rate, output="sos")
     return np.asarray(sosfilt(sections, signal, axis=0))

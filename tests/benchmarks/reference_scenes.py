@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from physics.periodic_response import METHOD as REPEATED
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
+from physics.response.periodic import METHOD as REPEATED
 from physics.simulate import simulate
 from physics.warming import warm_up
 

@@ -17,8 +17,10 @@ from datagen.charts.scenes import find_subject
 from datagen.charts.scores import Score, score
 from datagen.cli import app
 from datagen.drawing.stability_map import kind, stability_png
-from datagen.drawing.work_precision import work_precision_png
+from datagen.drawing.style import house_style, plt
+from datagen.drawing.work_precision import draw_work_precision, work_precision_png
 from datagen.errors import BadInput
+from datagen.plain import plain_json
 from physics.integrators.general_purpose import BALL_BY_BALL, CONTACT_KERNEL, PAIRS, integrate_compiled
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.simulate import simulate
@@ -170,6 +172,16 @@ def test_a_chart_holds_every_run_with_machine_and_versions(small_chart):
     assert first.score.acceleration < 1e-3  # the goal of the reference scenes
     assert set(small_chart.edges) == {"exponential_rk4"}
     assert small_chart.made_with["numba"]
+
+
+def test_a_chart_says_what_each_method_and_model_on_it_is_for_and_where_it_holds(small_chart):
+    assert {run.name for run in small_chart.runs} < set(small_chart.contracts)
+    assert small_chart.contracts["exponential_rk4"]["order"] == 4.0
+    for statement in ("computes", "holds_where", "leaves_out"):
+        assert len(str(small_chart.contracts["impulse train"][statement]).split()) > 5
+    written = json.loads(plain_json(small_chart))["contracts"]
+    assert written["impulse train"]["rings"] is True
+    assert written["modal"]["stability_limit"] is None  # infinite
     assert small_chart.best["exponential_rk4"] > small_chart.runs[1].real_time / 2.0
     assert work_precision_png(small_chart).startswith(PNG)
 
@@ -215,3 +227,21 @@ def test_the_kinds_of_a_map_follow_the_size_of_the_error():
         (math.inf, math.inf),
     )
     assert stability_png([one]).startswith(PNG)
+
+
+def test_names_in_a_chart_do_not_lie_on_each_other(small_chart):
+    speeds = {"exponential_rk4": 50.0, "exponential_adams4": 48.0, "runge_kutta4": 0.5}
+    run = dict.fromkeys(("exponential_adams4", "runge_kutta4", "quasi-static"), small_chart.runs[0])
+    model = next(one for one in small_chart.runs if one.group == entrants.MODEL)
+    more = [dataclasses.replace(model if name == "quasi-static" else one, name=name) for name, one in run.items()]
+    with house_style():
+        figure = draw_work_precision(dataclasses.replace(small_chart, edges=speeds, runs=(*small_chart.runs, *more)))
+        figure.canvas.draw()
+        strip, panel = figure.axes
+        boxes = [text.get_window_extent() for text in (*strip.texts, *panel.texts, *figure.texts)]
+        named = [text.get_text() for text in panel.get_legend().get_texts()]
+        plt.close(figure)
+    assert len(boxes) == len(speeds) + 2
+    assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
+    assert not any(box.overlaps(panel.get_window_extent()) for box in boxes)
+    assert {"model: impulse train", "model: quasi-static"} <= set(named)

@@ -277,12 +277,32 @@ def initial_state(m: Machine, cage: Array) -> Array:
 
 def replay(scenario: dict[str, Any], substeps: int = SUBSTEPS) -> dict[str, Array]:
     """Time, resonator acceleration, state and contact forces of the record that a parsed scenario describes."""
+    factor = scenario["sampling"].get("oversampling", 1)
+    run = march(scenario, factor, -(-substeps // factor))
+    return {key: run[key][::factor] for key in run} | {"acceleration": lowered(run["acceleration"], scenario)}
+
+
+def lowered(signal: Array, scenario: dict[str, Any]) -> Array:
+    """The record's samples of a `signal` (T oversampling, 2): as it is where the rate was not raised."""
+    rule, factor = scenario["sampling"].get("lowering"), scenario["sampling"].get("oversampling", 1)
+    if rule is None:
+        return signal
+    reach = rule["half_length"]
+    n = np.arange(-reach, reach + 1)
+    taps = np.sinc(rule["cutoff"] * n) * np.i0(rule["kaiser_beta"] * np.sqrt(1.0 - (n / reach) ** 2))
+    held = np.concatenate([np.repeat(signal[:1], reach, axis=0), signal, np.repeat(signal[-1:], reach, axis=0)])
+    windows = [held[first : first + n.size] for first in range(0, signal.shape[0], factor)]
+    return np.array([taps @ window for window in windows]) / taps.sum()
+
+
+def march(scenario: dict[str, Any], factor: int, substeps: int) -> dict[str, Array]:
+    """What `replay` gives, at `factor` times the record's rate and before it is lowered to that."""
     m, second = read_machine(scenario), scenario.get("second_cage")
     paths = [cage_path(scenario["slip"], scenario["parameters"]["phi_c0"])] * m.ball_offset.shape[0]
     if second:
         paths[1] = cage_path(second, second["start_angle"])
-    rate = scenario["sampling"]["rate_hz"]
-    samples = round(rate * scenario["sampling"]["duration_s"])
+    rate = factor * scenario["sampling"]["rate_hz"]
+    samples = factor * round(rate / factor * scenario["sampling"]["duration_s"])
     z, h = initial_state(m, np.array([float(angle(np.array(0.0))) for angle, _ in paths])), 1.0 / rate / substeps
     states, forces = np.empty((samples, 12)), np.empty((samples, *m.ball_offset.shape))
     for first in range(0, samples, SAMPLES_PER_BLOCK):

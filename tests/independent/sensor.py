@@ -7,13 +7,12 @@ Nothing of the generating packages is imported: this is an independent reading o
 from __future__ import annotations
 
 import base64
-import json
 import zlib
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from replay import replay
+from replay import lowered, march
 from scipy.signal import butter, lfilter, lsim
 
 Array = NDArray[np.float64]
@@ -23,16 +22,14 @@ FINER = 4
 
 
 def sensor_signal(scenario: Data, substeps: int = 16) -> Array:
-    """What the sensor gives (T, 2) before background and recorder, m/s²."""
-    chain, rate = scenario["chain"], scenario["sampling"]["rate_hz"]
-    finer = json.loads(json.dumps(scenario))
-    finer["sampling"]["rate_hz"] = FINER * rate
-    run = replay(finer, substeps=max(1, substeps // FINER))
+    """What the sensor gives (T, 2) before background and recorder, m/s²; the modes are solved on finer instants yet."""
+    chain, rate, factor = scenario["chain"], scenario["sampling"]["rate_hz"], scenario["sampling"]["oversampling"]
+    run = march(scenario, FINER * factor, max(1, substeps // (FINER * factor)))
     place, speed = run["state"][:, 2:4], run["state"][:, 8:10]
     total = chain["resonator_gain"] * run["acceleration"]
     for mode in chain["modes"]:
         total += mode["gain"] * carried_mass(mode, run["time"], place, speed)
-    total = total[::FINER]
+    total = lowered(total[::FINER], scenario)
     mounting = chain["mounting"]
     if mounting:
         numerator, denominator = butter(mounting["order"], mounting["cutoff_hz"] / (rate / 2.0))

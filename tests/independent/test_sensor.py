@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import sensor
 
-from datagen.records.background import Background, NoiseTarget, Stretch
 from datagen.records.record import make_record
+from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.scenario import Scenario, Seeds
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance

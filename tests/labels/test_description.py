@@ -1,9 +1,10 @@
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
-from labels.description import condition, label_values, slip_deviation
+from labels.description import condition, label_values
 from labels.schema import LABELS
 from physics.spall import Spall
 
@@ -86,11 +87,21 @@ def test_the_machine_and_how_it_runs_are_described(make_scene):
     assert values["bpfo"] + values["bpfi"] == pytest.approx(12.0, rel=1e-12)
 
 
-def test_the_slip_deviation_is_that_of_the_path(make_scene):
-    assert slip_deviation(make_scene()) == 0.0
-    scene = make_scene(slip=True, duration=20.0)
-    time = np.linspace(0.0, 20.0, 400001)
-    sampled = np.std(scene.cage.speed(time) / scene.cage.nominal_speed)
-    # The sampled mean is not exactly the stated one; both grids resolve the path.
-    assert slip_deviation(scene) == pytest.approx(sampled, rel=5e-3)
-    assert slip_deviation(scene) == pytest.approx(0.01, rel=0.1)  # some 690 correlation times
+@pytest.mark.parametrize("duration", [0.13, 20.0])
+def test_mean_and_deviation_of_the_slip_are_those_of_the_record_and_not_of_what_it_was_drawn_from(make_scene, duration):
+    cage = dataclasses.replace(make_scene(slip=True, duration=duration).cage, mean_slip=0.01)
+    time = np.linspace(0.0, duration, 2_000_001)
+    slip = 1.0 - cage.speed(time) / cage.nominal_speed
+    mean = np.trapezoid(slip, time) / duration
+    deviation = math.sqrt(np.trapezoid((slip - mean) ** 2, time) / duration)
+    values = label_values(dataclasses.replace(make_scene(duration=duration), cage=cage))
+    assert values["mean_slip"] == pytest.approx(mean, abs=1e-9)  # trapezoids
+    assert values["slip_deviation"] == pytest.approx(deviation, rel=1e-6)
+    if duration == 20.0:
+        assert values["slip_deviation"] == pytest.approx(0.01, rel=0.1)  # drawn with; some 690 correlation times
+
+
+def test_a_cage_without_random_slip_slips_by_what_it_is_told(make_scene):
+    scene = make_scene()
+    values = label_values(dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, mean_slip=0.01)))
+    assert (values["mean_slip"], values["slip_deviation"]) == (0.01, 0.0)

@@ -1,11 +1,13 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from labels.load_dips import load_dips
 from labels.truth import ball_passes
-from physics.passages import passages
+from physics.imperfections import Imperfections, Waviness
+from physics.paths.passages import passages
 from physics.simulate import simulate
 from physics.spall import Spall
 
@@ -71,3 +73,16 @@ def test_the_pass_table_gives_them_only_where_contact_is_never_lost(make_scene):
     assert (tables[0].rise_time > tables[0].fall_time)[inside[0]].all()
     assert np.isfinite(tables[1].release_time[inside[1]]).all()
     assert np.isnan(tables[1].fall_time).all()
+
+
+def test_short_waves_under_a_long_spall_are_part_of_the_due_load(make_scene, monkeypatch):
+    arc = math.radians(50.0)
+    long = Spall("outer", 1, math.radians(270.0), arc, 4.5e-6, arc / 2.0, arc / 2.0)
+    waves = Imperfections(waviness=(Waviness("inner", 58, 6e-7),))
+    scene = replace(make_scene(long, duration=DURATION), imperfections=waves)
+    found = dips(scene)
+    monkeypatch.setattr("labels.load_dips.SAMPLES_WITHOUT_SPALLS", 400)  # the due load at every instant of a pass
+    entry, leave, *dense = dips(scene)
+    assert np.isfinite(dense).any()
+    for times, dense_times in zip(found[2:], dense, strict=True):
+        assert times == pytest.approx(dense_times, abs=1e-3 * (leave - entry).max(), nan_ok=True)

@@ -6,7 +6,7 @@ from labels.schema import BAND_EDGES, LABEL, LABELS
 from labels.variables import COORDINATES, PASSES, SIGNALS, VARIABLES
 from physics.scene import CONTACT_LAWS
 from physics.spall import PROFILES
-from physics.stiffness import COMPONENTS
+from physics.statics.stiffness import COMPONENTS
 
 PROMISED_LABELS = [
     "condition", "location", "extent", "extent_mm", "extent_spacing", "depth", "bridged", "entry_taper",

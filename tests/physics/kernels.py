@@ -5,8 +5,9 @@ from typing import Any
 
 import numba
 
-from physics import contact, contact_set, rest
+from physics.contact import contact_set, forces
 from physics.integrators.modal import carried, flow, grazing, weights
+from physics.statics import rest
 
 
 def from_python(kernel: Callable[..., Any]) -> Callable[..., Any]:
@@ -20,10 +21,10 @@ def from_python(kernel: Callable[..., Any]) -> Callable[..., Any]:
 
 
 count_changes = from_python(contact_set.count_changes)
-of_ball = from_python(contact.of_ball)
-press = from_python(contact.press)
+of_ball = from_python(forces.of_ball)
+press = from_python(forces.press)
 reset_contact = from_python(contact_set.reset_contact)
-set_time = from_python(contact.set_time)
+set_time = from_python(forces.set_time)
 touches = from_python(contact_set.touches)
 elastic = from_python(rest.elastic)
 foretell = from_python(carried.foretell)

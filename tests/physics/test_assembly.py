@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from kernels import press, reset_contact, set_time
 
-from physics.assembly import assemble
+from physics.assembly import assemble, ball_numbers
 from physics.cage import CagePath, draw_slip_knots
-from physics.contact import (
+from physics.contact.forces import (
     BALL_ROWS,
     COMPRESSION,
     FRAME_COSINE,
@@ -22,11 +22,11 @@ REST, MOVING = (1e-6, -6e-6), (2e-3, -3e-3)
 
 def net_force(scene):
     """Net force (2,) of the balls that touch, N."""
-    model = assemble(scene)
-    set_time(model.balls, model.frames, model.track, 0.0123)
-    press(model.balls, model.frames, model.law, *REST, *MOVING)
-    reset_contact(model.balls, model.law)
-    return press(model.balls, model.frames, model.law, *REST, *MOVING)
+    contacts = assemble(scene)
+    set_time(contacts, 0.0123)
+    press(contacts, *REST, *MOVING)
+    reset_contact(contacts)
+    return press(contacts, *REST, *MOVING)
 
 
 def slipping(scene, seed, start_angle, knot_time):
@@ -44,25 +44,25 @@ def test_the_contact_angle_enters_as_its_cosine_to_the_power_n_plus_1(gearbox, b
 
 
 def test_padding_never_touches(gearbox, build_scene):
-    model = assemble(build_scene(gearbox, bearing={"rows": 1, "balls": 7}))
-    assert model.balls.shape == (1, BALL_ROWS, 8)
-    assert model.ball.tolist() == [0, 1, 2, 3, 4, 5, 6, -1]
-    assert model.row.tolist() == [0] * 7 + [-1]
-    set_time(model.balls, model.frames, model.track, 0.1)
-    press(model.balls, model.frames, model.law, 1e-3, 1e-3, 0.0, 0.0)
-    assert model.balls[0, COMPRESSION, 7] < 0.0
+    scene = build_scene(gearbox, bearing={"rows": 1, "balls": 7})
+    contacts, (row, ball) = assemble(scene), ball_numbers(scene)
+    assert contacts.balls.shape == (1, BALL_ROWS, 8)
+    assert ball.tolist() == [0, 1, 2, 3, 4, 5, 6, -1]
+    assert row.tolist() == [0] * 7 + [-1]
+    set_time(contacts, 0.1)
+    press(contacts, 1e-3, 1e-3, 0.0, 0.0)
+    assert contacts.balls[0, COMPRESSION, 7] < 0.0
 
 
 def test_rows_of_one_cage_lie_side_by_side_and_rows_of_two_cages_apart(gearbox, build_scene):
     scene = build_scene(gearbox)
-    together = assemble(scene)
-    assert together.balls.shape == (1, BALL_ROWS, 24)
-    assert together.row.tolist() == [0] * 12 + [1] * 12
-    apart = assemble(dataclasses.replace(scene, second_cage=scene.cage))
-    assert apart.balls.shape == (2, BALL_ROWS, 12)
-    assert apart.row.tolist() == together.row.tolist()
-    assert apart.ball.tolist() == together.ball.tolist() == [*range(12), *range(12)]
-    assert net_force(scene) == pytest.approx(net_force(dataclasses.replace(scene, second_cage=scene.cage)), rel=1e-12)
+    apart = dataclasses.replace(scene, second_cage=scene.cage)
+    assert assemble(scene).balls.shape == (1, BALL_ROWS, 24)
+    assert assemble(apart).balls.shape == (2, BALL_ROWS, 12)
+    for row, ball in (ball_numbers(scene), ball_numbers(apart)):
+        assert row.tolist() == [0] * 12 + [1] * 12
+        assert ball.tolist() == [*range(12), *range(12)]
+    assert net_force(scene) == pytest.approx(net_force(apart), rel=1e-12)
 
 
 @pytest.mark.parametrize("time", [-0.01, 0.0, 0.1234, 0.4999, 0.5, 0.52])
@@ -70,9 +70,9 @@ def test_the_kernels_read_the_cage_path_even_where_one_cage_has_fewer_knots(gear
     scene = build_scene(gearbox)
     fine = slipping(scene, 2, 1.0, 0.02)
     coarse = CagePath(scene.cage.nominal_speed, 0.5, 0.2, 0.02, 0.1, 0.0, (0.03, -0.04, 0.01, 0.02, -0.05, 0.04))
-    model = assemble(dataclasses.replace(scene, cage=coarse, second_cage=fine))
-    set_time(model.balls, model.frames, model.track, time)
-    for frame, cage in zip(model.frames, (coarse, fine), strict=True):
+    contacts = assemble(dataclasses.replace(scene, cage=coarse, second_cage=fine))
+    set_time(contacts, time)
+    for frame, cage in zip(contacts.frames, (coarse, fine), strict=True):
         angle = float(cage.polynomial(time))
         assert frame[FRAME_COSINE] == pytest.approx(math.cos(angle), abs=1e-12)
         assert frame[FRAME_SINE] == pytest.approx(math.sin(angle), abs=1e-12)

@@ -10,7 +10,7 @@ from scipy.integrate import simpson
 from physics.cage import CagePath
 from physics.integrators.output import Grid
 from physics.operation import Operation
-from physics.response import respond
+from physics.response.march import respond
 from physics.simulate import simulate
 
 RATE = 65536.0

@@ -12,10 +12,10 @@ from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.models import SIMPLER_MODELS
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.outcome import Outcome, SimulationFailed
-from physics.passages import passages
+from physics.paths.passages import passages
 from physics.simulate import simulate
-from physics.statics import equilibrium
-from physics.stiffness import stiffness_at, stiffness_trace
+from physics.statics.load_distribution import equilibrium
+from physics.statics.stiffness import stiffness_at, stiffness_trace
 
 RATE = 65536.0
 

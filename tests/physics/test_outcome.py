@@ -17,7 +17,6 @@ def test_every_outcome_is_a_sentence_of_its_own(outcome):
 def test_a_failure_tells_what_happened_and_what_to_change():
     failure = SimulationFailed(Outcome.NOT_FINITE, "the response stopped being finite with steps of 1e-05 s")
     assert failure.outcome is Outcome.NOT_FINITE
-    assert failure.remedy == Outcome.NOT_FINITE.value
     assert str(failure) == f"the response stopped being finite with steps of 1e-05 s; {Outcome.NOT_FINITE.value}"
 
 

@@ -14,8 +14,8 @@ from scipy.optimize import brentq
 from labels.truth import ball_passes
 from physics.modes import modes
 from physics.simulate import simulate
-from physics.statics import equilibrium
-from physics.stiffness import matrix
+from physics.statics.load_distribution import equilibrium
+from physics.statics.stiffness import matrix
 
 RATE = 65536.0
 SETTLED = 0.1

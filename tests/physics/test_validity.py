@@ -1,6 +1,7 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 from physics.cage import CagePath
@@ -71,6 +72,18 @@ def test_a_ball_hanging_on_the_edges_of_a_deep_gap_falls_over_half_of_it(authori
     drop = authority("independent_model")["ball_path"]["gearbox_outer_2_deg_um"]["value"] * 1e-6
     by_hand = element_mass(gearbox.bearing) * 2 * drop / fall**2
     assert inertia_force(scene, gap) == pytest.approx(by_hand, rel=0.01)  # the drop is given to three digits
+
+
+def test_over_a_rough_floor_the_steepest_way_between_crest_and_trough_counts(fan):
+    waves, amplitude = 20, 1.5e-6
+    values = amplitude * (1.0 - np.cos(np.linspace(0.0, 2.0 * math.pi * waves, 40 * waves + 1)))
+    smooth = Spall("outer", 1, DOWN, 0.2, 0.4e-6, 0.05, 0.05)
+    rough = dataclasses.replace(smooth, roughness=amplitude, roughness_values=tuple(values))
+    scene = scene_of(fan, (rough,))
+    half_wave = 0.2 / waves / 2.0 / scene.cage.nominal_speed
+    by_hand = element_mass(fan.bearing) * 2 * 2 * amplitude / half_wave**2
+    assert inertia_force(scene, rough) == pytest.approx(by_hand, rel=0.05)  # down the entry taper it is a little more
+    assert inertia_force(scene, smooth) < 0.1 * by_hand
 
 
 @pytest.mark.parametrize("name", ["gearbox", "fan"])

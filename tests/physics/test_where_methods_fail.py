@@ -10,10 +10,10 @@ from physics.integrators.methods import MARCHES, METHODS
 from physics.integrators.output import Grid
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
-from physics.response import respond
+from physics.response.march import respond
+from physics.response.stability import fastest_rate, longest_stable_step, stable_substeps
 from physics.simulate import simulate
-from physics.stability import fastest_rate, longest_stable_step, stable_substeps
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 RATE = 65536.0
 # Steps a sample at which each method is within its tolerance below on ordinary scenes.

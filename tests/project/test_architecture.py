@@ -49,3 +49,8 @@ def test_numba_has_one_door():
     for package in MAY_IMPORT:
         for path in files(package):
             assert path == CACHE_DOOR or "numba" not in imported(path), path
+
+
+def test_records_are_made_of_scenarios_and_scenarios_know_no_records():
+    for path in files("datagen/scenarios"):
+        assert "datagen.records" not in path.read_text(encoding="utf-8"), path

@@ -23,6 +23,12 @@ def read_csv(path: Path, layout: CsvLayout) -> Arrays:
         raise BadInput("not a text file", str(path)) from None
     rows = [row for row in _split(lines, layout) if row]
     names = [name.strip() for name in rows.pop(0)] if layout.header and rows else []
+    twice = next((name for name in names if name and names.count(name) > 1), None)
+    if twice is not None:
+        raise BadInput(
+            "this column is there twice", f"{path}, line {1 + layout.skip_lines}", twice,
+            allowed='different names, or csv = {header = false, skip_lines = …}, which calls the columns "1", "2", …',
+        )  # fmt: skip
     width = len(names) or (len(rows[0]) if rows else 0)
     names = names or [str(column) for column in range(1, width + 1)]
     for line, row in enumerate(rows, start=1 + layout.skip_lines + layout.header):

@@ -12,9 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_pasted
-from physics.contact import Law, move_to, press
-from physics.contact_set import count_changes
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import Contacts, move_to
 from physics.integrators.modal.flow import LinearFlow, set_rest
+from physics.integrators.modal.memory import BEFORE, Memory
+from physics.integrators.modal.remainder import remainder_at
 from physics.integrators.modal.weights import (
     AT_END,
     AT_HALF,
@@ -27,7 +29,6 @@ from physics.integrators.modal.weights import (
     push,
     turn,
 )
-from physics.track import Track
 
 Array = NDArray[np.float64]
 
@@ -64,33 +65,26 @@ def through_end(
 
 @njit_pasted
 def step_carried(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     flow: LinearFlow,
-    weights: Array,
+    memory: Memory,
+    row: int,
     time: float,
     step: float,
     start: Array,
-    x0: float,
-    y0: float,
+    force: tuple[float, float],
     end: Array,
-    rest: Array,
-    past: Array,
-    ratio: float,
-    course: Array,
-) -> tuple[int, float, float, float, float]:
-    """As `step_modal_rk4`, with the forces `past` (2, 2) of a step before that was `ratio` times as long.
+) -> tuple[int, tuple[float, float], tuple[float, float]]:
+    """As `step_modal_rk4`, with the forces of the step before that the memory holds, and no note of the motion halfway.
 
-    `x0`, `y0` (N) is the remaining contact force at the start. The force at the end is that of the foretold motion.
+    The force at the end is that of the foretold motion.
     """
-    w = weights
-    kx, ky = flow.stiffness
-    cx, cy = flow.damping
+    w, rest, past, course = memory.weights[row], memory.rest, memory.past, memory.course
+    ratio = memory.clock[BEFORE] / step
+    x0, y0 = force
     x1, x2 = foretell(past[0, 0], past[1, 0], x0, ratio)
     y1, y2 = foretell(past[0, 1], past[1, 1], y0, ratio)
-    move_to(balls, frames, track, time + 0.5 * step)
+    move_to(contacts, time + 0.5 * step)
     set_rest(flow, time + 0.5 * step, rest)
     x, y, u, v = free_motion(w, HALF, start, rest)
     a, b = AT_HALF, OTHER + AT_HALF
@@ -98,13 +92,12 @@ def step_carried(
     u += w[a + 1] * x0 + w[a + 3] * x1 + w[a + 5] * x2
     y += w[b] * y0 + w[b + 2] * y1 + w[b + 4] * y2
     v += w[b + 1] * y0 + w[b + 3] * y1 + w[b + 5] * y2
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    contradicted = count_changes(balls, law)
-    mx, my = fx - kx * x - cx * u, fy - ky * y - cy * v
-    x1, x2, x3 = through_middle(x0, x1, x2, mx, ratio)
-    y1, y2, y3 = through_middle(y0, y1, y2, my, ratio)
+    middle = remainder_at(contacts, flow, (x, y, u, v))
+    contradicted = count_changes(contacts)
+    x1, x2, x3 = through_middle(x0, x1, x2, middle[0], ratio)
+    y1, y2, y3 = through_middle(y0, y1, y2, middle[1], ratio)
 
-    move_to(balls, frames, track, time + step)
+    move_to(contacts, time + step)
     set_rest(flow, time + step, rest)
     x, y, u, v = free_motion(w, END, start, rest)
     a, b = AT_END, OTHER + AT_END
@@ -112,11 +105,10 @@ def step_carried(
     u += w[a + 1] * x0 + w[a + 3] * x1 + w[a + 5] * x2 + w[a + 7] * x3
     y += w[b] * y0 + w[b + 2] * y1 + w[b + 4] * y2 + w[b + 6] * y3
     v += w[b + 1] * y0 + w[b + 3] * y1 + w[b + 5] * y2 + w[b + 7] * y3
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    lx, ly = fx - kx * x - cx * u, fy - ky * y - cy * v
+    last = remainder_at(contacts, flow, (x, y, u, v))
     course[0, 0], course[1, 0] = x0, y0
-    course[0, 1], course[0, 2], course[0, 3], course[0, 4] = through_end(x0, x1, x2, x3, lx, ratio)
-    course[1, 1], course[1, 2], course[1, 3], course[1, 4] = through_end(y0, y1, y2, y3, ly, ratio)
+    course[0, 1], course[0, 2], course[0, 3], course[0, 4] = through_end(x0, x1, x2, x3, last[0], ratio)
+    course[1, 1], course[1, 2], course[1, 3], course[1, 4] = through_end(y0, y1, y2, y3, last[1], ratio)
     turn(w, TURN, OTHER, start, end)
     push(w, KICKS, OTHER, course, end)
-    return contradicted, mx, my, lx, ly
+    return contradicted, middle, last

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inner
-from physics.contact import ACTIVE, Law, of_ball, set_time
-from physics.contact_set import count_changes, reset_contact
+from physics._jit import njit_inline, njit_inner
+from physics.contact.contact_set import count_changes, reset_contact
+from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.judgement import meet_change
@@ -26,7 +26,7 @@ from physics.integrators.modal.memory import (
     Stride,
 )
 from physics.integrators.output import UNLOCATED, Output, toggle
-from physics.track import Track
+from physics.integrators.trial import Trial
 
 Array = NDArray[np.float64]
 
@@ -41,51 +41,41 @@ def change_sides(balls: Array, memory: Memory, output: Output) -> None:
     memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
 
 
-@njit_inner
+@njit_inline
 def look(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     flow: LinearFlow,
     grid: Stride,
     memory: Memory,
-    step: float,
     units: int,
-    now: Array,
-    force: tuple[float, float],
-    then: Array,
-    after: tuple[float, float],
+    trial: Trial,
     contradicted: bool,
-    halfway: bool,
     grazing: bool,
     output: Output,
 ) -> int:
-    """What to do about the trial step `now` to `then` in which balls may change sides: TAKE it, AGAIN or CHANGED.
+    """What to do about the `trial` of `units` in which balls may change sides: TAKE it, AGAIN or CHANGED.
 
     They do if `contradicted`, and may if `grazing`. AGAIN: shorter, or up to the change that was located.
     """
-    clock, marks, rest = memory.clock, memory.marks, memory.rest
+    clock, marks, balls = memory.clock, memory.marks, contacts.balls
     if units > UNITS and contradicted:
         marks[CAREFUL] = marks[CELL] + units
         return AGAIN
     if marks[TRIED] >= MOST_CHANGES_PER_STEP:
         if contradicted:
-            output.tally[UNLOCATED] += count_changes(balls, law)
-            reset_contact(balls, law)
+            output.tally[UNLOCATED] += count_changes(contacts)
+            reset_contact(contacts)
         return TAKE
-    share, ball, speed = locate(
-        balls, frames, law, track, flow, clock[TIME], step, now, force, then, after, rest, halfway, grazing,
-        memory.ends, memory.suspects,
-    )  # fmt: skip
+    share, ball, speed = locate(contacts, flow, memory, trial, grazing)
     if ball < 0:
-        set_time(balls, frames, track, clock[TIME] + step)
+        set_time(contacts, trial.time + trial.step)
         return TAKE
     if units > UNITS:
         marks[CAREFUL] = marks[CELL] + units
         return AGAIN
     marks[TRIED] += 1
-    meet_change(law, grid, memory, share * step, ball, of_ball(balls, ACTIVE, ball) > 0.5, speed, step)
+    losing = of_ball(balls, ACTIVE, ball) > 0.5
+    meet_change(contacts.law, grid, memory, share * trial.step, ball, losing, speed, trial.step)
     if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
         return AGAIN
     change_sides(balls, memory, output)

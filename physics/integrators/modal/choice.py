@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_pasted
-from physics.contact_set import count_ahead
+from physics.contact.contact_set import count_ahead
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
     BALL,
@@ -35,6 +37,16 @@ LOOK_AHEAD = 1.0
 SHORT = 0.7
 
 
+class Choice(NamedTuple):
+    """A step to try: the `row` of its weights, 0 if they have to be computed; its `units`, 0 if it ends off the grid;
+    its `end` (s); and where to go on (s), `beyond` a kink at its end."""
+
+    row: int
+    units: int
+    end: float
+    beyond: float
+
+
 @njit_pasted
 def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> int:
     """How many of the `STRIDES` may be taken from here, as a number from 1; 0 if the step is a sample or less."""
@@ -58,21 +70,18 @@ def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> in
 
 
 @njit_inline
-def up_to_kink(
-    balls: Array, grid: Stride, stops: Stops, memory: Memory, row: int, units: int, target: float
-) -> tuple[int, int, float, float]:
-    """What `next_step` returns for a step to `target` (s), or to the first kink before it."""
+def up_to_kink(balls: Array, grid: Stride, stops: Stops, memory: Memory, row: int, units: int, target: float) -> Choice:
+    """The step to `target` (s), or to the first kink before it."""
     smallest, nudge = SMALLEST_STEP_SHARE * grid.interval, KINK_NUDGE_SHARE * grid.interval
     kink = next_kink(balls, stops, memory.marks[STOP], target - smallest)
     if kink < target - smallest:
-        return 0, 0, kink - nudge, kink + nudge
-    return row, units, target, target
+        return Choice(0, 0, kink - nudge, kink + nudge)
+    return Choice(row, units, target, target)
 
 
 @njit_pasted
-def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple[int, int, float, float]:
-    """Row of the step's weights (0 if they have to be computed), its units (0 if it ends off the grid), its end (s),
-    and where to go on (s), beyond a kink at its end."""
+def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choice:
+    """The step to try next."""
     clock, marks = memory.clock, memory.marks
     unit, time = grid.interval / UNITS, clock[TIME]
     if marks[BALL] != NO_BALL:
@@ -80,12 +89,12 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> tuple
         length = left if left <= clock[GRADED] else 0.5 * left
         units = int(length / unit + 0.5)
         if marks[ON_GRID] == 1 and units > 0 and abs(left / unit - int(left / unit + 0.5)) < NEARLY:
-            return units, units, time + units * unit, time + units * unit
-        return 0, 0, time + length, time + length
+            return Choice(units, units, time + units * unit, time + units * unit)
+        return Choice(0, 0, time + length, time + length)
     level = stride_level(balls, grid, stops, memory)
     if level > 0:
         units = UNITS * STRIDES[level - 1]
-        return UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit
+        return Choice(UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit)
     next_line = (marks[CELL] + 1) * unit
     if clock[PACE] < SHORT * unit and next_line - time > (1.0 + SHORT) * clock[PACE]:
         return up_to_kink(balls, grid, stops, memory, 0, 0, time + clock[PACE])

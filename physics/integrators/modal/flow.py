@@ -18,9 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
+from physics.contact.turning import cosine_sine
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]
+# Displacement along x and y (m) and velocity along x and y (m/s) of the inner relative to the outer ring.
+Motion = tuple[float, float, float, float]
 
 # A direction has three pairs of amplitudes: real and imaginary part of a swinging mode, or two modes that only decay.
 PAIRS, AXIS, AMPLITUDES = 3, 6, 12
@@ -195,8 +198,8 @@ def reading(flow: LinearFlow, row: int, amplitudes: Array, axis: int) -> float:
 
 
 @njit_inline
-def relative(flow: LinearFlow, amplitudes: Array, rest: Array) -> tuple[float, float, float, float]:
-    """Displacement x, y (m) and velocity x, y (m/s) of the inner relative to the outer ring."""
+def relative(flow: LinearFlow, amplitudes: Array, rest: Array) -> Motion:
+    """Motion of the inner relative to the outer ring."""
     return (
         rest[0, DISPLACEMENT] + reading(flow, DISPLACEMENT, amplitudes, 0),
         rest[1, DISPLACEMENT] + reading(flow, DISPLACEMENT, amplitudes, 1),
@@ -209,7 +212,7 @@ def relative(flow: LinearFlow, amplitudes: Array, rest: Array) -> tuple[float, f
 def set_rest(flow: LinearFlow, time: float, rest: Array) -> None:
     """Bring `rest` (2, 11), what the loads alone do, to `time` (s)."""
     if flow.turning:
-        cosine, sine = math.cos(flow.shaft_speed * time), math.sin(flow.shaft_speed * time)
+        cosine, sine = cosine_sine(flow.shaft_speed * time)
         for axis in range(2):
             for column in range(READINGS):
                 rest[axis, column] = (

@@ -12,23 +12,21 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inner
-from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
-from physics.depth_path import RELIEF_LEVELS
-from physics.track import (
-    ANGLE,
+from physics._jit import njit_inline, njit_inner
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
+from physics.contact.track import (
     CAGE,
     CELL,
-    FIRST_BALL,
-    FIRST_BREAK,
-    PIECES,
     RELIEF,
     SIGN,
     SPEED,
     Track,
     cage_at,
+    hindmost,
     path_under,
+    place_of,
 )
+from physics.paths.depth_path import RELIEF_LEVELS
 
 Array = NDArray[np.float64]
 
@@ -45,14 +43,14 @@ def is_rough(track: Track) -> bool:
     return relief > 0.0
 
 
-@njit_inner
-def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float, step: float, suspects: Array) -> int:
+@njit_inline
+def mark_grazing(contacts: Contacts, noted: Array, time: float, step: float, suspects: Array) -> int:
     """Put into `suspects` (G, M) the share of the step at which each ball is first seen to contradict the contact set,
     or 0; how many do. If none does, `suspects` is left as it was.
 
-    `balls` is as `press` left it at the end of the step, `noted` (G, 2, M) the motion at its beginning.
+    `contacts` are as `press` left them at the end of the step, `noted` (G, 2, M) is the motion at its beginning.
     """
-    grazing = 0
+    balls, track, grazing = contacts.balls, contacts.track, 0
     for spall in range(track.spalls.shape[0]):
         if track.spalls[spall, RELIEF] == 0.0:
             continue
@@ -64,16 +62,12 @@ def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float
         level = 0
         while level < RELIEF_LEVELS - 1 and cells > 1 << level:
             level += 1
-        first = int(row[FIRST_BREAK])
-        entry, leave = track.breaks[first], track.breaks[first + int(row[PIECES])]
-        ahead = row[SIGN] * (start - row[ANGLE] - row[SPEED] * time)
-        turns = math.ceil((entry - max(travel, 0.0) - ahead) / track.spacing)
-        arc = ahead + turns * track.spacing
-        while arc <= leave - min(travel, 0.0):
-            place = int(row[FIRST_BALL]) + int(row[SIGN] * turns) % track.row_size
+        arc, turns, leave = hindmost(track, spall, start, time, travel)
+        while arc <= leave:
+            place = place_of(track, spall, turns)
             if min(abs(balls[cage, COMPRESSION, place]), abs(noted[cage, 0, place])) < row[RELIEF + level]:
                 looks = int(min(float(MOST_LOOKS), math.ceil(cells) + 1.0))
-                seen = _first_contradiction(balls, law, track, spall, noted, cage, place, step, arc, travel, looks)
+                seen = _first_contradiction(contacts, noted, spall, place, step, arc, travel, looks)
                 if seen > 0.0:
                     if grazing == 0:
                         suspects[:] = 0.0
@@ -84,22 +78,14 @@ def mark_grazing(balls: Array, law: Law, track: Track, noted: Array, time: float
     return grazing
 
 
-@njit_inner
+@njit_inline
 def _first_contradiction(
-    balls: Array,
-    law: Law,
-    track: Track,
-    spall: int,
-    noted: Array,
-    cage: int,
-    place: int,
-    step: float,
-    arc: float,
-    travel: float,
-    looks: int,
+    contacts: Contacts, noted: Array, spall: int, place: int, step: float, arc: float, travel: float, looks: int
 ) -> float:
     """Share of the step at which a ball that starts at `arc` and covers `travel` first contradicts the contact set; 0
     if none of the `looks` sees it."""
+    balls, law, track = contacts.balls, contacts.law, contacts.track
+    cage = int(track.spalls[spall, CAGE])
     depth, slope = path_under(track, spall, arc)
     begin, begin_rate = noted[cage, 0, place] + depth, step * noted[cage, 1, place] + slope * travel
     depth, slope = path_under(track, spall, arc + travel)

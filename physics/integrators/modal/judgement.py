@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.contact import ACTIVE, CLOSING, COMPRESSION, Law, law_power
-from physics.contact_set import count_dips
+from physics.contact.contact_set import count_dips
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, Law, law_power
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
@@ -104,14 +104,14 @@ def dipped(balls: Array, grid: Stride, memory: Memory, step: float) -> bool:
     return True
 
 
-@njit_inner
-def resolution_error(balls: Array, law: Law, noted: Array, midway: Array, step: float) -> float:
+@njit_inline
+def resolution_error(contacts: Contacts, noted: Array, midway: Array, step: float) -> float:
     """Momentum (N s) by which the step is wrong, from the balls' motion at its beginning (`noted`), `midway` and end.
 
     Of the film, Simpson's rule on the rates against the compressions themselves; of the elastic contact, how far the
     force in the middle is from the cubic through force and rate of force at both ends. Knows nothing of earlier steps.
     """
-    total = 0.0
+    balls, law, total = contacts.balls, contacts.law, 0.0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
             if balls[cage, ACTIVE, j] > 0.5:
@@ -143,10 +143,13 @@ def carried_error(memory: Memory, step: float) -> float:
 
 
 @njit_pasted
-def judge(balls: Array, law: Law, grid: Stride, memory: Memory, step: float, carried: bool) -> bool:
+def judge(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
     """Set the pace by the error of the step; False to take it back."""
     clock, tolerance = memory.clock, memory.clock[TOLERANCE]
-    error = carried_error(memory, step) if carried else resolution_error(balls, law, memory.noted, memory.midway, step)
+    if is_carried(memory, step):
+        error = carried_error(memory, step)
+    else:
+        error = resolution_error(contacts, memory.noted, memory.midway, step)
     if error > REJECTED * tolerance and may_shrink(grid, step):
         clock[PACE] = 0.5 * step
         return False

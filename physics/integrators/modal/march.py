@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean, njit_pasted
-from physics.contact import ACTIVE, Law, of_ball, set_time
-from physics.contact_set import count_changes, note_motion, reset_contact, restore_motion
+from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
+from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import SMALLEST_STEP_SHARE
 from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
@@ -27,7 +27,6 @@ from physics.integrators.modal.memory import (
     BEFORE,
     BUDGET,
     CELL,
-    FIRST_INSIDE,
     LEFT,
     NO_BALL,
     ON_GRID,
@@ -40,8 +39,10 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-from physics.integrators.modal.output import keep, record, remaining_force, write_inside
+from physics.integrators.modal.output import keep, keeps_more, record, write_inside
+from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.modal.rk4 import step_modal_rk4
+from physics.integrators.modal.tension import add_contact_time
 from physics.integrators.modal.weights import set_step
 from physics.integrators.output import (
     DONE,
@@ -54,7 +55,7 @@ from physics.integrators.output import (
     Output,
 )
 from physics.integrators.stops import Stops, passed_kinks
-from physics.track import Track
+from physics.integrators.trial import Trial
 
 Array = NDArray[np.float64]
 
@@ -63,25 +64,23 @@ MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000
 
 
 @njit_lean
-def begin(
-    balls: Array, frames: Array, law: Law, track: Track, flow: LinearFlow, grid: Stride, memory: Memory, output: Output
-) -> None:
+def begin(contacts: Contacts, flow: LinearFlow, grid: Stride, memory: Memory, output: Output) -> None:
     """Find the first contact set and write sample 0."""
     clock, marks = memory.clock, memory.marks
-    state = memory.states[0]
-    set_rest(flow, 0.0, memory.rest)
-    set_time(balls, frames, track, 0.0)
-    remaining_force(balls, frames, law, flow, state, memory.rest)
-    reset_contact(balls, law)
+    state, rest = memory.states[0], memory.rest
+    set_rest(flow, 0.0, rest)
+    set_time(contacts, 0.0)
+    remaining_force(contacts, flow, state, rest)
+    reset_contact(contacts)
     for ball in range(output.initial.size):
-        output.initial[ball] = of_ball(balls, ACTIVE, ball)
-    force = remaining_force(balls, frames, law, flow, state, memory.rest)
+        output.initial[ball] = of_ball(contacts.balls, ACTIVE, ball)
+    force = remaining_force(contacts, flow, state, rest)
     clock[:] = 0.0
     marks[:] = 0
     clock[PACE], marks[BALL], marks[ON_GRID] = grid.interval, NO_BALL, 1
-    clock[SQUARES] = record(balls, flow, state, memory.rest, 0, 1, output)
+    clock[SQUARES] = record(flow, state, rest, 0, output)
     set_tolerance(grid, memory, 1)
-    keep(balls, flow, state, memory.rest, force, 0.0, 0, output)
+    keep(contacts.balls, flow, rest, 0.0, state, force, 0, output)
 
 
 @njit_pasted
@@ -108,37 +107,24 @@ def write_sample(
     state: Array,
     force: tuple[float, float],
     units: int,
-    kept: bool,
     output: Output,
 ) -> bool:
-    """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite.
-
-    `kept`: more is wanted than the acceleration.
-    """
+    """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite."""
     clock, marks = memory.clock, memory.marks
     if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0:
         return True
     marks[TRIED] = 0
     sample, weight = marks[CELL] // UNITS, max(1, units // UNITS)
-    square = record(balls, flow, state, memory.rest, sample, weight, output)
-    if kept:
-        keep(balls, flow, state, memory.rest, force, clock[TIME], sample, output)
+    square = record(flow, state, memory.rest, sample, output)
+    if keeps_more(output):
+        keep(balls, flow, memory.rest, clock[TIME], state, force, sample, output)
     clock[SQUARES] += weight * square
     set_tolerance(grid, memory, sample + 1)
     return square < LARGEST_ACCELERATION**2
 
 
 @njit_pasted
-def arrive(
-    balls: Array,
-    frames: Array,
-    track: Track,
-    grid: Stride,
-    memory: Memory,
-    step: float,
-    jump: float,
-    output: Output,
-) -> bool:
+def arrive(contacts: Contacts, grid: Stride, memory: Memory, step: float, jump: float, output: Output) -> bool:
     """What follows a `step` (s) that was taken; True if it changes the contact force.
 
     A ball changes sides if this was the instant, and a kink is passed in a `jump` (s).
@@ -148,10 +134,10 @@ def arrive(
         clock[LEFT] -= step
         if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
             return False
-        change_sides(balls, memory, output)
+        change_sides(contacts.balls, memory, output)
         return True
     if jump > 0.0:
-        set_time(balls, frames, track, clock[TIME])
+        set_time(contacts, clock[TIME])
         clock[BEFORE], clock[PACE] = 0.0, min(clock[PACE], grid.interval)
         return True
     return False
@@ -159,10 +145,7 @@ def arrive(
 
 @njit_pasted
 def try_step(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     flow: LinearFlow,
     memory: Memory,
     row: int,
@@ -170,74 +153,58 @@ def try_step(
     now: Array,
     force: tuple[float, float],
     then: Array,
-) -> tuple[bool, int, float, float, float, float]:
-    """Whether the step before carried this one, how many balls contradict the contact set halfway, and the remaining
-    contact force (N) halfway and at the end."""
-    start = memory.clock[TIME]
-    note_motion(balls, memory.noted)
-    carried = is_carried(memory, step)
-    if carried:
-        halfway, mx, my, after_x, after_y = step_carried(
-            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then,
-            memory.rest, memory.past, memory.clock[BEFORE] / step, memory.course,
-        )  # fmt: skip
+) -> tuple[Trial, tuple[float, float]]:
+    """The step from `now` to `then` (12,), carried by the one before if that was long enough; and the remaining contact
+    force (N) halfway."""
+    time = memory.clock[TIME]
+    note_motion(contacts.balls, memory.noted)
+    if is_carried(memory, step):
+        halfway, middle, after = step_carried(contacts, flow, memory, row, time, step, now, force, then)
     else:
-        halfway, mx, my, after_x, after_y = step_modal_rk4(
-            balls, frames, law, track, flow, memory.weights[row], start, step, now, force[0], force[1], then,
-            memory.rest, memory.midway, memory.course,
-        )  # fmt: skip
-    return carried, halfway, mx, my, after_x, after_y
+        halfway, middle, after = step_modal_rk4(contacts, flow, memory, row, time, step, now, force, then)
+    return Trial(time, step, now, force, then, after, halfway), middle
 
 
 @njit_pasted
 def consider(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     flow: LinearFlow,
     grid: Stride,
     memory: Memory,
-    step: float,
     units: int,
-    now: Array,
-    force: tuple[float, float],
-    then: Array,
-    after: tuple[float, float],
-    halfway: int,
-    carried: bool,
+    trial: Trial,
     rough: bool,
     output: Output,
-) -> tuple[int, float, float]:
-    """What to do about the trial step `now` to `then`, at whose middle `halfway` balls contradict the contact set: TAKE
-    it, AGAIN or CHANGED; and the remaining contact force (N) at its end, `after` if no ball changes sides."""
-    start = memory.clock[TIME]
-    contradicted = halfway + count_changes(balls, law) > 0
-    if not contradicted and dipped(balls, grid, memory, step):
-        return AGAIN, after[0], after[1]
-    grazing = rough and mark_grazing(balls, law, track, memory.noted, start, step, memory.suspects) > 0
+) -> tuple[int, tuple[float, float]]:
+    """What to do about the `trial` of `units`: TAKE it, AGAIN or CHANGED; and the remaining contact force (N) at its
+    end."""
+    contradicted = trial.halfway + count_changes(contacts) > 0
+    if not contradicted and dipped(contacts.balls, grid, memory, trial.step):
+        return AGAIN, trial.after
+    grazing = rough and mark_grazing(contacts, memory.noted, trial.time, trial.step, memory.suspects) > 0
+    after = trial.after
     if contradicted or grazing:
-        action = look(
-            balls, frames, law, track, flow, grid, memory, step, units, now, force, then, after, contradicted,
-            halfway > 0, grazing, output,
-        )  # fmt: skip
+        action = look(contacts, flow, grid, memory, units, trial, contradicted, grazing, output)
         if action != TAKE:
-            return action, after[0], after[1]
-        after = remaining_force(balls, frames, law, flow, then, memory.rest)
-    return TAKE if judge(balls, law, grid, memory, step, carried) else AGAIN, after[0], after[1]
+            return action, after
+        after = remaining_force(contacts, flow, trial.then, memory.rest)
+    return TAKE if judge(contacts, grid, memory, trial.step) else AGAIN, after
+
+
+@njit_pasted
+def take_back(contacts: Contacts, flow: LinearFlow, memory: Memory, trial: Trial, action: int) -> tuple[float, float]:
+    """Go back to the beginning of the `trial`, where a ball may have CHANGED sides; the remaining contact force (N)."""
+    set_rest(flow, trial.time, memory.rest)
+    restore_motion(contacts.balls, memory.noted)
+    if action != CHANGED:
+        return trial.force
+    set_time(contacts, trial.time)
+    return remaining_force(contacts, flow, trial.now, memory.rest)
 
 
 @njit_lean
 def march_modal(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
-    flow: LinearFlow,
-    grid: Stride,
-    stops: Stops,
-    memory: Memory,
-    output: Output,
+    contacts: Contacts, flow: LinearFlow, grid: Stride, stops: Stops, memory: Memory, output: Output
 ) -> int:
     """Fill `output` up to the samples of `grid` from where `begin`, or the march before, has left `memory`.
 
@@ -247,49 +214,38 @@ def march_modal(
     now, then, rest = memory.states[0], memory.states[1], memory.rest
     clock, marks = memory.clock, memory.marks
     set_rest(flow, clock[TIME], rest)
-    set_time(balls, frames, track, clock[TIME])
-    force = remaining_force(balls, frames, law, flow, now, rest)
+    set_time(contacts, clock[TIME])
+    force = remaining_force(contacts, flow, now, rest)
     most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
     room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
-    rough = is_rough(track)
-    kept = output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0
+    rough = is_rough(contacts.track)
     while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
         if output.tally[STEPS] > most:
             return OUT_OF_STEPS
         marks[STOP] = passed_kinks(stops, marks[STOP], clock[TIME] + smallest)
-        row, units, target, beyond = next_step(balls, grid, stops, memory)
-        start, step = clock[TIME], target - clock[TIME]
-        if row == 0:
+        choice = next_step(contacts.balls, grid, stops, memory)
+        step = choice.end - clock[TIME]
+        if choice.row == 0:
             set_step(flow, memory.weights[0], step, memory.phi)
         before = rest[0, OUTPUT], rest[1, OUTPUT]
-        carried, halfway, mx, my, after_x, after_y = try_step(
-            balls, frames, law, track, flow, memory, row, step, now, force, then
-        )
+        trial, middle = try_step(contacts, flow, memory, choice.row, step, now, force, then)
+        after = trial.after
         if marks[BALL] == NO_BALL:
-            action, after_x, after_y = consider(
-                balls, frames, law, track, flow, grid, memory, step, units, now, force, then, (after_x, after_y),
-                halfway, carried, rough, output,
-            )  # fmt: skip
+            action, after = consider(contacts, flow, grid, memory, choice.units, trial, rough, output)
             if action != TAKE:
-                set_rest(flow, start, rest)
-                restore_motion(balls, memory.noted)
-                if action == CHANGED:
-                    set_time(balls, frames, track, start)
-                    force = remaining_force(balls, frames, law, flow, now, rest)
+                force = take_back(contacts, flow, memory, trial, action)
                 continue
         output.tally[STEPS] += 1
-        remember(memory, step, force, (mx, my))
-        if units > UNITS:
-            write_inside(
-                balls, frames, law, track, flow, memory.inside, FIRST_INSIDE[row - UNITS - 1], units // UNITS, now,
-                memory.between, then, before, rest, memory.course, start, grid.interval, marks[CELL] // UNITS, output,
-            )  # fmt: skip
+        add_contact_time(contacts, memory, step, output)
+        remember(memory, step, force, middle)
+        if choice.units > UNITS:
+            write_inside(contacts, flow, grid, memory, choice, trial, before, output)
         now, then = then, now
-        force = after_x, after_y
-        land(grid, memory, units, beyond)
-        if arrive(balls, frames, track, grid, memory, step, beyond - target, output):
-            force = remaining_force(balls, frames, law, flow, now, rest)
-        if not write_sample(balls, flow, grid, memory, now, force, units, kept, output):
+        force = after
+        land(grid, memory, choice.units, choice.beyond)
+        if arrive(contacts, grid, memory, step, choice.beyond - choice.end, output):
+            force = remaining_force(contacts, flow, now, rest)
+        if not write_sample(contacts.balls, flow, grid, memory, now, force, choice.units, output):
             return NOT_FINITE
     for part in range(now.size):
         memory.states[0, part] = now[part]

@@ -26,8 +26,8 @@ NEARLY = 1e-6
 # acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
 TIME, PACE, BEFORE, LEFT, GRADED, TOLERANCE, SQUARES, BUDGET = range(8)
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
-# of the contact change ahead, whether `time` is a whole number of units.
-CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID = range(6)
+# of the contact change ahead, whether `time` is a whole number of units, balls that pull now.
+CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING = range(7)
 
 
 class Memory(NamedTuple):
@@ -73,12 +73,12 @@ class Stride(NamedTuple):
     spending: float
 
 
-def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], cages: int, balls: int) -> Memory:
-    """Memory for a march from the amplitudes `start` (12,), for `cages` of `balls` columns each.
+def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shape: tuple[int, ...]) -> Memory:
+    """Memory for a march from the amplitudes `start` (12,) of contacts whose balls are an array of this `shape`.
 
     `tables` (modal/tables.py) may serve several marches, one after the other.
     """
-    weights, inside = tables
+    (weights, inside), (cages, _, balls) = tables, shape
     return Memory(
         states=np.stack([start, np.zeros_like(start)]),
         between=np.zeros_like(start),
@@ -93,5 +93,5 @@ def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], cage
         noted=np.zeros((cages, 2, balls)),
         midway=np.zeros((cages, 2, balls)),
         clock=np.zeros(8),
-        marks=np.zeros(6, dtype=np.int64),
+        marks=np.zeros(7, dtype=np.int64),
     )

@@ -13,83 +13,78 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inner, njit_pasted
-from physics.contact import Law, press, set_time
-from physics.contact_set import count_changes, note_motion
+from physics._jit import njit_inline, njit_pasted
+from physics.contact.contact_set import count_changes, note_motion
+from physics.contact.forces import Contacts, set_time
 from physics.integrators.modal.flow import LinearFlow, set_rest
-from physics.integrators.modal.weights import AT_END, AT_HALF, END, HALF, KICKS, OTHER, TURN, free_motion, push, turn
-from physics.track import Track
+from physics.integrators.modal.memory import Memory
+from physics.integrators.modal.remainder import remainder_at
+from physics.integrators.modal.weights import (
+    AT_END,
+    AT_HALF,
+    END,
+    HALF,
+    KICKS,
+    OTHER,
+    TURN,
+    free_motion,
+    push,
+    pushed,
+    turn,
+)
 
 Array = NDArray[np.float64]
+Force = tuple[float, float]
 
 
-@njit_inner
+@njit_inline
 def step_modal_rk4(
-    balls: Array,
-    frames: Array,
-    law: Law,
-    track: Track,
+    contacts: Contacts,
     flow: LinearFlow,
-    weights: Array,
+    memory: Memory,
+    row: int,
     time: float,
     step: float,
     start: Array,
-    force_x: float,
-    force_y: float,
+    force: Force,
     end: Array,
-    rest: Array,
-    midway: Array,
-    course: Array,
-) -> tuple[int, float, float, float, float]:
-    """One step of length `step` from `start` (12,), under the remaining contact force given, into `end`.
+) -> tuple[int, Force, Force]:
+    """One step of `step` (s) with the weights in a `row` of the memory, from the amplitudes `start` (12,) at `time`,
+    where the remaining contact force is `force`, to `end` (12,).
 
-    The contact set stays frozen. Leaves `balls` and `rest` (2, 11) at the end time; writes the motion of the balls
-    halfway to `midway` (G, 2, M) and the contact force of the step to `course` (2, 5); returns how many balls
-    contradict the set halfway, and the remaining contact force there and at the end.
+    The contact set stays frozen. Leaves `contacts` and the memory's `rest` at the end time; notes the motion of the
+    balls halfway and the course of the contact force in the memory; returns how many balls contradict the set halfway,
+    and the remaining contact force there and at the end.
     """
-    w = weights
-    kx, ky = flow.stiffness
-    cx, cy = flow.damping
-    set_time(balls, frames, track, time + 0.5 * step)
+    w, rest, course = memory.weights[row], memory.rest, memory.course
+    set_time(contacts, time + 0.5 * step)
     set_rest(flow, time + 0.5 * step, rest)
-    free_x, free_y, free_u, free_v = free_motion(w, HALF, start, rest)
-    x, y = free_x + w[AT_HALF] * force_x, free_y + w[OTHER + AT_HALF] * force_y
-    u, v = free_u + w[AT_HALF + 1] * force_x, free_v + w[OTHER + AT_HALF + 1] * force_y
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    x2, y2 = fx - kx * x - cx * u, fy - ky * y - cy * v
-    rise_x, rise_y = 2.0 * (x2 - force_x), 2.0 * (y2 - force_y)
-    x += w[AT_HALF + 2] * rise_x
-    y += w[OTHER + AT_HALF + 2] * rise_y
-    u += w[AT_HALF + 3] * rise_x
-    v += w[OTHER + AT_HALF + 3] * rise_y
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    contradicted = count_changes(balls, law)
-    note_motion(balls, midway)
-    x3, y3 = fx - kx * x - cx * u, fy - ky * y - cy * v
+    motion = pushed(w, AT_HALF, 0, free_motion(w, HALF, start, rest), force)
+    second = remainder_at(contacts, flow, motion)
+    motion = pushed(w, AT_HALF, 1, motion, twice_the_rise(force, second))
+    third = remainder_at(contacts, flow, motion)
+    contradicted = count_changes(contacts)
+    note_motion(contacts.balls, memory.midway)
 
-    set_time(balls, frames, track, time + step)
+    set_time(contacts, time + step)
     set_rest(flow, time + step, rest)
-    free_x, free_y, free_u, free_v = free_motion(w, END, start, rest)
-    rise_x, rise_y = 2.0 * (x3 - force_x), 2.0 * (y3 - force_y)
-    x = free_x + w[AT_END] * force_x + w[AT_END + 2] * rise_x
-    y = free_y + w[OTHER + AT_END] * force_y + w[OTHER + AT_END + 2] * rise_y
-    u = free_u + w[AT_END + 1] * force_x + w[AT_END + 3] * rise_x
-    v = free_v + w[OTHER + AT_END + 1] * force_y + w[OTHER + AT_END + 3] * rise_y
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    x4, y4 = fx - kx * x - cx * u, fy - ky * y - cy * v
-    set_parabola(force_x, x2 + x3, x4, course[0])
-    set_parabola(force_y, y2 + y3, y4, course[1])
+    free = free_motion(w, END, start, rest)
+    motion = pushed(w, AT_END, 1, pushed(w, AT_END, 0, free, force), twice_the_rise(force, third))
+    fourth = remainder_at(contacts, flow, motion)
+    set_parabola(force[0], second[0] + third[0], fourth[0], course[0])
+    set_parabola(force[1], second[1] + third[1], fourth[1], course[1])
     turn(w, TURN, OTHER, start, end)
     push(w, KICKS, OTHER, course, end)
-    x, y, u, v = free_x, free_y, free_u, free_v
+    motion = free
     for power in range(3):
-        place, other = AT_END + 2 * power, OTHER + AT_END + 2 * power
-        x += w[place] * course[0, power]
-        u += w[place + 1] * course[0, power]
-        y += w[other] * course[1, power]
-        v += w[other + 1] * course[1, power]
-    fx, fy = press(balls, frames, law, x, y, u, v)
-    return contradicted, x3, y3, fx - kx * x - cx * u, fy - ky * y - cy * v
+        motion = pushed(w, AT_END, power, motion, (course[0, power], course[1, power]))
+    return contradicted, third, remainder_at(contacts, flow, motion)
+
+
+@njit_pasted
+def twice_the_rise(first: Force, middle: Force) -> Force:
+    """By how much the force (N) rises over a whole step if by its middle it went from `first` to `middle`."""
+    return 2.0 * (middle[0] - first[0]), 2.0 * (middle[1] - first[1])
 
 
 @njit_pasted

@@ -18,10 +18,14 @@ from physics.integrators.modal.flow import (
     AMPLITUDES,
     AXIS,
     DISPLACEMENT,
+    OUTER,
+    OUTER_ACCELERATION,
+    OUTER_SPEED,
     OUTPUT,
     PAIRS,
     VELOCITY,
     LinearFlow,
+    Motion,
     weigh,
 )
 
@@ -38,12 +42,14 @@ AT_HALF, AT_END, KICKS = 36, 44, 54
 HALF_POWERS = 4
 OTHER = 84
 STEP_WEIGHTS = 2 * OTHER
-# Weights of a sample inside a step along x; those along y follow at INSIDE_OTHER. The shares of the amplitudes at the
-# beginning of the step, and of the powers of the contact force, in the resonator's acceleration; the free turn up to
-# the sample, and the amplitudes that each of the powers adds by then.
-INSIDE_READ, INSIDE_POWERS = 0, 6
-INSIDE_TURN, INSIDE_KICKS = 11, 23
-INSIDE_OTHER = 53
+# Weights of a sample inside a step along x; those along y follow at INSIDE_OTHER. Each of its readings has a SECTION:
+# the shares of the amplitudes at the beginning of the step, and from POWERS_AT on those of the powers of the contact
+# force. Then the free turn up to the sample, and the amplitudes that each of the powers adds by then.
+INSIDE_READINGS = (OUTPUT, OUTER, OUTER_SPEED, OUTER_ACCELERATION)
+POWERS_AT, SECTION = 6, 11
+RING_PUSHED = SECTION * INSIDE_READINGS.index(OUTER_ACCELERATION) + POWERS_AT
+INSIDE_TURN, INSIDE_KICKS = 44, 56
+INSIDE_OTHER = 86
 INSIDE_WEIGHTS = 2 * INSIDE_OTHER
 SERIES_TOLERANCE = 1e-15
 MOST_TERMS = 60
@@ -168,7 +174,7 @@ def _read_turned(twist: float, a: float, b: float, c: float, d: float) -> tuple[
 
 @njit_lean
 def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None:
-    """Fill `inside` (S − 1, 106) for the samples that a step of S samples and `step` (s) passes over.
+    """Fill `inside` (S − 1, 172) for the samples that a step of S samples and `step` (s) passes over.
 
     The powers of the contact force are of the share of the whole step. `phi` (6, 12) is scratch.
     """
@@ -180,9 +186,10 @@ def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None
         for pair in range(2 * PAIRS):
             axis, here = pair // PAIRS, 2 * (pair % PAIRS)
             base, re, im, twist = axis * INSIDE_OTHER, 2 * pair, 2 * pair + 1, flow.twist[pair]
-            a, b = flow.read[OUTPUT, re], flow.read[OUTPUT, im]
-            first, second = _read_turned(twist, a, b, phi[0, re], phi[0, im])
-            weights[base + INSIDE_READ + here], weights[base + INSIDE_READ + here + 1] = first, second
+            for section in range(len(INSIDE_READINGS)):
+                a, b = flow.read[INSIDE_READINGS[section], re], flow.read[INSIDE_READINGS[section], im]
+                place = base + SECTION * section + here
+                weights[place], weights[place + 1] = _read_turned(twist, a, b, phi[0, re], phi[0, im])
             set_turn(weights, base + INSIDE_TURN + 2 * here, twist, phi[0, re], phi[0, im])
             scale = share * step
             for power in range(POWERS):
@@ -191,8 +198,14 @@ def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None
                 )
                 kick = base + INSIDE_KICKS + POWERS * here + power
                 weights[kick], weights[kick + POWERS] = real, imaginary
-                weights[base + INSIDE_POWERS + power] += a * real + b * imaginary
+                for section in range(len(INSIDE_READINGS)):
+                    a, b = flow.read[INSIDE_READINGS[section], re], flow.read[INSIDE_READINGS[section], im]
+                    weights[base + SECTION * section + POWERS_AT + power] += a * real + b * imaginary
                 scale *= share * (power + 1.0)
+        # The ring's acceleration is read but for the force on it.
+        for power in range(POWERS):
+            weights[RING_PUSHED + power] += share**power / flow.outer_mass
+            weights[INSIDE_OTHER + RING_PUSHED + power] += share**power / flow.outer_mass
 
 
 @njit_inline
@@ -222,11 +235,35 @@ def push(weights: Array, first: int, stride: int, course: Array, end: Array) -> 
 
 
 @njit_inline
-def free_motion(weights: Array, first: int, start: Array, rest: Array) -> tuple[float, float, float, float]:
-    """Relative displacement x, y (m) and velocity x, y (m/s) without contact force, by the shares from `first` on."""
+def read_inside(weights: Array, section: int, axis: int, start: Array, course: Array) -> float:
+    """What a sample inside a step reads along one axis, but for the loads, from the amplitudes `start` (12,) and the
+    `course` (2, 5) of the contact force."""
+    first = axis * INSIDE_OTHER + SECTION * section
+    total = weigh(weights, first, start, axis)
+    for power in range(POWERS):
+        total += weights[first + POWERS_AT + power] * course[axis, power]
+    return total
+
+
+@njit_inline
+def free_motion(weights: Array, first: int, start: Array, rest: Array) -> Motion:
+    """Relative motion without contact force, by the shares from `first` on."""
     return (
         rest[0, DISPLACEMENT] + weigh(weights, first, start, 0),
         rest[1, DISPLACEMENT] + weigh(weights, OTHER + first, start, 1),
         rest[0, VELOCITY] + weigh(weights, first + AXIS, start, 0),
         rest[1, VELOCITY] + weigh(weights, OTHER + first + AXIS, start, 1),
+    )
+
+
+@njit_inline
+def pushed(weights: Array, first: int, power: int, motion: Motion, force: tuple[float, float]) -> Motion:
+    """Relative `motion` with what a `force` (N, N) times one power of the share of the step adds, by the weights from
+    `first` on."""
+    along_x, along_y = first + 2 * power, OTHER + first + 2 * power
+    return (
+        motion[0] + weights[along_x] * force[0],
+        motion[1] + weights[along_y] * force[1],
+        motion[2] + weights[along_x + 1] * force[0],
+        motion[3] + weights[along_y + 1] * force[1],
     )

@@ -6,7 +6,7 @@ import pytest
 from datagen.benchmark.answers import class_probability
 from datagen.benchmark.training import TrainingSet, train_own
 from datagen.errors import BadInput
-from labels.classifier import CLASSES
+from labels.classifier.classes import CLASSES
 
 ROWS = np.zeros((3, 2))
 

@@ -8,10 +8,11 @@ import pandas
 import pytest
 from typer.testing import CliRunner
 
+from datagen.benchmark.fitness import UNKNOWN_MACHINE
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import machines, share_machines, unseen_records
-from datagen.benchmark.rows import UNKNOWN_MACHINE, Reading, record_rows, windows
+from datagen.benchmark.rows import Reading, RecordRows, record_rows, windows
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import (
     TrainingSet,
@@ -27,6 +28,13 @@ from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from labels.features.table import FEATURE_NAMES
+
+
+@pytest.fixture(autouse=True)
+def _short_records_are_judged(monkeypatch):
+    """The records of the tiny corpus are quick to make, and shorter than any that is judged."""
+    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
+    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
 
 
 @pytest.fixture(scope="session")
@@ -147,7 +155,7 @@ def test_only_the_first_records_are_learned_from_if_asked(tiny_corpus):
 def test_noisy_copies_are_whole_and_a_stretch_from_anywhere(tiny_corpus):
     labels, signal = Corpus(tiny_corpus).labels.iloc[0].copy(), np.random.default_rng(1).standard_normal((40_000, 1))
     labels["rate_hz"] = 20_000.0
-    rows, _ = record_rows(signal, labels, Reading(copies_db=(-18.0, 12.0)))
+    rows = record_rows(signal, labels, Reading(copies_db=(-18.0, 12.0))).rows
     turns = np.exp([row.values[FEATURE_NAMES.index("turns")] for row in rows])
     assert [row.noisy for row in rows] == [False, True, True]
     assert turns[1] == pytest.approx(turns[0], rel=0.03)  # the speed is refined by up to 2.2 %
@@ -179,7 +187,11 @@ def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
     assert set(scores["confusion"]["columns"]) == {"none", "outer", "inner", "rejected"}
     assert set(results["importances"]["Guesser"]) == set(FEATURE_NAMES)
     assert (tmp_path / "report" / "report.png").read_bytes().startswith(b"\x89PNG")
-    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == ["report.json", "report.png"]
+    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == [
+        "report.csv",
+        "report.json",
+        "report.png",
+    ]
     assert json.loads((tmp_path / "report" / "report.json").read_text())["training_records"] == 14
 
 
@@ -243,14 +255,14 @@ def test_long_records_are_cut_into_equal_windows_that_lose_nothing():
 def test_a_record_without_a_speed_is_rejected_with_its_reason(tiny_corpus):
     labels = Corpus(tiny_corpus).labels.iloc[0].copy()
     labels["speed_rpm"] = np.nan
-    assert record_rows(np.zeros((100, 2)), labels, Reading()) == ([], UNKNOWN_MACHINE)
+    assert record_rows(np.zeros((100, 2)), labels, Reading()) == RecordRows([], UNKNOWN_MACHINE)
 
 
 def test_noise_is_added_at_the_level_asked_and_another_in_each_draw(tiny_corpus):
     corpus = Corpus(tiny_corpus)
     labels, signal = corpus.labels.iloc[0], corpus.waveform(0)[:, :1]
     clean, one, again, other = (
-        record_rows(signal, labels, reading)[0][0].values
+        record_rows(signal, labels, reading).rows[0].values
         for reading in (
             Reading(),
             Reading(noise_db=-10.0),

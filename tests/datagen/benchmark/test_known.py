@@ -28,6 +28,12 @@ def test_without_speed_or_geometry_nothing_is_known(labels):
     assert known_kinematics(labels) is None
 
 
+@pytest.mark.parametrize("orders", [(0.8, 1.2), (5.415, 3.585), (4.5, 4.5), (-1.0, 10.0)])
+def test_orders_of_no_bearing_tell_nothing(orders):
+    outer, inner = orders
+    assert known_kinematics(UNKNOWN | {"bpfo": outer, "bpfi": inner, "speed_rpm": 1800.0}) is None
+
+
 def test_what_is_no_class_of_ours_is_unknown_and_not_scored():
     assert true_class({"condition": "line", "location": "outer"}) == "line outer"
     assert true_class({"condition": "unknown", "location": "outer"}) == "unknown"

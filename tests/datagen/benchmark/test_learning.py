@@ -6,7 +6,7 @@ import numpy as np
 
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.training import TrainingSet
-from labels.classifier import CLASSES
+from labels.classifier.classes import CLASSES
 from labels.features.table import FEATURE_NAMES
 
 

@@ -4,8 +4,11 @@ import numpy as np
 import pandas
 import pytest
 
-from datagen.benchmark.rows import TOO_SHORT, Reading, record_rows
-from labels.liveness import DEAD
+from datagen.benchmark.fitness import TOO_SHORT
+from datagen.benchmark.known import known_kinematics
+from datagen.benchmark.rows import Reading, RecordRows, record_rows, signal_rows
+from labels.classifier.liveness import DEAD
+from labels.features.table import FEATURE_NAMES
 
 RATE = 12_000.0
 
@@ -22,28 +25,41 @@ def shaking(size):
     return np.random.default_rng(size).standard_normal((size, 1))
 
 
-@pytest.mark.parametrize("size", [16, 40, 63])
+@pytest.mark.parametrize("size", [16, 63, 1199])
 @pytest.mark.parametrize("reading", [Reading(), Reading(copies_db=(-18.0, 12.0)), Reading(noise_db=-10.0)])
 def test_a_record_of_few_samples_is_rejected_with_its_reason(size, reading):
-    assert record_rows(shaking(size), labels(), reading) == ([], TOO_SHORT)
+    assert record_rows(shaking(size), labels(), reading) == RecordRows([], TOO_SHORT)
 
 
 @pytest.mark.parametrize("size", [64, 65, 97, 200, 499])
-def test_a_record_of_few_samples_more_has_finite_features(size):
-    rows, reason = record_rows(shaking(size), labels(), Reading(copies_db=(-18.0, 12.0)))
-    assert reason == ""
+def test_stretches_of_few_samples_have_finite_features(size):
+    kinematics = known_kinematics(labels())
+    rows = signal_rows(shaking(size)[:, 0], RATE, kinematics, Reading(copies_db=(-18.0, 12.0)), [1])
     assert np.isfinite([row.values for row in rows]).all()
+    assert rows
 
 
 def test_a_window_without_signal_leaves_the_vote_to_the_others():
     signal = shaking(3000)
     signal[1000:2000] = signal[1000]
-    rows, reason = record_rows(signal, labels(), Reading(window=1000 / RATE))
-    assert (len(rows), reason) == (2, "")
-    assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == ([], DEAD)
+    found = record_rows(signal, labels(), Reading(window=1000 / RATE))
+    assert (len(found.rows), found.reason) == (2, "")
+    assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows([], DEAD)
 
 
 def test_a_record_that_begins_in_silence_is_heard():
     signal = np.concatenate([np.zeros((5000, 1)), shaking(7000)])
-    rows, reason = record_rows(signal, labels(), Reading())
-    assert (len(rows), reason) == (1, "")
+    found = record_rows(signal, labels(), Reading())
+    assert (len(found.rows), found.reason) == (1, "")
+
+
+def test_glitches_are_counted_and_make_no_record_impulsive():
+    signal = shaking(24_000)
+    glitched = np.column_stack([signal[:, 0], signal[:, 0]])
+    glitched[[5000, 15_000], 0], glitched[20_000, 1] = 20.0, -30.0
+    clean, found = (record_rows(each, labels(), Reading()) for each in (signal, glitched))
+    assert (clean.glitches, found.glitches) == (0, 3)
+    column = FEATURE_NAMES.index("kurtosis")
+    for row in found.rows:
+        # Two glitches of 20 deviations among 24 000 samples would raise it by 1.7, lines over them hardly move it.
+        assert row.values[column] == pytest.approx(clean.rows[0].values[column], abs=0.01)

@@ -7,12 +7,14 @@ import numpy as np
 import pandas
 import pytest
 
+from datagen.benchmark.predictions import prediction_table
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
-from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws
+from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
+from labels.classifier.alarm import CLEARNESS, Alarm
+from labels.classifier.rule import Rule
 from labels.features.table import FEATURE_NAMES
-from labels.rule import Rule
 
 RULE = Rule(2.0)
 
@@ -80,3 +82,31 @@ def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
     assert found["models"]["said"]["calibration_error"] == pytest.approx(
         0.0, abs=1e-5
     )  # votes keep 1e-6 for every class
+
+
+def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
+    labels, rows = corpus(["outer", "none", "inner"])
+    rows = replace(rows, table=rows.table[:2], record=rows.record[:2], rejected={2: "too short"}, glitches={1: 4})
+    models = [Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)]
+    summary = summarise(judge(Path("made-up"), labels, rows, RULE, models, 0.0, True))
+    assert summary["rejections"] == {"too short": 1}
+    assert summary["despiked"] == {"records": 1, "glitches": 4}
+    first, second, third = summary["predictions"]
+    assert (first["rejected"], second["despiked"], third["rejected"]) == ("", 4, "too short")
+    assert first["rule"]["alarm"] == RULE.threshold
+    assert first["said"]["alarm"] == pytest.approx(0.7)
+    assert np.isnan(third["said"]["alarm"])
+    table = prediction_table([summary]).splitlines()
+    assert table[0].startswith("corpus,record,recording,bearing_id,truth,rejected,despiked,rule_location,rule_score,")
+    location, score, alarm = table[1].split(",")[-3:]
+    assert (location, float(alarm)) == ("outer", 0.7)
+    assert float(score) == pytest.approx(0.8, abs=1e-5)  # probabilities of 0 are taken as 1e-6
+    assert ",too short,0,rejected," in table[3]
+
+
+def test_the_rows_of_a_record_agree_on_its_alarm():
+    model = Model("said", Said([[0.5, 0.5, 0.0, 0.0, 0.0]] * 2), Alarm(0.2, 0.8))
+    table = np.zeros((2, len(FEATURE_NAMES)))
+    table[1, FEATURE_NAMES.index(CLEARNESS)] = 1.0
+    _, _, alarm = vote(model, table, np.array([0, 0]), np.array([0]))
+    assert alarm[0] == pytest.approx(0.5)  # the logits of 0.2 and 0.8 cancel

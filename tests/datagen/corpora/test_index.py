@@ -67,5 +67,5 @@ def test_a_folder_without_index_is_refused(tmp_path: Path) -> None:
 def test_an_index_with_a_lost_column_is_refused(folder: Path) -> None:
     read = pandas.read_csv(index_path(folder)).drop(columns="bridged")
     read.to_csv(index_path(folder), index=False)
-    with pytest.raises(BadInput, match="not an index"):
+    with pytest.raises(BadInput, match="not the index of a corpus"):
         read_index(folder)

@@ -1,12 +1,12 @@
 import math
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from datagen.drawing.frequency_panels import cursors
 from datagen.drawing.path_panels import load_around, load_over_spall
-from datagen.drawing.portrait import Portrait
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, plt
@@ -16,29 +16,9 @@ from datagen.plain import plain_json
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from labels.description import label_values
-from labels.envelope import band_envelope, default_band
 from labels.truth import ball_passes
-from physics import catalog
-from physics.cage import CagePath
-from physics.imperfections import Imperfections, Waviness
-from physics.operation import Operation
-from physics.scene import Scene
-from physics.simulate import simulate
-from physics.spall import Spall
-from physics.stiffness import stiffness_trace
 
-RATE, DURATION = 32768.0, 0.25
-BOTTOM = math.radians(270.0)
-
-LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
-SCENES = {
-    "healthy": ("gearbox", [], ()),
-    "line, outer": ("gearbox", [LINE], ()),
-    "extended, outer": ("gearbox", [Spall("outer", 2, BOTTOM, math.radians(40.0), 4e-6)], ()),
-    "line, inner, deep gap": ("fan", [Spall("inner", 1, 1.0, math.radians(3.0), 1e-3, profile="ball_path")], ()),
-    "healthy but wavy": ("fan", [], (Waviness("outer", 9, 1e-6), Waviness("inner", 5, 2e-6))),
-}
+KINDS = ("healthy", "line, outer", "extended, outer", "line, inner, deep gap", "healthy but wavy")
 
 RECIPE = """
 name = "small"
@@ -62,30 +42,6 @@ white_rms_m_s2 = 0.02
 """
 
 
-def portrait(name, clean=True, noise=0.05):
-    rig_name, spalls, waves = SCENES[name]
-    rig = catalog.rig(rig_name)
-    cage = CagePath(rig.bearing.cage_speed(rig.rated_speed), DURATION, 0.2)
-    scene = Scene(rig, Operation(rig.rated_speed, rig.rated_load), cage, tuple(spalls), Imperfections(waves))
-    trace = simulate(scene, RATE, estimate_error=False)
-    measured = trace.acceleration + noise * np.random.default_rng(1).standard_normal(trace.acceleration.shape)
-    band = default_band(rig, RATE)
-    time = np.linspace(0.0, DURATION, 2001)
-    labels = label_values(scene) | {"record": 5, "snr_db": 12.0, "error_estimate": 2e-4, "envelope_band": band}
-    return Portrait(
-        corpus="made by hand",
-        scene=scene,
-        labels=labels,
-        rate=RATE,
-        acceleration=measured,
-        clean=trace.acceleration if clean else None,
-        envelope=band_envelope(measured[:, 1], RATE, band),
-        stiffness_time=time,
-        stiffness=stiffness_trace(scene, time).T,
-        passes=ball_passes(scene, trace.changes, DURATION),
-    )
-
-
 @pytest.fixture
 def recipe_file(tmp_path):
     path = tmp_path / "recipe.toml"
@@ -99,12 +55,12 @@ def png_size(data):
 
 
 @pytest.mark.parametrize("clean", [True, False], ids=["with clean signal", "without"])
-@pytest.mark.parametrize("name", SCENES)
-def test_a_record_of_every_kind_becomes_a_png_of_the_stated_size(name, clean):
+@pytest.mark.parametrize("name", KINDS)
+def test_a_record_of_every_kind_becomes_a_png_of_the_stated_size(name, clean, portrait):
     assert png_size(sheet_png(portrait(name, clean))) == (WIDTH * DPI, HEIGHT * DPI)
 
 
-def test_every_panel_has_a_title_and_every_scale_a_unit():
+def test_every_panel_has_a_title_and_every_scale_a_unit(portrait):
     with house_style():
         figure = draw_sheet(portrait("line, outer"))
         titles = [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
@@ -137,7 +93,7 @@ def test_every_panel_has_a_title_and_every_scale_a_unit():
         assert unit in words, unit
 
 
-def test_the_close_up_marks_release_and_regain_of_every_pass_in_it():
+def test_the_close_up_marks_release_and_regain_of_every_pass_in_it(portrait):
     drawn = portrait("line, outer")
     with house_style():
         figure = draw_sheet(drawn)
@@ -150,35 +106,31 @@ def test_the_close_up_marks_release_and_regain_of_every_pass_in_it():
     assert len(marks) == 6
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_the_close_up_holds_three_passes_and_lies_inside_the_record(name):
+@pytest.mark.parametrize("name", KINDS)
+def test_the_close_up_holds_three_passes_and_lies_inside_the_record(name, portrait):
     drawn = portrait(name)
     start, stop = drawn.window
-    assert 0.0 <= start < stop <= DURATION
+    assert 0.0 <= start < stop <= drawn.duration
     assert (stop - start) * drawn.frequencies[drawn.defect_frequency] == pytest.approx(3.0)
     if drawn.shown_pass is not None:
         assert drawn.passes.complete[drawn.shown_pass]
         assert start <= drawn.passes.entry_time[drawn.shown_pass] <= stop
 
 
-def test_a_record_shorter_than_the_close_up_is_shown_whole():
+def test_a_record_shorter_than_the_close_up_is_shown_whole(portrait):
     drawn = portrait("line, outer")
-    samples = round(0.05 * RATE)
+    samples = round(0.05 * drawn.rate)
     passes = ball_passes(drawn.scene, None, 0.05)
-    short = Portrait(**vars_of(drawn) | {"acceleration": drawn.acceleration[:samples], "clean": None, "passes": passes})
-    assert short.window == (0.0, samples / RATE)
+    short = replace(drawn, acceleration=drawn.acceleration[:samples], clean=None, passes=passes)
+    assert short.window == (0.0, samples / drawn.rate)
 
 
-def vars_of(drawn):
-    return {name: getattr(drawn, name) for name in Portrait.__dataclass_fields__}
-
-
-def test_modes_along_y_of_the_healthy_gearbox_rig_are_the_check_values():
+def test_modes_along_y_of_the_healthy_gearbox_rig_are_the_check_values(portrait):
     # 199.3, 2249.3 and 10548 Hz at cage angle 0; elsewhere the healthy kyy differs by 0.01 %, so they move by less.
     assert vertical_modes(portrait("healthy")) == pytest.approx([199.3, 2249.3, 10548.0], rel=3e-4)
 
 
-def test_cursors_follow_the_defective_race():
+def test_cursors_follow_the_defective_race(portrait):
     outer = {name.split()[0]: targets for name, _, _, targets in cursors(portrait("line, outer"))}
     assert outer["BPFO"] == pytest.approx([34.283 * k for k in range(1, 7)], rel=2e-5)  # last printed digit
     families = cursors(portrait("line, inner, deep gap"))
@@ -188,15 +140,15 @@ def test_cursors_follow_the_defective_race():
     assert "shaft 13.3 Hz" in families[1][0]
 
 
-def test_sidebands_that_a_short_record_cannot_resolve_are_not_marked():
+def test_sidebands_that_a_short_record_cannot_resolve_are_not_marked(portrait):
     # The cage of the gearbox rig turns 0.7 times in a quarter of a second; in one second 2.86 times.
     drawn = portrait("line, outer")
     assert [name.split()[0] for name, *_ in cursors(drawn)] == ["BPFO", "shaft"]
-    longer = Portrait(**vars_of(drawn) | {"acceleration": np.zeros((round(RATE), 2))})
+    longer = replace(drawn, acceleration=np.zeros((round(drawn.rate), 2)))
     assert [name.split()[0] for name, *_ in cursors(longer)] == ["BPFO", "±", "shaft"]
 
 
-def test_the_load_of_a_ball_on_a_full_turn_peaks_at_stribecks_value_below_the_shaft():
+def test_the_load_of_a_ball_on_a_full_turn_peaks_at_stribecks_value_below_the_shaft(portrait):
     arc, load = load_around(portrait("healthy").scene)
     assert abs(arc[np.argmax(load)]) < math.radians(0.5)  # a flat top on a grid of 0.3°
     assert load.max() == pytest.approx(62.995, abs=0.05)  # check value at cage angle 0, which the grid holds
@@ -204,7 +156,7 @@ def test_the_load_of_a_ball_on_a_full_turn_peaks_at_stribecks_value_below_the_sh
 
 
 @pytest.mark.parametrize("name", ["line, outer", "line, inner, deep gap", "extended, outer"])
-def test_the_load_over_the_spall_falls_between_its_edges_only(name):
+def test_the_load_over_the_spall_falls_between_its_edges_only(name, portrait):
     drawn = portrait(name)
     spall, k = drawn.scene.spalls[0], drawn.shown_pass
     arc, load = load_over_spall(drawn, spall, k)
@@ -220,7 +172,7 @@ def test_overlapping_passes_lie_in_different_lanes():
     assert _lanes(entry, leave) == [0, 1, 2, 0, 1]
 
 
-def test_the_heading_says_what_is_drawn():
+def test_the_heading_says_what_is_drawn(portrait):
     drawn = portrait("line, outer")
     assert heading(drawn) == "made by hand, record 5: line spall, outer race"
     assert heading(portrait("healthy")).endswith("healthy")
@@ -241,18 +193,17 @@ def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file,
         assert png_size((tmp_path / name).read_bytes()) == (WIDTH * DPI, HEIGHT * DPI)
 
 
-def with_parts():
+@pytest.fixture
+def with_parts(portrait):
     """A portrait whose background and mounted sensor are known."""
     drawn = portrait("line, outer")
     sensor = 0.5 * drawn.clean
     background = drawn.acceleration - drawn.clean
-    return Portrait(
-        **vars_of(drawn) | {"acceleration": sensor + background, "sensor": sensor, "background": background}
-    )
+    return replace(drawn, acceleration=sensor + background, sensor=sensor, background=background)
 
 
-def test_clean_signal_background_and_their_sum_are_drawn_one_below_the_other():
-    drawn = with_parts()
+def test_clean_signal_background_and_their_sum_are_drawn_one_below_the_other(with_parts):
+    drawn = with_parts
     with house_style():
         figure = draw_sheet(drawn)
         strips = {axes.get_title(loc="left").split()[0]: axes for axes in figure.axes[:3]}
@@ -265,8 +216,8 @@ def test_clean_signal_background_and_their_sum_are_drawn_one_below_the_other():
     assert "background" in [line.get_label() for line in spectra.lines]
 
 
-def test_a_record_without_background_has_no_strips():
-    drawn = Portrait(**vars_of(with_parts()) | {"background": np.zeros((round(RATE * DURATION), 2))})
+def test_a_record_without_background_has_no_strips(portrait, with_parts):
+    drawn = replace(with_parts, background=np.zeros_like(with_parts.background))
     assert not drawn.has_parts
     assert not portrait("line, outer").has_parts
 

@@ -62,8 +62,8 @@ def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path):
 
 
 def test_a_folder_that_cannot_be_written_into_is_bad_input(tmp_path, monkeypatch):
-    monkeypatch.setattr("datagen.paper.book.os.access", lambda path, mode: False)
-    with pytest.raises(BadInput, match="cannot write into this folder"):
+    monkeypatch.setattr("datagen.places._writable", lambda folder: False)
+    with pytest.raises(BadInput, match="cannot write into"):
         write_book(tmp_path, ["6"], report=lambda title: None)
     assert list(tmp_path.iterdir()) == []
 

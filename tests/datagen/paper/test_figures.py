@@ -12,7 +12,7 @@ from datagen.paper.figure11_fan_rig import Recording, vertical_modes
 from datagen.paper.recordings import recordings
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, gap_line_spall, line_spall, scene
 from labels.truth import PassTable
-from physics.stiffness import stiffness_trace
+from physics.statics.stiffness import stiffness_trace
 
 
 def test_the_distribution_over_all_balls_balances_the_load():

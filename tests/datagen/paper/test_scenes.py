@@ -16,7 +16,7 @@ from datagen.paper.scenes import (
     waved_extended_spall,
     wavy_extended_spall,
 )
-from physics.profile import race_depth
+from physics.paths.profile import race_depth
 
 FLOOR = np.radians(np.linspace(249.0, 291.0, 20001))
 

@@ -1,5 +1,7 @@
 """Records whose errors grow from ball pass to ball pass keep the accuracy all the same, or say that they cannot."""
 
+import dataclasses
+
 import numpy as np
 
 from datagen.recipes.recipe import load_recipe
@@ -13,6 +15,11 @@ def _drawn(seed, record):
 
 def _apart(one, other):
     return np.sqrt(((one.acceleration - other.acceleration) ** 2).mean() / (other.acceleration**2).mean())
+
+
+def _shortened(scene, seconds):
+    first, second = (cage and dataclasses.replace(cage, duration=seconds) for cage in (scene.cage, scene.second_cage))
+    return dataclasses.replace(scene, cage=first, second_cage=second)
 
 
 def test_the_error_of_a_record_whose_errors_grow_is_within_its_estimate():
@@ -29,3 +36,16 @@ def test_a_record_whose_errors_grow_all_along_is_called_chaotic():
     assert other.error_estimate == 1.0
     fine = simulate(drawn.scene, drawn.rate, substeps=16, estimate_error=False)
     assert _apart(other, fine) > 1e-3
+
+
+def test_errors_that_grow_while_the_record_is_quiet_are_not_hidden_by_those_of_its_loud_part():
+    drawn = _drawn(20261130, 2130)
+    scene = _shortened(drawn.scene, 0.1)
+    trace = simulate(scene, drawn.rate)
+    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
+
+
+def test_errors_that_begin_to_grow_late_in_a_mode_that_decays_soon_are_found():
+    drawn = _drawn(20261130, 1230)  # its slowest mode takes 30 ms, and growth begins after as long
+    assert simulate(_shortened(drawn.scene, 0.1), drawn.rate).chaotic

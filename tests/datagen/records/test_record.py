@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from datagen.recipes.recipe import Recipe
-from datagen.records.background import Background
 from datagen.records.record import PROFILE_POINTS, Record, make_record
+from datagen.scenarios.background import Background
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from labels.envelope import band_envelope
 from labels.schema import LABELS
-from physics.profile import race_depth
+from physics.paths.profile import race_depth
 from physics.simulate import simulate
 
 EVERYTHING = (

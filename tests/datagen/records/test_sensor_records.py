@@ -13,10 +13,10 @@ import pytest
 from datagen.corpora.check import check_corpus
 from datagen.corpus import Corpus
 from datagen.recipes.recipe import Recipe, load_recipe
-from datagen.records.background import Background, NoiseTarget
 from datagen.records.record import make_record
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
+from datagen.scenarios.background import Background, NoiseTarget
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from labels.noise import signal_to_noise

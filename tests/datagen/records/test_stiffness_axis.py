@@ -13,7 +13,7 @@ from datagen.recipes.recipe import parse_recipe
 from datagen.records.stiffness_axis import ACCURACY, interpolation_error, shard_key, stiffness_axis, stiffness_divisor
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
-from physics.stiffness import stiffness_trace
+from physics.statics.stiffness import stiffness_trace
 
 SPALL = {"condition": "line", "extent_deg": 2, "depth_um": 12}
 

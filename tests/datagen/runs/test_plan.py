@@ -8,7 +8,7 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import PROFILE_POINTS
 from datagen.records.stiffness_axis import stiffness_axis
-from datagen.runs.plan import needed_bytes, plan_shards, selection, stored_bytes
+from datagen.runs.plan import PlannedShard, longest_first, needed_bytes, plan_shards, selection, stored_bytes
 from datagen.scenarios.sampling import draw_scenario
 
 
@@ -62,3 +62,9 @@ def test_a_selection_is_everything_a_prefix_or_a_list(tiny: Recipe) -> None:
 def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:
     with pytest.raises(BadInput, match="--records"):
         selection(tiny, None, [])
+
+
+def test_shards_that_take_longest_are_handed_out_first(tiny: Recipe) -> None:
+    lengths = {0: (4, 0.5), 1: (1, 3.0), 2: (32, 1.0), 3: (5, 0.1)}
+    shards = [PlannedShard(number, (0,) * count, (), 1.0, 1.0, seconds) for number, (count, seconds) in lengths.items()]
+    assert [shard.number for shard in longest_first(shards)] == [2, 1, 0, 3]

@@ -1,14 +1,17 @@
 from __future__ import annotations
 
 import os
+import socket
+import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
 
 from datagen.errors import BadInput
-from datagen.runs.workers import Engine, WorkerLost, engaged, run_tasks
+from datagen.runs.workers import Engine, WorkerLost, engaged, run_tasks, wake_workers
 
 
 def results(engine: Engine, function: Callable[..., Any], tasks: list[tuple[Any, ...]]) -> list[Any]:
@@ -23,6 +26,20 @@ def test_results_of_all_tasks_come_back() -> None:
 def test_several_workers_are_processes_of_their_own_and_one_is_this_process() -> None:
     assert set(results(Engine(workers=1), os.getpid, [()] * 3)) == {os.getpid()}
     assert os.getpid() not in results(Engine(workers=2), os.getpid, [()] * 3)
+
+
+def test_workers_that_were_woken_do_the_tasks_and_may_have_died_meanwhile() -> None:
+    with engaged(Engine(workers=2)):
+        are_ready = wake_workers(os.getpid)
+        assert are_ready()
+        assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
+        assert not wake_workers(partial(os._exit, 3))()
+        assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
+
+
+def test_there_is_nobody_to_wake_where_this_process_does_the_work() -> None:
+    with engaged(Engine(workers=1)):
+        assert not wake_workers(partial(os._exit, 3))()
 
 
 def test_an_exception_of_a_task_is_raised() -> None:
@@ -56,3 +73,30 @@ def test_an_impossible_engine_is_refused(settings: dict[str, object], sentence: 
 def test_a_scheduler_that_does_not_answer_is_refused() -> None:
     with pytest.raises(BadInput, match="no Dask scheduler answers there"):
         results(Engine(backend="dask", scheduler="nonsense://localhost:1"), pow, [(1, 1)])
+
+
+def test_what_listens_but_is_no_scheduler_is_given_up_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("datagen.runs.workers.SCHEDULER_PATIENCE", 0.2)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        before = threading.active_count()
+        with pytest.raises(BadInput, match=r"no Dask scheduler answers there \(.+\); allowed: the"):
+            results(Engine(backend="dask", scheduler=address), pow, [(1, 1)])
+        assert threading.active_count() == before  # a loop left behind would collect other people's netCDF files
+
+
+def test_whatever_another_program_answers_is_told_as_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def connect(*_: object, **__: object) -> None:
+        raise MemoryError("a length read from another program's greeting")
+
+    monkeypatch.setattr("distributed.comm.connect", connect)
+    with pytest.raises(BadInput, match=r"answers there \(a length read from another program's greeting\)"):
+        results(Engine(backend="dask", scheduler="tcp://127.0.0.1:1"), pow, [(1, 1)])
+
+
+def test_a_running_scheduler_does_the_work() -> None:
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as cluster:
+        engine = Engine(backend="dask", scheduler=cluster.scheduler_address)
+        assert sorted(results(engine, pow, [(k, 2) for k in range(3)])) == [0, 1, 4]

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from datagen.recipes.recipe import load_recipe
-from datagen.records.background import Background, NoiseTarget
 from datagen.scenarios.accuracy import Accuracy, allowed_error
+from datagen.scenarios.background import Background, NoiseTarget
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from physics.sensor.chain import SensorChain

@@ -15,7 +15,7 @@ from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 
 
 def scene(load: float, factor: float = 1.0, depth: float = 0.0, cage_angle: float = 0.0, name: str = "mfpt") -> Scene:

@@ -19,8 +19,8 @@ from datagen.scenarios.scenario import Scenario
 from physics import catalog
 from physics.bearing import Bearing
 from physics.hertz import contact_width
+from physics.paths.roughness import draw_roughness
 from physics.rig import Rig
-from physics.roughness import draw_roughness
 
 # Our own past: a change here moves every corpus and belongs into datasets/CHANGELOG.md.
 PINNED = [

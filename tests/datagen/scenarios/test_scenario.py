@@ -12,8 +12,8 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
-from datagen.records.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.accuracy import Accuracy
+from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario, Seeds
@@ -27,6 +27,7 @@ from physics.bearing import Bearing
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
+from physics.response.resampling import decimate
 from physics.rig import Rig
 from physics.scene import Scene
 from physics.sensor.chain import SensorChain
@@ -151,6 +152,27 @@ def test_the_parameters_of_a_healthy_scenario_have_a_defect_of_zeros() -> None:
     names = ("phi_f", "extent", "depth", "entry_taper", "exit_taper", "roughness")
     assert [data["parameters"][name] for name in names] == [0.0] * 6
     assert (data["condition"], data["location"], data["defects"]) == ("healthy", "none", [])
+
+
+@pytest.mark.parametrize(
+    ("rate", "modes", "factor"), [(51200.0, 2, 3), (20000.0, 2, 7), (20000.0, 0, 3), (51200.0, 0, 1)]
+)
+def test_the_text_tells_the_raised_rate_and_the_filter_that_lowers_it(rate: float, modes: int, factor: int) -> None:
+    scenario = full_scenario()
+    chain = dataclasses.replace(scenario.chain, modes=scenario.chain.modes[:modes], mounting=None)
+    sampling = json.loads(dataclasses.replace(scenario, rate=rate, chain=chain).to_json())["sampling"]
+    assert sampling["oversampling"] == factor  # 14 times 8765.4 Hz, or 4 times 10.3 kHz, over the rate; 3 with modes
+    if factor == 1:
+        assert sampling["lowering"] is None
+        return
+    told = sampling["lowering"]
+    n = np.arange(-told["half_length"], told["half_length"] + 1)
+    shape = np.i0(told["kaiser_beta"] * np.sqrt(1.0 - (n / told["half_length"]) ** 2)) * np.sinc(told["cutoff"] * n)
+    impulse = np.zeros((2 * n.size * factor + 1, 1))
+    impulse[n.size * factor] = 1.0
+    found = decimate(impulse, factor)[:, 0]
+    assert found.max() == pytest.approx(shape.max() / shape.sum(), rel=1e-12)
+    assert found[n.size + 1] == pytest.approx(shape[n == factor].item() / shape.sum(), rel=1e-9)
 
 
 def test_the_text_tells_how_to_remake_the_record() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from datagen.recipes.recipe import Recipe, parse_recipe
-from datagen.records.background import NoiseTarget
+from datagen.scenarios.background import NoiseTarget
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.streams import stream
 

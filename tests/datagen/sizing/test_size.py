@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from datagen.scenarios.streams import PURPOSES, stream
 from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.score import score_sizes
-from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
+from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import SPEED_ERROR, wrong_speed
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
@@ -198,28 +199,11 @@ def test_an_unknown_split_is_bad_input_and_writes_nothing(sized_corpus: Path, tm
     assert not (tmp_path / "out").exists()
 
 
-def scored(**changes: object) -> ScoredRecord:
-    """A record told exactly, 10 dB, with what the test changes."""
-    exact = ScoredRecord(
-        record=0, recording="", channel="", bearing_id="b", rig="r", race="outer", profile="tukey", split="test",
-        snr_db=10.2, speed_rpm=600.0, load_n=100.0,
-        extent_mm=2.0, extent_spacing=0.2, rate=RATE, pass_period=0.02, true_lag=0.004, true_extent=0.1,
-        outcome="estimated", reason="", method="m", found_race="outer", trust=0.9,
-        lag=0.004, lag_low=0.003, lag_high=0.005, lag_arc=0.08,
-        extent=0.1, extent_low=0.09, extent_high=0.12, estimated_deg=5.73, estimated_deg_low=5.16,
-        estimated_deg_high=6.88, estimated_mm=2.0, estimated_mm_low=1.8, estimated_mm_high=2.4, candidates=(0.1, 0.6),
-        candidates_deg=(5.73, 34.4), candidates_mm=(2.0, 12.0), static_arc=0.1, envelope_arc=0.05,
-        known_size_factor=1.0, seconds=0.1, event_times=np.zeros((0, 2)),
-        events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=True,
-    )  # fmt: skip
-    return replace(exact, **changes)  # type: ignore[arg-type]
-
-
 def figure(summary: dict, name: str) -> float:
     return next(one.value for one in summary["figures"] if one.name == name)
 
 
-def test_the_summary_is_what_it_is_by_hand() -> None:
+def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) -> None:
     silent = {"lag": math.nan, "extent": math.nan, "outcome": "no_event_pair"}
     rows = [
         scored(),
@@ -240,7 +224,7 @@ def test_the_summary_is_what_it_is_by_hand() -> None:
     assert summary["long"] == {"records": 1, "told": 1, "error_of_nearest_candidate": 0.0, "median": 0.0}
 
 
-def test_what_a_known_size_did_to_the_errors_of_other_records_is_told() -> None:
+def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Callable[..., ScoredRecord]) -> None:
     known = KnownSize(record=0, machine="b", known_mm=2.2, estimated_mm=2.0, factor=1.1)
     other = scored(record=1, extent=0.11, known_size_factor=1.1)  # 0.1 without it, which is the truth
     silent = scored(record=2, extent=math.nan, outcome="no_event_pair")
@@ -251,7 +235,7 @@ def test_what_a_known_size_did_to_the_errors_of_other_records_is_told() -> None:
     assert "0.00% without it, 10.00% with it" in known_size_sentence(told)
 
 
-def test_intervals_are_of_a_bootstrap_over_virtual_bearings() -> None:
+def test_intervals_are_of_a_bootstrap_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
     wrong = [scored(bearing_id="bad", lag=0.0044) for _ in range(40)]  # 10 % wrong, all of one bearing
     rows = [*wrong, *(scored(bearing_id=f"good {k // 4}") for k in range(40))]  # ten bearings told exactly
     (lag,) = (one for one in summarise(rows, True)["figures"] if one.name == "lag error, 10 dB")
@@ -270,7 +254,7 @@ def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the
         assert abs(np.corrcoef(stated, other)[0, 1]) < 0.3 or purpose == "stated_speed"
 
 
-def test_between_two_and_five_samples_nothing_is_scored() -> None:
+def test_between_two_and_five_samples_nothing_is_scored(scored: Callable[..., ScoredRecord]) -> None:
     between = scored(true_lag=4.0 / RATE, pass_period=0.001)
     assert not between.scorable
     assert not between.without_event

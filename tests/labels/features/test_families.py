@@ -82,6 +82,21 @@ def test_lines_of_the_mains_do_not_count_but_those_beside_them_do():
     assert without_mains(excess, 2.5).max() == 500.0
 
 
+@pytest.mark.parametrize("rate_error", [-0.004, -0.001, 0.001, 0.004])
+def test_lines_of_the_mains_do_not_count_where_a_stated_rate_is_a_little_off(rate_error):
+    excess = np.ones((1, 40_000))
+    excess[0, np.round(np.array([100.0, 120.0]) * (1.0 + rate_error) / 0.05).astype(int)] = 500.0
+    assert without_mains(excess, 0.05).max() == 1.0
+
+
+def test_high_multiples_of_the_mains_cover_no_more_of_the_axis_than_low_ones_by_far():
+    counted = np.ones((1, 40_000)) * 2.0
+    left = without_mains(counted, 0.05)[0] == 2.0
+    # Multiples of 50 and of 60 Hz, 0.85 Hz to both sides, are 6 % of the axis; 0.1 % of 2 kHz makes that 11 %.
+    assert left[10_000:16_000].mean() == pytest.approx(0.94, abs=0.01)
+    assert left[32_000:].mean() > 0.87
+
+
 def test_a_band_so_silent_that_its_running_sum_falls_by_rounding_has_lines_of_no_strength():
     falling = Lines(1e6 - 1e-10 * np.arange(2001.0)[None, :], 0.5)
     assert line_strength(falling, 100.0, 0.02) == 0.0

@@ -6,7 +6,6 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
 from physics.checks import InvalidParameter
-from physics.resampling import decimate
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
 
@@ -94,17 +93,3 @@ def test_a_resonance_at_half_the_rate_is_refused():
     still = np.zeros((8, 2))
     with pytest.raises(InvalidParameter, match=r"frequency = 500\.0 Hz; allowed: 0 to 500 Hz"):
         mode_accelerations([SensorMode(500.0, 0.1)], still, still, still, 1000.0)
-
-
-def test_at_a_low_rate_a_mode_is_what_a_finely_sampled_one_is_after_lowering_the_rate(reference_scene):
-    scene = reference_scene("G1", 0.125)
-    low, high = (simulate(scene, rate, keep_outer=True, estimate_error=False) for rate in (16384.0, 196608.0))
-    mode = SensorMode(5700.0, 0.03)
-
-    def response(trace):
-        motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
-        return mode_accelerations([mode], *motion, trace.rate)
-
-    # Within 24 samples of its ends a lowered signal does not know what comes next; 48 here.
-    found, expected = response(low)[48:-48], decimate(response(high), 12)[48:-48]
-    assert rms(found - expected) < 2e-3 * rms(expected)  # samples 1/16384 s apart leave 8e-4 at 0.35 of the rate

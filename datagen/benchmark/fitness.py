@@ -1,0 +1,35 @@
+"""Which records say enough to be judged at all, from their labels and their length, before a waveform is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from labels.features.conditioning import FEWEST_SAMPLES, SHARE_OF_NYQUIST
+from labels.features.kinematics import Kinematics
+
+UNKNOWN_MACHINE = "no speed or no geometry"
+NO_ROTATION = "speed not above 0"
+TOO_SHORT = "too short"
+TOO_FAST = "ball passes too fast for the rate"
+SHORTEST = 0.1
+"""s; the shortest that is learned from lasts 0.3 s. In 0.1 s a third of the faults of CWRU is found, in 0.05 s a sixth,
+and a healthy recording of MFPT alarms."""
+FEWEST_TURNS = 1.0
+"""Of the shaft: a slow bearing passes several balls in one, and is judged well by them."""
+HIGHEST_SHARE = 0.45
+"""Of the bandwidth: no band has lines of an envelope above it."""
+
+
+def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int, rate: float, bandwidth: float) -> str:
+    """Why a record of so many `samples` at `rate` (Hz), of which features see `bandwidth` (Hz), cannot be judged.
+
+    Empty if it can.
+    """
+    if kinematics is None:
+        return NO_ROTATION if float(labels["speed_rpm"]) <= 0.0 else UNKNOWN_MACHINE
+    duration = samples / rate
+    if samples < FEWEST_SAMPLES or duration < SHORTEST or duration * kinematics.shaft_hz < FEWEST_TURNS:
+        return TOO_SHORT
+    top = min(bandwidth, SHARE_OF_NYQUIST * 0.5 * rate)
+    return TOO_FAST if kinematics.bpfi * kinematics.shaft_hz > HIGHEST_SHARE * top else ""

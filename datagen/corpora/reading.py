@@ -1,0 +1,40 @@
+"""Reading a shard: whatever a damaged file makes the libraries raise becomes one message that says how to mend it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from datagen.errors import BadInput
+
+AGAIN = "generate again into the same folder (a corpus of recordings: import it again)"
+READ_ERRORS = (OSError, RuntimeError, ValueError, KeyError, IndexError, AttributeError)
+
+
+@contextmanager
+def reading(folder: Path, shard: str) -> Iterator[None]:
+    """Whatever goes wrong inside while `shard` (its name in the corpus `folder`) is read is BadInput that names it."""
+    try:
+        yield
+    except PermissionError:
+        raise BadInput("you may not read this shard; change its permissions", str(folder / shard)) from None
+    except FileNotFoundError:
+        raise BadInput(f"this shard is missing: {AGAIN}", str(folder / shard)) from None
+    except IndexError:
+        raise BadInput(
+            f"index.csv places a record beyond the end of this shard: run `spallgen check {folder}`, delete index.csv "
+            f"and {AGAIN}",
+            str(folder / shard),
+        ) from None
+    except READ_ERRORS as problem:
+        raise BadInput(
+            f"this shard cannot be read ({_cause(problem)}): run `spallgen check {folder}`, delete the file and "
+            f"{AGAIN}",
+            str(folder / shard),
+        ) from None
+
+
+def _cause(problem: Exception) -> str:
+    text = getattr(problem, "strerror", None) or str(problem) or type(problem).__name__
+    return str(text).splitlines()[0]

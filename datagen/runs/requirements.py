@@ -1,0 +1,139 @@
+"""What records need of rate, memory and disk: what can never be made is refused before any worker starts."""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from datagen.corpora.manifest import Span, manifest_path
+from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.recipes.toml_lines import Location, place_in_file
+from datagen.runs.plan import PlannedShard, stored_bytes
+from datagen.runs.progress import for_people
+from datagen.scenarios.sampling import draw_scenario
+from datagen.scenarios.scenario import Scenario
+from physics.integrators.propagator import reach
+from physics.motion import motion_model
+from physics.outcome import SimulationFailed
+from physics.response.oversampling import MOST_OVERSAMPLING, SAMPLES_PER_FAST_PERIOD, oversampling
+
+MOST_LOOKED_AT = 20  # records of a part, one of which must be possible
+SAMPLE_BYTES = 220.0  # that a simulated sample takes while its record is made (measured: 170 to 220)
+COPIES = 4.0  # of what is stored of a record: as computed, as kept, in the dataset, in the file (measured: 2 to 4.5)
+CONTAINER_LIMIT = Path("/sys/fs/cgroup/memory.max")
+
+
+def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
+    """Raise BadInput if the sampling rate is far too low for every record asked for of a part."""
+    for index, part in enumerate(recipe.part):
+        refusal = None
+        for record in _first_of_part(recipe, index, asked):
+            scenario = draw_scenario(recipe, record)
+            problem = _against_rate(scenario)
+            if not problem:
+                break
+            allowed = f"about {lowest_rate(scenario):.3g} Hz or more"
+            problem = f'part "{part.name}": {problem}'
+            refusal = refusal or _refusal(recipe, ("signal", "rate_hz"), problem, scenario.rate, allowed)
+        else:
+            if refusal is not None:
+                raise refusal
+
+
+def _against_rate(scenario: Scenario) -> str:
+    """Why the scenario cannot be simulated at its rate, empty if it can."""
+    try:
+        oversampling(scenario.scene, scenario.rate, scenario.chain.fastest)
+    except SimulationFailed as problem:
+        return str(problem)
+    return ""
+
+
+def _first_of_part(recipe: Recipe, index: int, asked: Sequence[Span]) -> list[int]:
+    found: list[int] = []
+    for start, stop in asked:
+        for record in range(start, stop):
+            if recipe.place(record).part == index:
+                found.append(record)
+                if len(found) == MOST_LOOKED_AT:
+                    return found
+    return found
+
+
+def lowest_rate(scenario: Scenario) -> float:
+    """The sampling rate (Hz) below which the fastest mode of the scenario's rig cannot be held."""
+    radians_a_second = reach(motion_model(scenario.scene), 1.0)
+    return radians_a_second / (2.0 * math.pi) * SAMPLES_PER_FAST_PERIOD / MOST_OVERSAMPLING
+
+
+def require_memory(recipe: Recipe) -> None:
+    """Raise BadInput if even the shortest record of the recipe does not fit into memory; nothing is drawn."""
+    rate, duration = min(recipe.signal.rate_hz.stated()), min(recipe.signal.duration_s.stated())
+    _require_record(recipe, rate, duration, SAMPLE_BYTES * rate * duration)
+
+
+def require_record_memory(recipe: Recipe, scenario: Scenario, stored: tuple[str, ...]) -> None:
+    """Raise BadInput if a record of `scenario` with the optional signals `stored` does not fit into memory."""
+    _require_record(recipe, scenario.rate, scenario.duration, record_memory(scenario, stored))
+
+
+def record_memory(scenario: Scenario, stored: tuple[str, ...]) -> float:
+    """About how many bytes of memory a record takes while it is made."""
+    factor = 1 if _against_rate(scenario) else oversampling(scenario.scene, scenario.rate, scenario.chain.fastest)
+    return SAMPLE_BYTES * scenario.samples * factor + COPIES * stored_bytes(scenario, stored, "none")
+
+
+def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) -> None:
+    """Raise BadInput if a shard does not fit into memory, or one of its records not onto the disk of a new `folder`."""
+    free = math.inf if manifest_path(folder).exists() else shutil.disk_usage(_existing(folder)).free
+    memory = memory_bytes()
+    kinds = {(shard.record_bytes, shard.raw_bytes, len(shard.records)): shard for shard in planned}
+    for shard in kinds.values():
+        if shard.record_bytes > free:
+            raise BadInput(
+                f"one record needs about {for_people(shard.record_bytes)} of disk, and {for_people(free)} are free",
+                field="--out", value=str(folder), allowed="a folder on a larger disk, or shorter records",
+            )  # fmt: skip
+        scenario = draw_scenario(recipe, shard.records[0])
+        require_record_memory(recipe, scenario, shard.stored)
+        left = memory - record_memory(scenario, shard.stored)
+        if len(shard.records) * COPIES * shard.raw_bytes > left:
+            need = for_people(len(shard.records) * COPIES * shard.raw_bytes)
+            raise _refusal(
+                recipe, ("store", "records_per_shard"),
+                f"a shard of {len(shard.records)} records needs about {need} of memory, and this machine has "
+                f"{for_people(memory)}",
+                recipe.store.records_per_shard, f"at most {max(int(left / (COPIES * shard.raw_bytes)), 1)}",
+            )  # fmt: skip
+
+
+def _require_record(recipe: Recipe, rate: float, duration: float, need: float) -> None:
+    memory = memory_bytes()
+    if need > memory:
+        raise _refusal(
+            recipe, ("signal", "duration_s"),
+            f"a record of {rate * duration:.3g} samples needs about {for_people(need)} of memory, and this machine has "
+            f"{for_people(memory)}",
+            duration, f"at most about {duration * memory / need:.2g} s at {rate:g} Hz",
+        )  # fmt: skip
+
+
+def _refusal(recipe: Recipe, location: Location, problem: str, value: object, allowed: str) -> BadInput:
+    return BadInput(problem, place_in_file(recipe.source, location), ".".join(map(str, location)), value, allowed)
+
+
+def memory_bytes() -> float:
+    """The memory of this machine, or what its container may use of it."""
+    whole = float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    try:
+        return min(whole, float(CONTAINER_LIMIT.read_text()))
+    except (OSError, ValueError):  # no container, or one without a limit
+        return whole
+
+
+def _existing(folder: Path) -> Path:
+    return next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())

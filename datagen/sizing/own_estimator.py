@@ -1,0 +1,78 @@
+"""An estimator that users bring, guarded: what it raises or gives instead of an estimate becomes one message."""
+
+from __future__ import annotations
+
+import numbers
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.own_code import FIELD, own_code
+from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+
+NUMBERS = ("lag", "lag_arc", "extent", "extent_mm", "pass_period", "trust")
+INTERVALS = ("lag_interval", "extent_interval", "extent_mm_interval")
+
+
+@dataclass(frozen=True)
+class OwnEstimator:
+    """The user's object `made` of "module:Class" `name`, whose method `estimate` returns what is `allowed`."""
+
+    name: str
+    made: Any
+    allowed: str
+
+    def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
+        """What the user's object tells of acceleration (T, 2), m/s², sampled at `rate` (Hz).
+
+        Raises BadInput if it raises, or tells something else.
+        """
+        with own_code(self.name, "its method estimate fails"):
+            told: SizeEstimate = self.made.estimate(acceleration, rate, situation)
+        problem = _against(told)
+        if problem:
+            raise BadInput(f"its method estimate gave {problem}", field=FIELD, value=self.name, allowed=self.allowed)
+        return told
+
+
+def _against(told: object) -> str:
+    """What an estimator gave that is no estimate, in words; empty for an estimate."""
+    if not isinstance(told, SizeEstimate):
+        return f"{_kind(told)} and no SizeEstimate"
+    if not isinstance(told.outcome, SizeOutcome):
+        return f"a SizeEstimate whose outcome is {_kind(told.outcome)} and no SizeOutcome"
+    for name in NUMBERS:
+        if not _is_number(getattr(told, name)):
+            return f"a SizeEstimate whose {name} is {_kind(getattr(told, name))} and no number"
+    for name in INTERVALS:
+        if not _are_numbers(getattr(told, name), 2):
+            return f"a SizeEstimate whose {name} is {_kind(getattr(told, name))} and no pair of numbers"
+    if not _are_numbers(told.candidates):
+        return f"a SizeEstimate whose candidates are {_kind(told.candidates)} and not numbers"
+    times: Any = told.event_times
+    if not isinstance(times, np.ndarray) or times.dtype.kind not in "iuf" or times.ndim != 2 or times.shape[1] != 2:
+        return f"a SizeEstimate whose event_times are {_kind(times)} and no array of numbers (K, 2)"
+    return ""
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def _are_numbers(value: Any, count: int | None = None) -> bool:
+    listed = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)
+    return listed and count in (None, len(value)) and all(_is_number(one) for one in value)
+
+
+def _kind(value: object) -> str:
+    if value is None:
+        return "None"
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    text = repr(value).replace("\n", " ")
+    return f"{type(value).__name__} {text if len(text) <= 40 else text[:37] + '...'}"

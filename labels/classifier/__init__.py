@@ -1,0 +1,10 @@
+"""The classifier of spalls, learned from rows of the feature table, and the rule that it is measured against.
+
+- `classes`: the classes, and the location and condition that follow from their probabilities
+- `spall_classifier`: the baseline; it asks three questions, each a calibrated `stage`
+- `learners`: forest, logistic regression and boosting, of which `blend` and `signed_logistic` are parts
+- `alarm`: the probability at which a spall is called
+- `rule`: the yardstick without learning
+- `liveness`: whether a record shows a running machine at all
+- `scores`, `reliability`: how good answers are, with intervals
+"""

@@ -1,0 +1,40 @@
+"""Several two-class learners that answer together, with the mean of their log odds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.base import BaseEstimator, ClassifierMixin, clone
+
+from labels.classifier.alarm import logit
+from labels.features.conditioning import Array
+
+
+class Blend(ClassifierMixin, BaseEstimator):
+    """The mean of the log odds of its `parts`, each of which learns alone.
+
+    Trees tell what no line can, and say the same of everything beyond what they have seen; a logistic regression goes
+    on rising there.
+    """
+
+    def __init__(self, parts: Sequence[Any] = ()) -> None:
+        self.parts = parts
+
+    def fit(self, X: Array, y: NDArray[Any]) -> Blend:
+        """Learn from rows (N, F) and their two classes (N,)."""
+        self.classes_ = np.unique(y)
+        self.fitted_ = [clone(part).fit(X, y) for part in self.parts]
+        return self
+
+    def predict_proba(self, X: Array) -> Array:
+        """Probabilities (N, 2) of the two classes."""
+        level = np.mean([logit(part.predict_proba(X)[:, 1]) for part in self.fitted_], axis=0)
+        second = 0.5 * (1.0 + np.tanh(0.5 * level))
+        return np.column_stack([1.0 - second, second])
+
+    def predict(self, X: Array) -> NDArray[Any]:
+        """The likelier class (N,)."""
+        return np.asarray(self.classes_[self.predict_proba(X).argmax(axis=1)])

@@ -1,0 +1,73 @@
+"""One question with two answers: a learner whose probabilities are calibrated on bearings it has not seen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.classifier.alarm import logit
+from labels.features.conditioning import Array
+
+FOLDS = 5
+
+
+class Stage:
+    """A two-class learner with Platt's calibration on rows as they are, without noise added.
+
+    `held_out` (N,) are its calibrated held-out probabilities, from the mean log odds of `repeats` divisions into folds.
+    """
+
+    def __init__(self, estimator: Any, seed: int = 0, repeats: int = 1) -> None:
+        self.estimator = estimator
+        self.seed = seed
+        self.repeats = repeats
+
+    def fit(
+        self,
+        table: Array,
+        answer: NDArray[np.bool_],
+        groups: NDArray[Any],
+        noisy: NDArray[np.bool_] | None = None,
+    ) -> Stage:
+        """Learn the probability that `answer` (N,) is True from rows (N, F); rows of one group stay on one side.
+
+        Rows marked `noisy` (N,) are learned from and not calibrated on. ValueError if an answer is given by fewer than
+        two groups, or by noisy rows alone.
+        """
+        from sklearn.base import clone
+        from sklearn.linear_model import LogisticRegression
+
+        folds = min(FOLDS, *(len(np.unique(groups[answer == side])) for side in (False, True)))
+        if folds < 2:
+            raise ValueError("each answer must be given by two virtual bearings or more")
+        plain = np.ones(len(answer), dtype=bool) if noisy is None else ~noisy
+        if np.unique(answer[plain]).size < 2:
+            raise ValueError("each answer must be given by records without added noise too")
+        level = [logit(self._held_out(table, answer, groups, folds, self.seed + r)) for r in range(self.repeats)]
+        raw = 0.5 * (1.0 + np.tanh(0.5 * np.mean(level, axis=0)))
+        own, share = answer[plain], answer[plain].mean()
+        weight = np.where(own, 1.0 / share, 1.0 / (1.0 - share))
+        self.calibration = LogisticRegression(C=10.0).fit(logit(raw[plain])[:, None], own, sample_weight=weight)
+        self.held_out = self._calibrated(raw)
+        self.estimator = clone(self.estimator).fit(table, answer)
+        return self
+
+    def probability(self, table: Array) -> Array:
+        """Calibrated probability (N,) that the answer is True, if both answers were equally likely beforehand."""
+        return self._calibrated(self.estimator.predict_proba(table)[:, 1])
+
+    def _held_out(self, table: Array, answer: NDArray[np.bool_], groups: NDArray[Any], folds: int, seed: int) -> Array:
+        from sklearn.base import clone
+        from sklearn.model_selection import StratifiedGroupKFold
+
+        raw = np.full(len(answer), answer.mean())
+        split = StratifiedGroupKFold(folds, shuffle=True, random_state=seed)
+        for train, test in split.split(table, answer, groups):
+            if np.unique(answer[train]).size == 2:
+                raw[test] = clone(self.estimator).fit(table[train], answer[train]).predict_proba(table[test])[:, 1]
+        return raw
+
+    def _calibrated(self, raw: Array) -> Array:
+        return np.asarray(self.calibration.predict_proba(logit(raw)[:, None])[:, 1])

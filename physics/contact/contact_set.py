@@ -1,0 +1,90 @@
+"""Which balls are in contact: the set that forces are summed over, and how motion agrees with it.
+
+Steps are made with the set frozen; whoever made one asks here whether a ball has changed sides since.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_inline, njit_inner
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts
+
+Array = NDArray[np.float64]
+
+
+@njit_inline
+def touches(contacts: Contacts, cage: int, place: int) -> bool:
+    """Whether the contact law says that a ball is in contact, from what `press` left."""
+    balls = contacts.balls
+    return balls[cage, COMPRESSION, place] > 0.0 and (not contacts.law.no_tension or balls[cage, LAW, place] > 0.0)
+
+
+@njit_inline
+def count_changes(contacts: Contacts) -> int:
+    """Number of balls whose contact differs from the contact set, from what `press` left."""
+    balls, changed = contacts.balls, 0
+    for cage in range(balls.shape[0]):
+        if contacts.law.no_tension:
+            for j in range(balls.shape[2]):
+                held = min(balls[cage, COMPRESSION, j], balls[cage, LAW, j]) > 0.0
+                changed += held != (balls[cage, ACTIVE, j] > 0.5)
+        else:
+            for j in range(balls.shape[2]):
+                changed += (balls[cage, COMPRESSION, j] > 0.0) != (balls[cage, ACTIVE, j] > 0.5)
+    return changed
+
+
+@njit_inline
+def count_ahead(balls: Array, ahead: float) -> int:
+    """Number of balls that would contradict the contact set `ahead` s later if they went on at their present rate."""
+    changing = 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            later = balls[cage, COMPRESSION, j] + ahead * balls[cage, CLOSING, j]
+            changing += (later > 0.0) != (balls[cage, ACTIVE, j] > 0.5)
+    return changing
+
+
+@njit_inline
+def note_motion(balls: Array, noted: Array) -> None:
+    """Keep in `noted` (G, 2, M) the compression (m) and its rate (m/s) of every ball."""
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            noted[cage, 0, j] = balls[cage, COMPRESSION, j]
+            noted[cage, 1, j] = balls[cage, CLOSING, j]
+
+
+@njit_inline
+def restore_motion(balls: Array, noted: Array) -> None:
+    """Bring back what `note_motion` kept in `noted` (G, 2, M)."""
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            balls[cage, COMPRESSION, j] = noted[cage, 0, j]
+            balls[cage, CLOSING, j] = noted[cage, 1, j]
+
+
+@njit_inline
+def count_dips(balls: Array, noted: Array, step: float) -> int:
+    """Number of balls that agree with the contact set now and `step` s ago, as `noted`, but seem not to in between.
+
+    Between, compression is taken for a parabola with the rates of both ends: it turns where its rate is zero.
+    """
+    dips = 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            side = 2.0 * balls[cage, ACTIVE, j] - 1.0
+            away, back = side * noted[cage, 1, j], side * balls[cage, CLOSING, j]
+            room = side * (noted[cage, 0, j] + balls[cage, COMPRESSION, j]) * (back - away)
+            dips += (away < 0.0) & (back > 0.0) & (room < 0.5 * step * (away * away + back * back))
+    return dips
+
+
+@njit_inner
+def reset_contact(contacts: Contacts) -> None:
+    """Make the contact set what the compressions left by `press` say."""
+    balls = contacts.balls
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            balls[cage, ACTIVE, j] = 1.0 if touches(contacts, cage, j) else 0.0

@@ -1,0 +1,238 @@
+"""Contact forces of all balls at once, branch-free in the frame of the cage [P14 Eq. 4-10].
+
+Ball j sits at a fixed angle in the cage, so one sine and cosine a call turn the displacement into the cage's frame and
+the compression of every ball becomes p cos θj + q sin θj − floor. Sums run over precomputed θj in loops with no branch
+and in a fixed order, so they use vector instructions and give the same bits on every processor; only balls inside a
+spall need the depth of their path.
+
+Kernels take few arrays: each array handed to a compiled function costs reference counting, which would cost more than
+the mechanics. What belongs to one ball is therefore one column of `balls` (G, 11, M), G cages of M balls each, padded
+to whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
+know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics.contact.track import (
+    CAGE,
+    FIRST_BALL,
+    FIRST_BREAK,
+    FIRST_CUBIC,
+    FIRST_PIECE,
+    PIECES,
+    SIGN,
+    SPEED,
+    TURNS_PER_RADIAN,
+    Track,
+    cage_at,
+    hindmost,
+    place_of,
+    spall_under,
+    wave_cell,
+    waviness_at,
+)
+from physics.contact.turning import cosine_sine
+from physics.paths.depth_path import path_at
+
+Array = NDArray[np.float64]
+
+# Second index of `balls`: cosine and sine of its angle in the cage; clearance minus diameter deviation (m);
+# gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or
+# not the ball touches (N); the force of the contact set (N); the rate of compression (m/s);
+# its angle in the cage (rad).
+COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING, PLACE = range(11)
+BALL_ROWS = 11
+# Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
+FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
+FRAME_COLUMNS = 3
+
+
+class Law(NamedTuple):
+    """The contact law in radial direction: K (N/mⁿ), n, c_d (N s/m) and whether the force may pull."""
+
+    stiffness: float
+    exponent: float
+    damping: float
+    no_tension: bool
+
+
+class Contacts(NamedTuple):
+    """Everything the kernels need of a scene's contacts: `balls` (G, 11, M) and `frames` (G, 3) as above, the contact
+    law, and what the balls run on."""
+
+    balls: Array
+    frames: Array
+    law: Law
+    track: Track
+
+
+@njit_inner
+def set_time(contacts: Contacts, time: float) -> None:
+    """`move_to` as a called function, for places where an inlined copy would only cost compile time."""
+    move_to(contacts, time)
+
+
+@njit_inline
+def move_to(contacts: Contacts, time: float) -> None:
+    """Bring what depends on time alone to `time` (s): the cages' frames, the floor under each ball and its rate."""
+    balls, frames, track = contacts.balls, contacts.frames, contacts.track
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            balls[cage, FLOOR, j] = balls[cage, GAP, j]
+            balls[cage, FALL, j] = 0.0
+        angle, speed = cage_at(track, cage, time)
+        frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE] = cosine_sine(angle)
+        frames[cage, FRAME_SPEED] = speed
+        if track.waviness.shape[1] > 0:
+            _add_waviness(contacts, cage, angle, speed, time)
+        for spall in range(track.spalls.shape[0]):
+            if track.spalls[spall, CAGE] == cage:
+                _add_spall(contacts, cage, spall, angle, speed, time)
+
+
+@njit_pasted
+def _add_spall(contacts: Contacts, cage: int, spall: int, angle: float, speed: float, time: float) -> None:
+    balls, track = contacts.balls, contacts.track
+    sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
+    first_break, first_piece = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, FIRST_PIECE])
+    pieces = int(track.spalls[spall, PIECES])
+    arc, turns, leave = hindmost(track, spall, angle, time, 0.0)
+    while arc <= leave:
+        place = place_of(track, spall, turns)
+        depth, slope = path_at(
+            track.breaks, track.cells, track.cubics, first_break, first_piece, pieces,
+            int(track.spalls[spall, FIRST_CUBIC]), arc,
+        )  # fmt: skip
+        balls[cage, FLOOR, place] += depth
+        balls[cage, FALL, place] += slope * sign * (speed - race_speed)
+        arc += track.spacing
+        turns += 1.0
+
+
+@njit_inner
+def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, time: float) -> None:
+    """Both races' waves under every ball: those of one row lie whole cells apart, at the same place within theirs."""
+    balls, track = contacts.balls, contacts.track
+    cells, size = track.waviness.shape[1], balls.shape[2]
+    apart, per_cell = cells // track.row_size, cells * TURNS_PER_RADIAN
+    pace, inner_pace = speed * per_cell, (speed - track.shaft_speed) * per_cell
+    for first in range(0, size, track.row_size):
+        outer, x = wave_cell(cells, angle + balls[cage, PLACE, first])
+        inner, z = wave_cell(cells, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        for j in range(first, min(first + track.row_size, size)):
+            a3, a2 = track.waviness[0, outer, 0], track.waviness[0, outer, 1]
+            a1, a0 = track.waviness[0, outer, 2], track.waviness[0, outer, 3]
+            b3, b2 = track.waviness[1, inner, 0], track.waviness[1, inner, 1]
+            b1, b0 = track.waviness[1, inner, 2], track.waviness[1, inner, 3]
+            balls[cage, FLOOR, j] += (((a3 * x + a2) * x + a1) * x + a0) + (((b3 * z + b2) * z + b1) * z + b0)
+            outer_slope, inner_slope = (3.0 * a3 * x + 2.0 * a2) * x + a1, (3.0 * b3 * z + 2.0 * b2) * z + b1
+            balls[cage, FALL, j] += outer_slope * pace + inner_slope * inner_pace
+            outer += apart
+            inner += apart
+            outer -= cells if outer >= cells else 0
+            inner -= cells if inner >= cells else 0
+
+
+@njit_inline
+def compression_of(
+    contacts: Contacts, ball: int, time: float, x: float, y: float, u: float, v: float
+) -> tuple[float, float]:
+    """Compression (m) and its rate (m/s) of one ball at `time`: what `move_to` and `press` do for all of them."""
+    balls, track, size = contacts.balls, contacts.track, contacts.balls.shape[2]
+    cage, place = ball // size, ball % size
+    angle, speed = cage_at(track, cage, time)
+    c0, s0 = cosine_sine(angle)
+    c = c0 * balls[cage, COSINE, place] - s0 * balls[cage, SINE, place]
+    s = s0 * balls[cage, COSINE, place] + c0 * balls[cage, SINE, place]
+    floor, fall = balls[cage, GAP, place], 0.0
+    if track.waviness.shape[1] > 0:
+        depth, rate = waviness_at(track, angle + balls[cage, PLACE, place], speed, time)
+        floor += depth
+        fall += rate
+    for spall in range(track.spalls.shape[0]):
+        number = place - int(track.spalls[spall, FIRST_BALL])
+        if track.spalls[spall, CAGE] == cage and 0 <= number < track.row_size:
+            depth, rate = spall_under(track, spall, number, angle, speed, time)
+            floor += depth
+            fall += rate
+    compression = x * c + y * s - floor
+    return compression, u * c + v * s + speed * (y * c - x * s) - fall
+
+
+@njit_inline
+def law_power(law: Law, compression: float) -> float:
+    """A compression (m) to the power of the law's exponent less one, its secant stiffness over K; 0 out of contact."""
+    if compression <= 0.0:
+        return 0.0
+    return math.sqrt(compression) if law.exponent == 1.5 else compression ** (law.exponent - 1.0)
+
+
+@njit_inline
+def press(contacts: Contacts, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
+    """Net force (N) of the contact set along x and y, pushing the outer ring [P14 Eq. 8, 10].
+
+    `dx`, `dy` (m) and `vx`, `vy` (m/s) are displacement and velocity of the inner relative to the outer ring;
+    `set_time` must have been called. Leaves compression, law and force of every ball in `contacts.balls`.
+    """
+    balls, frames, law = contacts.balls, contacts.frames, contacts.law
+    force_x, force_y = 0.0, 0.0
+    for cage in range(balls.shape[0]):
+        cosine, sine, speed = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE], frames[cage, FRAME_SPEED]
+        p = dx * cosine + dy * sine
+        q = dy * cosine - dx * sine
+        a = vx * cosine + vy * sine + speed * q
+        b = vy * cosine - vx * sine - speed * p
+        if law.exponent == 1.5:
+            for j in range(balls.shape[2]):
+                compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
+                rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
+                pressed = max(compression, 0.0)
+                balls[cage, COMPRESSION, j] = compression
+                balls[cage, CLOSING, j] = rate
+                balls[cage, LAW, j] = law.stiffness * pressed * math.sqrt(pressed) + law.damping * rate
+                balls[cage, FORCE, j] = balls[cage, ACTIVE, j] * balls[cage, LAW, j]
+        else:
+            for j in range(balls.shape[2]):
+                compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
+                rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
+                balls[cage, COMPRESSION, j] = compression
+                balls[cage, CLOSING, j] = rate
+                balls[cage, LAW, j] = law.damping * rate
+                if compression > 0.0:
+                    balls[cage, LAW, j] += law.stiffness * compression**law.exponent
+                balls[cage, FORCE, j] = balls[cage, ACTIVE, j] * balls[cage, LAW, j]
+        along, across = _sum_lanes(balls, cage)
+        force_x += along * cosine - across * sine
+        force_y += along * sine + across * cosine
+    return force_x, force_y
+
+
+@njit_inline
+def _sum_lanes(balls: Array, cage: int) -> tuple[float, float]:
+    """Sums of force times cosine and sine over the balls of one cage, in four lanes added in a fixed order."""
+    p0, p1, p2, p3 = 0.0, 0.0, 0.0, 0.0
+    q0, q1, q2, q3 = 0.0, 0.0, 0.0, 0.0
+    for j in range(0, balls.shape[2], 4):
+        p0 += balls[cage, FORCE, j] * balls[cage, COSINE, j]
+        p1 += balls[cage, FORCE, j + 1] * balls[cage, COSINE, j + 1]
+        p2 += balls[cage, FORCE, j + 2] * balls[cage, COSINE, j + 2]
+        p3 += balls[cage, FORCE, j + 3] * balls[cage, COSINE, j + 3]
+        q0 += balls[cage, FORCE, j] * balls[cage, SINE, j]
+        q1 += balls[cage, FORCE, j + 1] * balls[cage, SINE, j + 1]
+        q2 += balls[cage, FORCE, j + 2] * balls[cage, SINE, j + 2]
+        q3 += balls[cage, FORCE, j + 3] * balls[cage, SINE, j + 3]
+    return (p0 + p1) + (p2 + p3), (q0 + q1) + (q2 + q3)
+
+
+@njit_inline
+def of_ball(balls: Array, row: int, ball: int) -> float:
+    """One entry of `balls` for the ball numbered cage · M + place."""
+    size = balls.shape[2]
+    return balls[ball // size, row, ball % size]

@@ -1,0 +1,27 @@
+"""A step that was tried with the contact set frozen, before it is known whether it can be taken."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Trial(NamedTuple):
+    """A step from the state `now` at `time` (s), where the contacts' `force` (N, N) is known, over `step` (s) to the
+    state `then`, where it is `after`; and how many balls contradict the contact set `halfway`.
+
+    States and forces are as the method that makes the step takes them: physical ones, or amplitudes of the modes and
+    the force that remains beside their spring and damper.
+    """
+
+    time: float
+    step: float
+    now: Array
+    force: tuple[float, float]
+    then: Array
+    after: tuple[float, float]
+    halfway: int

@@ -1,0 +1,148 @@
+"""The path of the ball's centre over a spall, as cubic pieces between the spall's edges."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.bearing import Bearing
+from physics.paths.depth_path import DepthPath, hermite_path
+from physics.paths.rolling import Branches, branches, deep_gap_drop, hanging_reach, rolled_path
+from physics.paths.spall_surface import gap_surface, reaches_floor, roughness_curve, table_surface, window, window_slope
+from physics.scene import Scene
+from physics.spall import Spall
+
+Array = NDArray[np.float64]
+
+CELLS_PER_TAPER = 48
+CELLS_PER_ROUGHNESS_STEP = 4
+# Steps of a rolled path (m), and how many of them make a cell.
+ROLLED_STEP, CELL_STEPS = 2e-6, 2
+# A record asks for the path of each of its spalls about eight times.
+PATHS_KEPT = 64
+
+
+@lru_cache(maxsize=PATHS_KEPT)
+def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
+    """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface.
+
+    The same spall and bearing give the same object, so its arrays are for reading only.
+    """
+    if spall.profile == "tukey":
+        return _tukey_path(spall)
+    smooth_gap = spall.entry_taper == 0.0 and spall.exit_taper == 0.0 and not spall.roughness_values
+    if spall.profile == "ball_path" and smooth_gap:
+        return _gap_path(spall, bearing)
+    return _rolled_path(spall, bearing)
+
+
+def is_rough(spall: Spall, bearing: Bearing) -> bool:
+    """Whether the path of the ball's centre over `spall` goes up and down all along."""
+    return bool(build_path(spall, bearing).relief[0] > 0.0)
+
+
+def race_depth(scene: Scene, row: int, angle: Array) -> Array:
+    """Path of the ball's centre on the defective race (N,), m, at angles (N,) fixed to it and equal to φ at t = 0.
+
+    Spalls and the waviness of that race, on `row` (1 or 2).
+    """
+    total = np.zeros(np.shape(angle))
+    for spall in scene.spalls:
+        if spall.row == row:
+            arc = spall.travel_sign * wrap(np.asarray(angle) - spall.angle)
+            total += build_path(spall, scene.rig.bearing).depth(arc)
+    for wave in scene.imperfections.waviness:
+        if wave.race == scene.defective_race:
+            total += wave.amplitude * np.cos(wave.order * np.asarray(angle) + wave.phase)
+    return total
+
+
+def wrap(angle: Array) -> Array:
+    """Angles brought into [−π, π), rad."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def _tukey_path(spall: Spall) -> DepthPath:
+    half = spall.extent / 2.0
+    rough = roughness_curve(spall)
+    edges = _distinct([-half, -half + spall.entry_taper, half - spall.exit_taper, half])
+    cell = math.inf if rough is None else spall.extent / (len(spall.roughness_values) - 1) / CELLS_PER_ROUGHNESS_STEP
+    cells = []
+    for left, right in pairwise(edges):
+        flat = left >= -half + spall.entry_taper and right <= half - spall.exit_taper
+        cells.append(max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
+
+    def depth(arc: Array) -> Array:
+        return spall.depth * window(spall, arc) + (0.0 if rough is None else rough(arc))
+
+    def slope(arc: Array) -> Array:
+        return spall.depth * window_slope(spall, arc) + (0.0 if rough is None else rough(arc, 1))
+
+    return hermite_path(np.array(edges), cells, depth, slope, bridged=False, rough=rough is not None)
+
+
+def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
+    """A gap with sharp edges in closed form: the ball hangs on the nearer edge until it reaches the floor."""
+    half = spall.extent / 2.0
+    race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
+    drop, drop_slope = deep_gap_drop(spall.race, race_radius, ball_radius)
+    bridged = bool(half < math.asin(min(1.0, ball_radius / race_radius)) and drop(np.array(half)) < spall.depth)
+    reach = half if bridged else min(half, hanging_reach(spall.race, race_radius, ball_radius, spall.depth))
+    edges = np.array(_distinct([-half, -half + reach, half - reach, half]))
+    on_floor = np.abs(edges[1:] + edges[:-1]) / 2.0 < half - reach
+    cells = [1 if flat else CELLS_PER_TAPER for flat in on_floor]
+
+    def nearer_edge(arc: Array) -> Array:
+        return np.clip(half - np.abs(arc), 0.0, reach)
+
+    def depth(arc: Array) -> Array:
+        return drop(nearer_edge(arc))
+
+    def slope(arc: Array) -> Array:
+        hanging = half - np.abs(arc) < reach * (1.0 - 1e-12)
+        return np.where(hanging, -np.sign(arc) * drop_slope(nearer_edge(arc)), 0.0)
+
+    return hermite_path(edges, cells, depth, slope, bridged=bridged, rough=False)
+
+
+def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
+    surface = table_surface(spall) if spall.profile == "table" else gap_surface(spall)
+    race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
+    half, step, rough = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
+    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, rough)
+    smooth = branches(rolled)
+    width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
+    # Rounding must not make a cell of what is left of a whole number of them.
+    cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)
+    return hermite_path(
+        smooth.edges,
+        cells.tolist(),
+        lambda arc: _on_branches(smooth, arc)[0],
+        lambda arc: _on_branches(smooth, arc)[1],
+        bridged=not reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
+        rough=rough or spall.profile == "table",
+    )
+
+
+def _on_branches(smooth: Branches, arc: Array) -> tuple[Array, Array]:
+    """Drop (N,), m, and slope (N,), m/rad, at arcs (N,), rad, which must not be corners themselves."""
+    k = np.clip(np.searchsorted(smooth.arc, arc, side="right") - 1, 0, smooth.arc.size - 2)
+    width = smooth.arc[k + 1] - smooth.arc[k]
+    x, rise = (arc - smooth.arc[k]) / width, smooth.drop[k + 1] - smooth.drop[k]
+    first, last = width * smooth.slope[k] - rise, width * smooth.slope[k + 1] - rise
+    value = smooth.drop[k] + x * (rise + (1.0 - x) * ((1.0 - x) * first - x * last))
+    slope = rise + (1.0 - x) * (1.0 - 3.0 * x) * first - x * (2.0 - 3.0 * x) * last
+    return value, slope / width
+
+
+def _distinct(edges: list[float]) -> list[float]:
+    smallest = 1e-9 * (edges[-1] - edges[0])
+    kept = [edges[0]]
+    for edge in edges[1:-1]:
+        if edge - kept[-1] > smallest and edges[-1] - edge > smallest:
+            kept.append(edge)
+    return [*kept, edges[-1]]

@@ -1,0 +1,81 @@
+"""The surface of a spall: its tapered window, its roughness, a measured table."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from physics.paths.depth_path import Curve
+from physics.spall import Spall
+
+Array = NDArray[np.float64]
+
+TOUCHING_SHARE = 0.02
+
+
+def window(spall: Spall, arc: Array) -> Array:
+    """Tukey window (N,) of unit height with the spall's tapers at the arcs (N,) [P14 Eq. 17, first part]."""
+    half = spall.extent / 2.0
+    rise = _ramp(arc + half, spall.entry_taper)
+    fall = _ramp(half - arc, spall.exit_taper)
+    return np.minimum(rise, fall) * (np.abs(arc) <= half * (1.0 + 1e-12))
+
+
+def _ramp(distance: Array, taper: float) -> Array:
+    if taper == 0.0:
+        return np.ones_like(distance)
+    return 0.5 - 0.5 * np.cos(np.pi * np.clip(distance / taper, 0.0, 1.0))
+
+
+def window_slope(spall: Spall, arc: Array) -> Array:
+    """Derivative (N,) of the window to the arc, 1/rad."""
+    half = spall.extent / 2.0
+    return _ramp_slope(arc + half, spall.entry_taper) - _ramp_slope(half - arc, spall.exit_taper)
+
+
+def _ramp_slope(distance: Array, taper: float) -> Array:
+    if taper == 0.0:
+        return np.zeros_like(distance)
+    inside = (distance >= 0.0) & (distance <= taper)
+    return np.where(inside, 0.5 * np.pi / taper * np.sin(np.pi * np.clip(distance / taper, 0.0, 1.0)), 0.0)
+
+
+def roughness_curve(spall: Spall) -> CubicSpline | None:
+    """Natural cubic spline through the spall's roughness values (m) over the arc (rad), or None if it is smooth."""
+    if not spall.roughness_values:
+        return None
+    half = spall.extent / 2.0
+    arcs = np.linspace(-half, half, len(spall.roughness_values))
+    return CubicSpline(arcs, np.array(spall.roughness_values), bc_type="natural")
+
+
+def gap_surface(spall: Spall) -> Curve:
+    """Depth (m) of a gap with the spall's tapers and roughness against the arc (rad)."""
+    rough = roughness_curve(spall)
+
+    def surface(arc: Array) -> Array:
+        inside = np.abs(arc) <= spall.extent / 2.0
+        bumps = 0.0 if rough is None else np.where(inside, rough(arc), 0.0)
+        return spall.depth * window(spall, arc) + bumps
+
+    return surface
+
+
+def table_surface(spall: Spall) -> Curve:
+    """Depth (m) of the spall's measured table against the arc (rad); zero outside."""
+    rising = slice(None, None, spall.travel_sign)
+    angle = spall.travel_sign * np.array(spall.table_angle)[rising]
+    depth = np.array(spall.table_depth)[rising]
+    return lambda arc: np.interp(arc, angle, depth, left=0.0, right=0.0)
+
+
+def reaches_floor(spall: Spall, arcs: Array, gap: Array) -> bool:
+    """Whether the `gap` (N,), m, below the ball closes on the floor: between the tapers, or deep in a table."""
+    if spall.profile == "table":
+        depth = max(spall.table_depth)
+        floor = table_surface(spall)(arcs) >= 0.5 * depth
+    else:
+        depth = spall.depth
+        floor = window(spall, arcs) >= 1.0 - TOUCHING_SHARE
+    return bool(np.any(gap[floor] <= TOUCHING_SHARE * max(depth, 1e-12)))

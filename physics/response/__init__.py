@@ -1,0 +1,6 @@
+"""The response of a scene, by way of one or several marches.
+
+`march` marches once with a given method and step. `modal_case` is a march by the default method that can be gone on
+with; `adaptive` goes on with it to a stated accuracy, `periodic` only until the response repeats itself. `stability`
+bounds explicit steps, `resampling` gives other samples of what came out.
+"""

@@ -1,0 +1,171 @@
+"""A response to a stated accuracy: the modal method with the tolerance that the scene's own size asks for.
+
+The method measures every step by the momentum it may be wrong by. What such a push leaves in the resonator's
+acceleration follows from the modes alone, so the accuracy asked for, the size of the signal seen so far and a usual
+number of pushes a second give the tolerance; and the sum of the errors made gives the estimate of the whole, times what
+a pilot shows that this scene makes of them: contact changes can multiply an error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.integrators.methods import MODAL
+from physics.integrators.modal.memory import STRIDES, Stride
+from physics.integrators.output import STEPS, Grid, Output
+from physics.response.march import trace_of
+from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March, case_of
+from physics.scene import Scene
+from physics.trace import CHAOTIC, Trace
+
+Array = NDArray[np.float64]
+GoOn = Callable[[March, Stride], Output]
+ACCELERATION_ALONE = Kept()
+
+# Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
+# them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
+ERROR_FACTOR, SENSITIVE = 3.5, 6.0
+# Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
+AIM, MARGIN = 0.1, 0.75
+# A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where contacts may
+# make errors grow: it is made again with this share of the tolerance, and what both are apart tells.
+DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
+PILOT_SAMPLES = 2048
+SEED_ATTEMPTS = 3
+# First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
+GUESSED_SHARE, SMALLEST_SHARE = 1e-2, 1e-8
+# No tolerance is below this share of what the load does in a sample: forces are not known better.
+ROUND_OFF = 1e-13
+# The tolerance of the pilot; weights of the guessed size of the signal, in samples.
+COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
+# A beginning made with more than this many times the tolerance that the scene turns out to need is made again.
+CALM = 1.5
+# No further attempt is made after one that has left more than this share of the error.
+MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
+
+
+def respond_accurately(
+    scene: Scene,
+    start: Array,
+    rate: float,
+    samples: int,
+    accuracy: float,
+    least: float,
+    kept: Kept = ACCELERATION_ALONE,
+    go_on: GoOn = March.go_on,
+    pilot: int = PILOT_SAMPLES,
+) -> Trace:
+    """Trace of `scene` at k / rate from the state `start` (12,), to the relative RMS `accuracy` with its estimate.
+
+    `least` (m/s², RMS) is an error that is always allowed. `go_on` may end a march before all samples. A coarse
+    `pilot` of some samples and the beginning of the response say how large the signal is and how much this scene makes
+    of the errors of its steps; where that is much, a finer response says it again. Raises SimulationFailed if the
+    response stops being finite, contact changes more often than can be logged, or steps become too many.
+    """
+    case = case_of(scene, start, rate)
+    march = March(case, samples, kept)
+    seen, sensitivity = _beginning(march, pilot, accuracy, least)
+    output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, sensitivity)
+    if (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) < sensitivity <= CHAOTIC:
+        again = March(case, samples, kept)
+        output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, sensitivity)
+    marched = output.acceleration.shape[0]
+    trace = trace_of(scene, Grid(marched, 1, grid.interval), output, MODAL)
+    step = (marched - 1) * grid.interval / max(1, int(output.tally[STEPS]))
+    # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
+    relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
+    return replace(trace, step=step, error_estimate=relative, sensitivity=sensitivity)
+
+
+def _to_accuracy(
+    march: March, go_on: GoOn, accuracy: float, least: float, seen: float, sensitivity: float
+) -> tuple[Output, Stride, float, float]:
+    """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, that error, and the
+    response's own RMS (m/s²).
+
+    The first attempt goes on with the `march` that has begun, unless the scene makes much of errors; more begin anew.
+    """
+    case, samples = march.case, march.samples
+    tame = 1.0 if sensitivity > CHAOTIC else max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
+    aim, error = AIM / tame, math.inf
+    for attempt in range(MOST_ATTEMPTS):
+        if attempt > 0 or tame > CALM:
+            march = March(case, samples, march.kept)
+        spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame * aim)) ** 2
+        grid = _grid(case, samples, aim * accuracy, aim * least, seen, UNCERTAIN, spending)
+        output = go_on(march, grid)
+        size = rms(output.acceleration)
+        before, error = error, ERROR_FACTOR * tame * case.pushed(output)
+        if error <= max(accuracy * size, least) or error > WORTHWHILE * before:
+            break
+        aim *= min(0.5, 0.7 * max(accuracy * size, least) / error)
+        seen = size**2
+    return output, grid, error, size
+
+
+def _made_sure(
+    march: March, go_on: GoOn, accuracy: float, least: float, output: Output, grid: Stride, sensitivity: float
+) -> tuple[Output, float, float, float]:
+    """The response made again by a fresh `march` on a finer grid than the `output`'s; its estimated error and its own
+    RMS (m/s²), and the sensitivity that both tell.
+
+    Once more, to that sensitivity, if that is not within the accuracy.
+    """
+    case = march.case
+    finer = go_on(march, grid._replace(share=FINER * grid.share, least=FINER * grid.least))
+    both = min(output.acceleration.shape[0], finer.acceleration.shape[0])
+    apart, pushed = rms(output.acceleration[:both] - finer.acceleration[:both]), case.pushed(output)
+    sensitivity = max(sensitivity, apart / pushed if pushed > 0.0 else 0.0)
+    error, size = SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
+    if error > max(accuracy * size, least) and sensitivity <= CHAOTIC:
+        again = March(case, march.samples, march.kept)
+        finer, _, error, size = _to_accuracy(again, go_on, accuracy, least, size**2, sensitivity)
+    return finer, error, size, sensitivity
+
+
+def rms(values: Array) -> float:
+    """Root mean square over all entries."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def _grid(case: Case, samples: int, share: float, least: float, seen: float, weight: float, spending: float) -> Stride:
+    load = abs(case.scene.operation.load)
+    floor = share * SMALLEST_SHARE * load / case.scene.rig.outer_mass
+    return Stride(
+        samples=samples,
+        interval=1.0 / case.rate,
+        levels=len(STRIDES),
+        share=share * case.push * math.sqrt(0.5),
+        least=max(case.push * max(least, floor), ROUND_OFF * load / case.rate),
+        seen=2.0 * seen,
+        seen_samples=weight,
+        spending=spending,
+    )
+
+
+def _beginning(march: March, pilot: int, accuracy: float, least: float) -> tuple[float, float]:
+    """Let the `march` begin; the mean square (m²/s⁴) of its first samples' acceleration, and how many times as far it
+    is from a coarser one as the errors of that one's steps add up to: all along, if contacts may make them grow."""
+    case, short = march.case, min(march.samples, pilot)
+    length = march.samples if case.memory > 0.0 else short
+    size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
+    for _ in range(SEED_ATTEMPTS):
+        coarse = March(case, short).go_on(_grid(case, short, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
+        found = rms(coarse.acceleration[short // 2 : short])
+        if found > 0.1 * size:
+            size = found
+            break
+        size = max(found, 1e-3 * size)
+    if length > short:
+        # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
+        coarse = March(case, length).go_on(_grid(case, length, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
+    wanted = AIM * min(max(accuracy, least / size), COARSE)
+    fine = march.go_on(_grid(case, length, wanted, 0.0, size**2, CERTAIN, 1.0))
+    pushed = case.pushed(coarse)
+    apart = rms(coarse.acceleration - fine.acceleration[:length])
+    return size**2, apart / pushed if pushed > 0.0 else 1.0

@@ -1,0 +1,164 @@
+"""One march of a scene, from its starting state to a Trace."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.assembly import assemble, ball_numbers
+from physics.contact.forces import Contacts
+from physics.integrators.methods import MARCHES
+from physics.integrators.output import (
+    HELD,
+    LOG_FULL,
+    LOGGED,
+    NOT_FINITE,
+    OUT_OF_STEPS,
+    PULLED,
+    TALLY_ENTRIES,
+    UNLOCATED,
+    Grid,
+    Output,
+)
+from physics.integrators.propagator import power_series
+from physics.motion import motion_model, resonator_acceleration
+from physics.outcome import Outcome, SimulationFailed
+from physics.paths.kinks import known_kinks
+from physics.scene import Scene
+from physics.trace import ContactChanges, Trace
+
+Array = NDArray[np.float64]
+
+MODEL = "nonlinear 6-DOF"
+FIRST_CHANGE_LOG = 4096
+LARGEST_CHANGE_LOG = 2_097_152
+# No bearing changes its contacts this often all along: what does, does not converge.
+LOGGED_CHANGES_PER_STEP = 4
+
+
+def respond(
+    scene: Scene,
+    start: Array,
+    grid: Grid,
+    method: str,
+    *,
+    keep_state: bool = False,
+    keep_force: bool = False,
+    keep_outer: bool = False,
+) -> Trace:
+    """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, without an error estimate.
+
+    Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps
+    become too many.
+    """
+    contacts, motion = assemble(scene), motion_model(scene)
+    series, stops = power_series(motion, grid.step), known_kinks(scene, contacts)
+    capacity = FIRST_CHANGE_LOG
+    largest = min(LARGEST_CHANGE_LOG, max(FIRST_CHANGE_LOG, LOGGED_CHANGES_PER_STEP * grid.samples * grid.substeps))
+    status = LOG_FULL
+    while status == LOG_FULL:
+        if capacity > largest and capacity > FIRST_CHANGE_LOG:
+            raise SimulationFailed(
+                Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
+            )
+        output = empty_output(contacts, grid.samples, capacity, keep_state, keep_force, keep_outer)
+        status = MARCHES[method](contacts, motion, series, grid, stops, start, output)
+        capacity *= 8
+    if status == NOT_FINITE:
+        raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps of {grid.step:.3g} s")
+    if status == OUT_OF_STEPS:
+        raise SimulationFailed(
+            Outcome.TOO_MANY_STEPS, f"the method {method} used up its steps within {scene.duration:g} s"
+        )
+    return trace_of(scene, grid, output, method)
+
+
+def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:
+    """Trace of `scene` by the slow reference method, at the instants k / rate, from the state `start` (12,)."""
+    from physics.integrators.reference import integrate_reference
+
+    motion = motion_model(scene)
+    time = np.arange(samples) / rate
+    solution = integrate_reference(scene, start, time)
+    acceleration = np.array([[resonator_acceleration(motion, row, axis) for axis in (0, 1)] for row in solution.state])
+    changes = solution.changes
+    return Trace(
+        rate=rate,
+        time=time,
+        acceleration=acceleration,
+        changes=ContactChanges(
+            time=np.array([change[0] for change in changes], dtype=np.float64),
+            row=np.array([change[1] for change in changes], dtype=np.int16),
+            ball=np.array([change[2] for change in changes], dtype=np.int16),
+            made=np.array([change[3] for change in changes], dtype=np.bool_),
+            initial=np.asarray(solution.initial, dtype=np.bool_),
+        ),
+        model=MODEL,
+        method="reference",
+        step=0.0,
+        error_estimate=math.nan,
+        tension_share=math.nan,
+        state=solution.state if keep_state else None,
+    )
+
+
+def empty_output(
+    contacts: Contacts, samples: int, capacity: int, keep_state: bool, keep_force: bool, keep_outer: bool
+) -> Output:
+    """Arrays for a march of `samples` instants, with room for `capacity` changes of contact."""
+    balls = contacts.balls.shape[0] * contacts.balls.shape[2]
+    return Output(
+        acceleration=np.zeros((samples, 2)),
+        state=np.zeros((samples if keep_state else 0, 12)),
+        force=np.zeros((samples if keep_force else 0, balls)),
+        outer=np.zeros((samples if keep_outer else 0, 6)),
+        change_time=np.zeros(capacity),
+        change_ball=np.zeros(capacity, dtype=np.int64),
+        change_made=np.zeros(capacity, dtype=np.bool_),
+        initial=np.zeros(balls),
+        tally=np.zeros(TALLY_ENTRIES, dtype=np.int64),
+        touched=np.zeros(2),
+        budget=np.zeros(1),
+    )
+
+
+def trace_of(scene: Scene, grid: Grid, output: Output, method: str) -> Trace:
+    """What a march has written into `output`, as a trace without an error estimate."""
+    bearing, (row, number) = scene.rig.bearing, ball_numbers(scene)
+    real = number >= 0
+    changes = slice(0, int(output.tally[LOGGED]))
+    ball = output.change_ball[changes]
+    force = None
+    if output.force.shape[0]:
+        normal = output.force[:, real] / math.cos(bearing.contact_angle)
+        if scene.contact_law == "no_tension":
+            # Inside a step a ball that is just not let go of would pull by as little as the step may be wrong.
+            normal = np.maximum(normal, 0.0)
+        force = normal.reshape(-1, bearing.rows, bearing.balls)
+    held, pulled = float(output.touched[HELD]), float(output.touched[PULLED])
+    rate = 1.0 / (grid.substeps * grid.step)
+    return Trace(
+        rate=rate,
+        time=np.arange(grid.samples) / rate,
+        acceleration=output.acceleration,
+        changes=ContactChanges(
+            time=output.change_time[changes].copy(),
+            row=(row[ball] + 1).astype(np.int16),
+            ball=(number[ball] + 1).astype(np.int16),
+            made=output.change_made[changes].copy(),
+            initial=output.initial[real].reshape(bearing.rows, bearing.balls) > 0.5,
+        ),
+        model=MODEL,
+        method=method,
+        step=grid.step,
+        error_estimate=math.nan,
+        tension_share=pulled / held if held else 0.0,
+        unlocated_changes=int(output.tally[UNLOCATED]),
+        state=output.state if output.state.shape[0] else None,
+        contact_force=force,
+        outer_displacement=output.outer[:, 0:2] if output.outer.shape[0] else None,
+        outer_velocity=output.outer[:, 2:4] if output.outer.shape[0] else None,
+        outer_acceleration=output.outer[:, 4:6] if output.outer.shape[0] else None,
+    )

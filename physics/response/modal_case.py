@@ -1,0 +1,156 @@
+"""A scene made ready for the modal method, and a march through it that can be gone on with."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.assembly import assemble
+from physics.contact.forces import Contacts
+from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
+from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
+from physics.integrators.modal.memory import SHORTEST, UNITS, Memory, Stride, memory_for
+from physics.integrators.modal.tables import tables_for
+from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Output
+from physics.integrators.stops import Stops
+from physics.motion import MotionModel, motion_model
+from physics.outcome import Outcome, SimulationFailed
+from physics.paths.kinks import known_kinks
+from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
+from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium, equilibrium
+
+Array = NDArray[np.float64]
+
+# Steps and contact changes a sample that share the error: their pushes add up like noise.
+USUAL_PUSHES = 0.3
+MEAN_STIFFNESS_TIMES = 64
+SMALLEST_STIFFNESS = 1e3
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What else a trace keeps besides acceleration and contact changes."""
+
+    state: bool = False
+    force: bool = False
+    outer: bool = False
+
+
+@dataclass(frozen=True)
+class Case:
+    """What every march of a scene from the state `start` (12,) on a grid of `rate` (Hz) has in common; `memory` (s):
+    how long its contacts may make errors grow."""
+
+    scene: Scene
+    flow: LinearFlow
+    memory: float
+    contacts: Contacts
+    stops: Stops
+    start: Array
+    rate: float
+
+    @cached_property
+    def ringing(self) -> float:
+        """What a push of 1 N s leaves in the resonator's acceleration, m²/s³ per (N s)²."""
+        return ringing(self.flow, self.scene.duration)
+
+    @cached_property
+    def amplitudes(self) -> Array:
+        """Amplitudes (12,) of the modes at t = 0."""
+        return amplitudes_of(self.flow, self.start)
+
+    @cached_property
+    def tables(self) -> tuple[Array, Array]:
+        """Weights of the steps of whole units."""
+        return tables_for(self.flow, 1.0 / self.rate)
+
+    @property
+    def push(self) -> float:
+        """Momentum (N s) a step may be wrong by for an error of 1 m/s² (RMS), at the usual number of pushes."""
+        return 1.0 / math.sqrt(self.ringing * USUAL_PUSHES * self.rate)
+
+    def pushed(self, output: Output) -> float:
+        """What the errors of the steps of `output` add up to in the resonator's acceleration (m/s², RMS of both
+        axes)."""
+        return math.sqrt(0.5 * self.ringing * float(output.budget[0]) * self.rate / output.acceleration.shape[0])
+
+
+def case_of(scene: Scene, start: Array, rate: float) -> Case:
+    """`scene` made ready for marches from the state `start` (12,) at `rate` (Hz)."""
+    motion, contacts, rest = motion_model(scene), assemble(scene), resting(scene)
+    flow = mean_flow(motion, rest)
+    memory = memory_of_errors(flow, rest.stiffness[:, :2].std(axis=0))
+    return Case(scene, flow, memory, contacts, known_kinks(scene, contacts), start, rate)
+
+
+def resting(scene: Scene) -> Equilibrium:
+    """Quasi-static positions of `scene` all along."""
+    return equilibrium(scene, np.linspace(0.0, scene.duration, MEAN_STIFFNESS_TIMES))
+
+
+def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
+    """Modes of `motion` with the mean contact stiffness and damping of the positions `rest`."""
+    stiffness, damping = rest.stiffness.mean(axis=0), rest.damping.mean(axis=0)
+    kx, ky = (max(float(stiffness[axis]), SMALLEST_STIFFNESS) for axis in range(2))
+    return linear_flow(motion, (kx, ky), (float(damping[0]), float(damping[1])))
+
+
+@dataclass
+class March:
+    """A march of `case` over up to `samples`; one at a time, as it keeps its contact set in the case's contacts."""
+
+    case: Case
+    samples: int
+    kept: Kept = Kept()
+    output: Output = field(init=False)
+    _memory: Memory | None = field(init=False, default=None)
+
+    def __post_init__(self) -> None:
+        kept = self.kept
+        self.output = empty_output(
+            self.case.contacts, self.samples, FIRST_CHANGE_LOG, kept.state, kept.force, kept.outer
+        )
+
+    def go_on(self, grid: Stride) -> Output:
+        """The output, filled up to the samples of `grid`.
+
+        Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or
+        steps become too many.
+        """
+        case, contacts = self.case, self.case.contacts
+        if self._memory is None:
+            self._memory = memory_for(case.flow, case.amplitudes, case.tables, contacts.balls.shape)
+            begin(contacts, case.flow, grid, self._memory, self.output)
+        status = LOG_FULL
+        while status == LOG_FULL:
+            status = march_modal(contacts, case.flow, grid, case.stops, self._memory, self.output)
+            if status == LOG_FULL:
+                self.output = _with_longer_log(self.output, case.scene)
+        if status == OUT_OF_STEPS:
+            raise SimulationFailed(
+                Outcome.TOO_MANY_STEPS,
+                f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or "
+                "least_error takes fewer",
+            )
+        if status == NOT_FINITE:
+            raise SimulationFailed(
+                Outcome.NOT_FINITE,
+                f"the response stopped being finite with steps down to {SHORTEST * grid.interval / UNITS:.3g} s",
+            )
+        return self.output
+
+
+def _with_longer_log(output: Output, scene: Scene) -> Output:
+    full = output.change_time.size
+    if 8 * full > LARGEST_CHANGE_LOG:
+        raise SimulationFailed(Outcome.TOO_MANY_CHANGES, f"more than {full} changes of contact in {scene.duration:g} s")
+    return output._replace(
+        change_time=np.concatenate([output.change_time, np.zeros(7 * full)]),
+        change_ball=np.concatenate([output.change_ball, np.zeros(7 * full, dtype=np.int64)]),
+        change_made=np.concatenate([output.change_made, np.zeros(7 * full, dtype=np.bool_)]),
+    )

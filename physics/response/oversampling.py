@@ -1,0 +1,41 @@
+"""How many times a record's rate its simulation runs at, so that what rings is sampled finely enough."""
+
+from __future__ import annotations
+
+import math
+
+from physics.integrators.propagator import reach
+from physics.motion import motion_model
+from physics.outcome import Outcome, SimulationFailed
+from physics.scene import Scene
+
+SAMPLES_PER_FAST_PERIOD = 4.0
+# A path to the sensor follows the outer ring, whose acceleration jumps with every contact: with fewer samples, or a
+# smaller multiple of the rate, what the jumps do between samples and above half the rate reaches it.
+SAMPLES_PER_PATH_PERIOD, LEAST_WITH_PATH = 14.0, 3
+MOST_OVERSAMPLING = 64
+
+
+def raised_times(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
+    """How many times `rate` (Hz) is needed to hold the fastest linear mode of `scene` with room for the filter.
+
+    And, if there is one, the `fastest_path` (Hz) that the outer ring shakes.
+    """
+    per_sample = reach(motion_model(scene), 1.0 / rate)
+    factor = max(1, math.ceil(per_sample * SAMPLES_PER_FAST_PERIOD / (2.0 * math.pi)))
+    if fastest_path == 0.0:
+        return factor
+    return max(factor, LEAST_WITH_PATH, math.ceil(fastest_path / rate * SAMPLES_PER_PATH_PERIOD))
+
+
+def oversampling(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
+    """What `raised_times` gives; raises SimulationFailed if it is more than is ever made."""
+    factor = raised_times(scene, rate, fastest_path)
+    if factor > MOST_OVERSAMPLING:
+        fastest = max(reach(motion_model(scene), 1.0 / rate) * rate / (2.0 * math.pi), fastest_path)
+        raise SimulationFailed(
+            Outcome.UNRESOLVED,
+            f"a rate of {rate:.6g} Hz has to be raised {factor} times to hold the fastest mode, {fastest:.4g} Hz; "
+            f"at most {MOST_OVERSAMPLING} times are allowed",
+        )
+    return factor

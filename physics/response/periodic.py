@@ -1,0 +1,162 @@
+"""The response of a machine without slip: marched until it repeats itself from ball to ball, and then read again.
+
+Where nothing but the balls moves past the load, every ball does after a pass what the one before it did. The march goes
+on at a rate of which the period of this is a whole number of samples, until one period tells all later ones.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.integrators.modal.flow import slowest_decay
+from physics.integrators.modal.memory import Stride
+from physics.integrators.output import Output
+from physics.paths.profile import is_rough
+from physics.response.adaptive import PILOT_SAMPLES, respond_accurately, rms
+from physics.response.modal_case import March
+from physics.response.resampling import POINTS, read_at
+from physics.scene import Scene
+from physics.trace import ContactChanges, Trace
+
+Array = NDArray[np.float64]
+
+METHOD = "modal, repeated"
+# Samples of the march for each one asked for: the response is read between them.
+FINENESS = 4
+# A record must hold this many periods, or repeating spares too little; fewer where a spall is rough and steps short.
+FEWEST_PERIODS, FEWEST_ROUGH_PERIODS = 20, 12
+# Of the accuracy asked for: what the march may be wrong by, and how far its last period may be from all later ones.
+MARCHED, REPEATED = 0.9, 0.3
+# Corners of the acceleration, where contacts change, are not read to a finer accuracy than this.
+FINEST_ACCURACY = 3e-4
+
+
+def balls_a_period(scene: Scene) -> int:
+    """How many balls have to pass until `scene` is as it was, but for their numbers; 0 if it never is."""
+    run, bearing, imperfections = scene.operation, scene.rig.bearing, scene.imperfections
+    even = len({cage.mean_speed for cage in scene.cages}) == 1 and not any(cage.knot_values for cage in scene.cages)
+    steady = run.unbalance_force == 0.0 and run.load_fluctuation == 0.0
+    fixed = scene.defective_race != "inner" and all(wave.race == "outer" for wave in imperfections.waviness)
+    if not (even and steady and fixed):
+        return 0
+    alike = all(len(set(row)) == 1 for row in imperfections.ball_deviation)
+    return 1 if alike else bearing.balls
+
+
+def period_of(scene: Scene) -> float:
+    """Time (s) after which the response of `scene` repeats itself once it has settled; infinite if it never does."""
+    balls = balls_a_period(scene)
+    return balls * scene.rig.bearing.spacing / scene.cage.mean_speed if balls else math.inf
+
+
+def worth_repeating(scene: Scene, duration: float, accuracy: float) -> bool:
+    """Whether `duration` (s) holds enough periods of the response, and they can be read to the relative `accuracy`."""
+    rough = any(is_rough(spall, scene.rig.bearing) for spall in scene.spalls)
+    fewest = FEWEST_ROUGH_PERIODS if rough else FEWEST_PERIODS
+    return fewest * period_of(scene) <= duration and accuracy >= FINEST_ACCURACY
+
+
+def respond_until_repeated(
+    scene: Scene, start: Array, rate: float, samples: int, accuracy: float, least: float
+) -> Trace:
+    """As `respond_accurately`, of a `scene` that has a period; what comes after the march repeats its last period.
+
+    Step and share of tension are those of the march. Where repeating would not keep the accuracy, it is marched to the
+    end.
+    """
+    period = period_of(scene)
+    cells = math.ceil(FINENESS * rate * period)
+    duration = samples / rate
+    marching = _Repeating(cells, REPEATED * accuracy, REPEATED * least)
+    marched = respond_accurately(
+        scene,
+        start,
+        cells / period,
+        cells * math.ceil(duration / period),
+        MARCHED * accuracy,
+        MARCHED * least,
+        go_on=marching.go_on,
+        pilot=FINENESS * PILOT_SAMPLES,
+    )
+    time = np.arange(samples) / rate
+    end = marched.time.size / cells * period
+    place = np.where(time < end, time, end - period + (time - end) % period) * (cells / period)
+    # Points beyond the last sample are those of the period's beginning.
+    following = marched.acceleration[marched.time.size - cells :][:POINTS]
+    left = marching.left if end < duration else 0.0
+    acceleration = read_at(np.concatenate([marched.acceleration, following]), place)
+    error = math.hypot(marched.error_estimate, left, _reading_error(marched.acceleration[-cells:]))
+    if error > accuracy and error * rms(acceleration) > least:
+        return respond_accurately(scene, start, rate, samples, accuracy, least)
+    return replace(
+        marched,
+        rate=rate,
+        time=time,
+        method=METHOD if end < duration else marched.method,
+        acceleration=acceleration,
+        changes=_repeated_changes(scene, marched.changes, end, duration),
+        error_estimate=error,
+    )
+
+
+def _reading_error(signal: Array) -> float:
+    """Estimated RMS error of reading between the samples of `signal` (T, 2), relative to its RMS.
+
+    Of every other sample, read between the rest: at a corner of the signal twice what it is with all of them, and more
+    where the signal is smooth.
+    """
+    half = np.arange(signal.shape[0] // 2 - 1)
+    size = rms(signal)
+    return 0.5 * rms(read_at(signal[0::2], half + 0.5) - signal[1::2][half]) / size if size > 0.0 else 0.0
+
+
+class _Repeating:
+    """Goes on with a march of `cells` samples a period until its periods are alike: to the `share` of their RMS, or to
+    `least` (m/s², RMS). `left` is the share that the last period is estimated to be away from all later ones."""
+
+    def __init__(self, cells: int, share: float, least: float) -> None:
+        self.cells, self.share, self.least, self.left = cells, share, least, math.inf
+
+    def go_on(self, march: March, grid: Stride) -> Output:
+        """The output, up to the last period that was needed."""
+        slowest, apart = slowest_decay(march.case.flow), {1: math.inf}
+        for count in range(2, grid.samples // self.cells + 1):
+            marched = count * self.cells
+            output = march.go_on(grid._replace(samples=marched))
+            output = output._replace(acceleration=output.acceleration[:marched])
+            periods = output.acceleration.reshape(count, self.cells, 2)
+            apart[count] = rms(periods[-1] - periods[count // 2 - 1])
+            if count % 2 == 1:
+                continue
+            # What is left of the transient, were it to fall from now on as it did since half the time ago.
+            half = 0.5 * marched / march.case.rate
+            fallen = max(apart[count] / apart[count // 2], math.exp(-slowest * half)) if apart[count] > 0.0 else 0.0
+            away = apart[count] * fallen / (1.0 - fallen) if fallen < 1.0 else math.inf
+            size = rms(periods[-1])
+            self.left = away / size if size > 0.0 else 0.0
+            if away <= max(self.share * size, self.least):
+                break
+        return output
+
+
+def _repeated_changes(scene: Scene, changes: ContactChanges, end: float, duration: float) -> ContactChanges:
+    """The `changes` up to `end` (s), and those of the last period before it again and again up to `duration` (s)."""
+    period, balls = period_of(scene), scene.rig.bearing.balls
+    last = np.flatnonzero((changes.time >= end - period) & (changes.time < end))
+    turn = np.arange(1, max(0, math.ceil((duration - end) / period)) + 1)
+    time = (changes.time[last] + turn[:, None] * period).ravel()
+    # A period later the next ball behind is where this one was.
+    ball = ((changes.ball[last] - 1 - balls_a_period(scene) * turn[:, None]) % balls + 1).ravel()
+    within = time < duration
+    first = changes.time < min(end, duration)
+    return replace(
+        changes,
+        time=np.concatenate([changes.time[first], time[within]]),
+        row=np.concatenate([changes.row[first], np.tile(changes.row[last], turn.size)[within]]),
+        ball=np.concatenate([changes.ball[first], ball[within].astype(np.int16)]),
+        made=np.concatenate([changes.made[first], np.tile(changes.made[last], turn.size)[within]]),
+    )

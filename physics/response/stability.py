@@ -1,0 +1,68 @@
+"""How long a step may be for an explicit method to be stable, from the fastest modes of the linearised scene."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.integrators.method import ALL_MODES, CONTACT_MODES, Method
+from physics.modes import coupled_matrix
+from physics.outcome import Outcome, SimulationFailed
+from physics.rig import Rig
+from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium
+from physics.statics.stiffness import matrix
+
+Array = NDArray[np.float64]
+
+MOST_STABLE_SUBSTEPS = 1024
+
+
+def fastest_rate(rig: Rig, limits: str, stiffness: Array, damping: Array) -> float:
+    """Largest |λ| (1/s) among the modes that limit a method, for a bearing of `stiffness`, `damping` (3,): xx, yy, xy.
+
+    The contact modes are those of the inner ring against a free outer ring, which the film damps.
+    """
+    if limits == ALL_MODES:
+        mass, size = rig.mass_matrix(), 6
+        k = coupled_matrix(rig.stiffness_matrix(), matrix(stiffness))
+        c = coupled_matrix(rig.damping_matrix(), matrix(damping))
+    elif limits == CONTACT_MODES:
+        mass, size = np.eye(2) / (1.0 / rig.inner_mass + 1.0 / rig.outer_mass), 2
+        k, c = matrix(stiffness), matrix(damping)
+    else:
+        return 0.0
+    first_order = np.zeros((2 * size, 2 * size))
+    first_order[:size, size:] = np.eye(size)
+    first_order[size:, :size] = -np.linalg.solve(mass, k)
+    first_order[size:, size:] = -np.linalg.solve(mass, c)
+    # Rates grow as step sizes shrink: both are brought to the same unit before the eigenvalues are sought.
+    unit = math.sqrt(float(np.abs(first_order[size:, :size]).max())) or 1.0
+    first_order[:size, size:] *= unit
+    first_order[size:, :size] /= unit
+    return float(np.abs(np.linalg.eigvals(first_order)).max())
+
+
+def longest_stable_step(rig: Rig, method: Method, stiffness: Array, damping: Array) -> float:
+    """Longest stable step (s) of `method` for a bearing of this `stiffness` and `damping` (3,); may be infinite."""
+    rate = fastest_rate(rig, method.limits, stiffness, damping)
+    return method.stability_limit / rate if rate > 0.0 else math.inf
+
+
+def stable_substeps(scene: Scene, method: Method, rest: Equilibrium, rate: float) -> int:
+    """Fewest steps a sample at which `method` is stable in the quasi-static position `rest` at t = 0."""
+    longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
+    return max(1, math.ceil(1.0 / (rate * longest) - 1e-9))
+
+
+def require_stable(method: Method, rate: float, substeps: int, least: int) -> None:
+    """Raise SimulationFailed if `substeps` a sample of `rate` (Hz) are fewer than `least`, or more than are made."""
+    if substeps < least or substeps > MOST_STABLE_SUBSTEPS:
+        raise SimulationFailed(
+            Outcome.UNSTABLE_STEP,
+            f"{substeps} step(s) a sample of {rate:.6g} Hz; {method.name} is stable up to |λ| h = "
+            f"{method.stability_limit:g} of {method.limits}, which here takes {least} steps a sample (at most "
+            f"{MOST_STABLE_SUBSTEPS} are made)",
+        )

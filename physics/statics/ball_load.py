@@ -1,0 +1,45 @@
+"""The quasi-static load of chosen balls at chosen instants, where that of all balls at all of them would be a waste."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit_lean
+from physics.assembly import assemble, ball_numbers
+from physics.contact.forces import FORCE, Contacts, of_ball, set_time
+from physics.motion import MotionModel, motion_model, outer_load
+from physics.scene import Scene
+from physics.statics.stiffness import expected, settle
+
+Array = NDArray[np.float64]
+
+# Share of the load on the shaft that may be left unbalanced.
+TOLERANCE = 1e-9
+
+
+def ball_load(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Array:
+    """Normal load (K,), N, of `ball` (K,), from 1, of `row` at each of the increasing times (K,), s."""
+    bearing, (rows, balls) = scene.rig.bearing, ball_numbers(scene)
+    column = np.zeros((bearing.rows, bearing.balls), dtype=np.int64)
+    real = np.flatnonzero(balls >= 0)
+    column[rows[real], balls[real]] = real
+    load, place = np.zeros(time.size), np.zeros((time.size, 2))
+    columns = column[row - 1, ball - 1]
+    _follow(assemble(scene), motion_model(scene), np.ascontiguousarray(time), columns, place, load)
+    return load / math.cos(bearing.contact_angle)
+
+
+@njit_lean
+def _follow(
+    contacts: Contacts, motion: MotionModel, time: Array, ball: NDArray[np.int64], place: Array, load: Array
+) -> None:
+    """Fill `load` (K,), N in radial direction, along the way of the shaft, `place` (K, 2), m."""
+    for k in range(time.size):
+        set_time(contacts, time[k])
+        x, y = expected(place, k, 1)
+        load_x, load_y = outer_load(motion, time[k])
+        place[k, 0], place[k, 1], _ = settle(contacts, load_x, load_y, x, y, TOLERANCE)
+        load[k] = of_ball(contacts.balls, FORCE, ball[k])

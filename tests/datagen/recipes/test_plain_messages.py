@@ -1,0 +1,91 @@
+"""What a recipe's messages say of settings that look right: in the words of the recipe, not of the program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from datagen.errors import BadInput
+from datagen.recipes.recipe import load_recipe
+
+GOOD = """name = "a"
+seed = 1
+[signal]
+rate_hz = 65536
+duration_s = 0.05
+[[part]]
+name = "p"
+records = 2
+machine.rig = "gearbox"
+"""
+RIG = 'machine.rig = "gearbox"\n'
+
+
+def refusal(text: str, tmp_path: Path) -> str:
+    (tmp_path / "r.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(BadInput) as problem:
+        load_recipe(tmp_path / "r.toml")
+    return str(problem.value).removeprefix(str(tmp_path / "r.toml"))
+
+
+@pytest.mark.parametrize(
+    ("shares", "told"),
+    [
+        ("train = 0.9", "train = 0.9: train = 0.9, validation = 0.15 (its default), test = 0.15 (its default) add up"),
+        ("test = 0.5", "test = 0.5: train = 0.7 (its default), validation = 0.15 (its default), test = 0.5 add up to"),
+        ("train = 0.5\nvalidation = 0.3\ntest = 0.3", "train = 0.5: train = 0.5, validation = 0.3, test = 0.3 add up"),
+    ],
+)  # fmt: skip
+def test_shares_that_are_not_one_are_listed_with_those_that_nobody_stated(
+    shares: str, told: str, tmp_path: Path
+) -> None:
+    said = refusal(f"{GOOD}[split]\n{shares}\n", tmp_path)
+    assert said.startswith(f", line 11: split.{told}")
+    assert said.endswith("allowed: three shares that add up to 1")
+
+
+def test_a_table_where_a_word_belongs_says_where_its_keys_belong(tmp_path: Path) -> None:
+    said = refusal(GOOD + "machine.bearing = {balls = -9}\n", tmp_path)
+    assert "part[1].machine.bearing = {balls = -9}: balls: a setting of its own, written beside it" in said
+    assert "as part[1].machine.balls; allowed: koyo_1205" in said
+    said = refusal(GOOD.replace('"gearbox"', "{colour = 3}"), tmp_path)
+    assert "the keys colour are no distribution: give one of uniform, " in said
+    assert "allowed: gearbox, fan" in said
+    assert "an empty table is no distribution" in refusal(GOOD.replace('"gearbox"', "{}"), tmp_path)
+
+
+def test_a_compression_that_is_not_offered_is_refused_with_its_line(tmp_path: Path) -> None:
+    said = refusal(f'{GOOD}[store]\ncompression = "lz4"\n', tmp_path)
+    assert said.startswith(', line 11: store.compression = "lz4": netCDF\'s own lz4 filter fails')
+    assert said.endswith("allowed: zlib, none")
+    said = refusal(f'{GOOD}[store]\ncompression = "gzip"\n', tmp_path)
+    assert "store.compression = \"gzip\"; allowed: 'zlib' or 'none'" in said
+
+
+def test_mains_that_no_record_can_hold_are_refused(tmp_path: Path) -> None:
+    hum = "[background.mains_hum]\nfrequency_hz = 40000\namplitude_m_s2 = 1\n[[part]]"
+    said = refusal(GOOD.replace("[[part]]", hum), tmp_path)
+    assert "background.mains_hum.frequency_hz = 40000" in said
+    assert "allowed: below 32768" in said
+
+
+def test_a_spec_of_recordings_is_no_recipe(tmp_path: Path) -> None:
+    said = refusal('name = "a"\n[[recording]]\nname = "b"\n', tmp_path)
+    assert "recording: this is a SPEC of recordings, which `spallgen import` brings in, and no recipe" in said
+
+
+def test_a_byte_order_mark_is_no_matter(tmp_path: Path) -> None:
+    (tmp_path / "r.toml").write_text(f"\ufeff{GOOD}", encoding="utf-8")
+    assert load_recipe(tmp_path / "r.toml").name == "a"
+
+
+def test_a_recipe_that_may_not_be_read_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "r.toml").write_text(GOOD)
+
+    def forbidden(*_: object, **__: object) -> str:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_text", forbidden)
+    with pytest.raises(BadInput, match=r"r\.toml: cannot be read: Permission denied"):
+        load_recipe(tmp_path / "r.toml")

@@ -1,0 +1,133 @@
+"""Numbers that no machine has, whether stated or read from the file, and what is said twice or of nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.recordings.spec import load_spec
+
+Bring = Callable[..., Corpus]
+Mat = Callable[..., np.ndarray]
+GOOD = """[[recording]]
+name = "all"
+files = "*.mat"
+unit = "g"
+rate_hz = 1000
+y = "sig"
+"""
+RATE = "rate_hz = 1000"
+STATED = {
+    "rate_hz = 1": "rate_hz = 1; allowed: a number from 100 to 1e+07",
+    "rate_hz = 1e15": "rate_hz = 1000000000000000.0; allowed: a number from 100 to 1e+07",
+    "load_n = -5": "load_n = -5; allowed: a number from 0 to 1e+07",
+    "speed_rpm = 1e300": "speed_rpm = 1e+300; allowed: a number from 0 to 1e+06",
+    "extent_deg = 400": "extent_deg = 400; allowed: a number above 0 to 360",
+    "extent_mm = 5e9": "extent_mm = 5000000000.0; allowed: a number above 0 to 10000",
+    "depth_um = inf": "depth_um = inf; allowed: a number above 0 to 100000",
+    "snr_db = 1e9": "snr_db = 1000000000.0; allowed: a number from -100 to 200",
+    "spalls = 100000000000000000000": "spalls = 100000000000000000000; allowed: at most 10000",
+    "bpfo = 1e30": "bpfo = 1e+30; allowed: a number above 0 to 1000",
+    "notes = {torque = nan}": "notes.torque = nan: not a finite number; allowed: texts, finite numbers, true or false",
+    "cut_s = -1": "cut_s = -1; allowed: above 0",
+}
+HELD = {
+    'rate_hz = {variable = "sig"}': 'rate_hz = "sig": holds 400 numbers from',
+    'rate_hz = {variable = "huge"}': "rate_hz = 1e+300: from the variable huge; allowed: a number from 100 to 1e+07",
+    'rate_hz = {variable = "huge", factor = 1e300}': "rate_hz = inf: from the variable huge; allowed: a number",
+    'load_n = {variable = "minus"}': "load_n = -3.0: from the variable minus; allowed: a number from 0 to 1e+07",
+    'speed_rpm = {variable = "minus"}': "speed_rpm = -3.0: from the variable minus; allowed: a number from 0 to 1e+06",
+    "scale = 1e308": "scale = 1e+308: the largest sample would be inf m/s²; allowed: samples up to 1e+09 m/s²",
+    "scale = 1e12": "scale = 1000000000000.0: the largest sample would be",
+    'tach = {variable = "saw", pulses_per_rev = 0.002}': "tach.pulses_per_rev = 0.002: its pulses say 6e+06",
+}
+
+
+def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
+    """The message of a refused import; nothing may be left of it."""
+    before = {path.name for path in tmp_path.iterdir()} | {"spec.toml"}
+    with pytest.raises(BadInput) as problem:
+        bring(text)
+    assert {path.name for path in tmp_path.iterdir()} == before
+    return str(problem.value)
+
+
+def with_setting(setting: str) -> str:
+    return GOOD.replace(RATE, setting) if setting.startswith("rate_hz") else GOOD + setting + "\n"
+
+
+@pytest.mark.parametrize("setting", STATED)
+def test_a_number_beyond_any_machine_is_refused_with_its_range(
+    setting: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    told = refusal(bring, with_setting(setting), tmp_path)
+    assert f"recording[1].{STATED[setting]}" in told
+    assert "spec.toml, line " in told
+
+
+@pytest.mark.parametrize("setting", HELD)
+def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
+    setting: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    saw = np.tile([0.0, 0.0, 1.0, 1.0, 0.0], 80)  # 200 pulses a second
+    mat("a.mat", huge=1e300, minus=-3.0, saw=saw)
+    told = refusal(bring, with_setting(setting), tmp_path)
+    assert f"a.mat: {HELD[setting]}" in told
+
+
+def test_a_defect_longer_than_its_race_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    told = refusal(bring, GOOD + 'bearing = "koyo_1205"\nlocation = "outer"\nextent_mm = 150\n', tmp_path)
+    # Pitch and ball diameter of the Koyo 1205, 38.75 mm and 7.12 mm, give a race of pi times 45.87 mm.
+    assert "extent_mm = 150.0; allowed: a number above 0 to 144.1, the way round the outer race" in told
+
+
+def test_an_override_of_no_file_is_refused_unless_files_may_be_absent(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    override = '[[recording.override]]\nfiles = ["a.mat", "z*.mat"]\nload_n = 3\n'
+    told = refusal(bring, GOOD + override, tmp_path)
+    assert 'override[1]: files = "z*.mat": fits none of these recordings; allowed: a.mat' in told
+    assert bring(GOOD + 'absent_files = "skip"\n' + override).labels["load_n"].tolist() == [3.0]
+
+
+def test_a_column_that_is_there_twice_is_refused_and_one_without_a_name_is_not(bring: Bring, tmp_path: Path) -> None:
+    cells = "".join(f"{k % 7},{k % 5},\n" for k in range(50))
+    spec = GOOD.replace("*.mat", "a.csv")
+    (tmp_path / "a.csv").write_text("sig,sig,\n" + cells)
+    told = refusal(bring, spec, tmp_path)
+    assert "a.csv, line 1: sig: this column is there twice" in told
+    assert "header = false" in told
+    (tmp_path / "a.csv").write_text("sig,,\n" + cells)
+    assert len(bring(spec)) == 1
+
+
+def test_a_recipe_is_no_spec_and_a_byte_order_mark_is_no_matter(tmp_path: Path) -> None:
+    path = tmp_path / "spec.toml"
+    path.write_text('name = "a"\n[[part]]\nname = "b"\n')
+    with pytest.raises(BadInput, match=r"part: this is a recipe.*spallgen generate.*allowed: \[\[recording\]\]"):
+        load_spec(path)
+    path.write_text(f'\ufeffname = "mine"\n{GOOD}', encoding="utf-8")
+    assert load_spec(path).name == "mine"
+
+
+@pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ('rate_hz = {variabel = "fs"}', 'rate_hz.variabel: unknown key; did you mean "variable"?'),
+        ('rate_hz = {variable = "fs", factor = inf}', "rate_hz.factor = inf; allowed: a finite number"),
+        ("bearing = {balls = 8}", "bearing.pitch_diameter_mm: this setting is missing"),
+        ('bearing = {balls = "x", pitch_diameter_mm = 9, ball_diameter_mm = 2}', 'bearing.balls = "x"; allowed: a'),
+        ("bearing = 7", "bearing = 7; allowed: a text in quotes or a table"),
+    ],
+)  # fmt: skip
+def test_where_a_word_or_a_table_may_stand_the_message_is_about_what_was_written(
+    setting: str, told: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    assert f"recording[1].{told}" in refusal(bring, with_setting(setting), tmp_path)

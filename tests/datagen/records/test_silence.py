@@ -1,0 +1,75 @@
+"""Layers of which a record has nothing are not its layers, and a bearing without load is silent and sound."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.corpora.check import _relative_difference, check_corpus
+from datagen.corpus import Corpus
+from datagen.recipes.recipe import parse_recipe
+from datagen.records.record import make_record
+from datagen.scenarios.sampling import draw_scenario
+
+LOST = """name = "still"
+seed = 1
+[signal]
+rate_hz = 32768
+duration_s = 0.01
+[[part]]
+name = "a"
+records = 2
+machine.rig = "gearbox"
+operation.load_n = 0
+[part.defect]
+condition = "line"
+extent_deg = 2
+depth_um = 10
+"""
+ABOVE = {
+    "shaft_harmonics": {"amplitude_m_s2": 1.0, "orders": [900, 901]},
+    "gear_mesh": {"teeth": 900, "amplitude_m_s2": 1.0},
+}
+BELOW = {"mains_hum": {"amplitude_m_s2": 0.1}, "white_rms_m_s2": 0.01}
+
+
+def layers_of(background: dict[str, object]) -> tuple[str, tuple[float, ...]]:
+    part = {"name": "a", "records": 1, "machine": {"rig": "gearbox"}, "operation": {"speed_rpm": 3000}}
+    signal = {"rate_hz": 32768, "duration_s": 0.01}
+    content = {"name": "a", "seed": 1, "signal": signal, "background": background, "part": [part]}
+    labels = make_record(draw_scenario(parse_recipe(content, Path("recipe.toml")), 0)).labels
+    return labels["background_layers"], labels["background_rms"]
+
+
+def test_tones_that_all_lie_above_half_the_rate_are_no_layers() -> None:
+    assert layers_of(ABOVE | BELOW)[0] == "white, mains_hum"  # 45 kHz and more of shaft and gears, 16 kHz hold none
+    assert layers_of(ABOVE) == ("", (0.0,) * 7)
+
+
+def test_tones_of_which_some_lie_below_are_a_layer() -> None:
+    names, levels = layers_of({"shaft_harmonics": {"amplitude_m_s2": 1.0, "orders": [300, 900]}})
+    assert names == "shaft_harmonics"
+    assert levels[2] > 0.0
+
+
+def test_a_bearing_without_load_is_silent_and_its_corpus_sound_and_drawn(tmp_path: Path) -> None:
+    (tmp_path / "still.toml").write_text(LOST)
+    command = ["generate", str(tmp_path / "still.toml"), "--out", str(tmp_path / "out"), "--workers", "1"]
+    assert CliRunner().invoke(app, command, catch_exceptions=False).exit_code == 0
+    assert not Corpus(tmp_path / "out").to_numpy().any()
+    verdict = check_corpus(tmp_path / "out", remake=2)
+    assert verdict.sound
+    assert verdict.remade == (0, 1)
+    assert verdict.largest_difference == 0.0
+    assert CliRunner().invoke(app, ["report", str(tmp_path / "out")], catch_exceptions=False).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("again", "stored", "expected"), [(0.0, 0.0, 0.0), (1.0, 0.0, np.inf), (1.0, 2.0, 0.5), (0.0, 2.0, 1.0)]
+)
+def test_silence_agrees_with_silence_and_with_nothing_else(again: float, stored: float, expected: float) -> None:
+    assert _relative_difference(np.full((4, 2), again), np.full((4, 2), stored)) == expected

@@ -1,0 +1,119 @@
+"""What can never be made is refused before any worker starts, with what could be."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.drawing.preview import recipe_portrait
+from datagen.errors import BadInput
+from datagen.recipes.recipe import load_recipe
+from datagen.runs.plan import plan_shards
+from datagen.runs.requirements import lowest_rate, memory_bytes, record_memory, require_possible_rates
+from datagen.scenarios.sampling import draw_scenario
+
+TEXT = """name = "a"
+seed = 1
+[signal]
+rate_hz = 32768
+duration_s = 0.05
+envelope_band_hz = [10, 40]
+[[part]]
+name = "gears"
+records = 3
+machine.rig = "gearbox"
+"""
+Refused = Callable[[str], str]
+
+
+@pytest.fixture
+def refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Refused:
+    """Function (text of a recipe) → the message with which `generate` refuses it before anything is made."""
+
+    def worked(*_: object) -> None:
+        raise AssertionError("this was to be refused before any work")
+
+    monkeypatch.setattr("datagen.runs.run.Run.make", worked)
+
+    def run(text: str) -> str:
+        (tmp_path / "recipe.toml").write_text(text)
+        command = ["generate", str(tmp_path / "recipe.toml"), "--out", str(tmp_path / "out")]
+        done = CliRunner().invoke(app, command, catch_exceptions=False)
+        assert done.exit_code == 2
+        assert done.stderr.count("\n") == 1
+        assert [path.name for path in tmp_path.iterdir()] == ["recipe.toml"]
+        return done.stderr
+
+    return run
+
+
+def test_a_rate_that_no_record_can_have_is_refused_with_the_lowest_that_it_can(
+    refused: Refused, tmp_path: Path
+) -> None:
+    told = refused(TEXT.replace("32768", "200").replace("0.05", "1"))
+    assert 'recipe.toml, line 4: signal.rate_hz = 200.0: part "gears": a rate of 200 Hz has to be raised' in told
+    lowest = float(re.findall(r"allowed: about ([\d.]+) Hz or more", told)[0])
+    # The highest natural frequency of the gearbox rig, 10548 Hz, four times a period, at 64 times the rate.
+    assert lowest == pytest.approx(4.0 * 10548.0 / 64.0, rel=0.005)  # three digits
+    (tmp_path / "recipe.toml").write_text(TEXT.replace("32768", str(1.01 * lowest)).replace("0.05", "1"))
+    require_possible_rates(load_recipe(tmp_path / "recipe.toml"), ((0, 3),))
+
+
+def test_the_lowest_rate_is_that_of_the_rig_and_not_of_its_rate(tmp_path: Path) -> None:
+    (tmp_path / "recipe.toml").write_text(TEXT)
+    scenario = draw_scenario(load_recipe(tmp_path / "recipe.toml"), 0)
+    assert lowest_rate(scenario) == pytest.approx(4.0 * 10548.0 / 64.0, rel=0.005)  # contact damping stiffens a little
+
+
+def test_parts_of_which_some_records_are_possible_are_made(tmp_path: Path) -> None:
+    mixed = TEXT.replace('rig = "gearbox"', 'rig = "gearbox"\nmachine.factors.resonator_mass = {choice = [1, 400]}')
+    (tmp_path / "recipe.toml").write_text(mixed.replace("32768", "500").replace("0.05", "1").replace("= 3", "= 20"))
+    require_possible_rates(load_recipe(tmp_path / "recipe.toml"), ((0, 20),))
+
+
+@pytest.mark.parametrize("duration", ["3600", "{uniform = [3000, 3600]}"])
+def test_a_record_that_no_memory_holds_is_refused_before_it_is_drawn(
+    duration: str, refused: Refused, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 16e9)
+    monkeypatch.setattr("datagen.runs.requirements.draw_scenario", None)
+    told = refused(TEXT.replace("0.05", duration))
+    assert "recipe.toml, line 5: signal.duration_s = 3" in told
+    assert "GB of memory, and this machine has 16.0 GB" in told
+    assert "allowed: at most about 2.2e+03 s at 32768 Hz" in told  # 16e9 bytes of 220 a sample
+
+
+def test_a_shard_that_no_memory_holds_is_refused_with_a_smaller_one(
+    refused: Refused, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 4e6)
+    told = refused(TEXT.replace("records = 3", "records = 300") + "[store]\nrecords_per_shard = 300\n")
+    most = int(re.findall(r"store.records_per_shard = 300: a shard of 300 records .* allowed: at most (\d+)", told)[0])
+    assert 1 < most < 300
+
+
+def test_a_record_that_the_disk_does_not_hold_is_refused(refused: Refused, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("datagen.runs.requirements.shutil.disk_usage", lambda _: type("Disk", (), {"free": 1000})())
+    assert "one record needs about 0.0 MB of disk, and 0.0 MB are free" in refused(TEXT)
+
+
+def test_a_preview_is_held_to_the_same_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "recipe.toml").write_text(TEXT)
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 1e5)
+    with pytest.raises(BadInput, match=r"signal\.duration_s = 0\.05: a record of 1\.64e\+03 samples needs"):
+        recipe_portrait(tmp_path / "recipe.toml", 0)
+
+
+def test_memory_grows_with_the_rate_that_is_simulated_and_with_what_is_stored(tmp_path: Path) -> None:
+    (tmp_path / "recipe.toml").write_text(TEXT)
+    recipe = load_recipe(tmp_path / "recipe.toml")
+    scenario = draw_scenario(recipe, 0)
+    plain, forces = record_memory(scenario, ()), record_memory(scenario, ("contact_force",))
+    raw = scenario.samples * 24 * 4  # a float32 for each of 24 balls
+    assert forces - plain == pytest.approx(4.0 * raw)
+    assert plan_shards(recipe, 1)[0].raw_bytes < plain < memory_bytes()

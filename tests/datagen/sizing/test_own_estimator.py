@@ -1,0 +1,107 @@
+"""What a user's estimator raises or gives instead of an estimate: one message with its name, what came, what is due."""
+
+from __future__ import annotations
+
+import math
+import sys
+import threading
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.errors import BadInput
+from datagen.sizing.own_estimator import OwnEstimator
+from datagen.sizing.score import score_sizes
+from datagen.sizing.sized_records import SizedRecord, sized_records
+from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+
+GOOD = SizeEstimate(SizeOutcome.ESTIMATED, "constant", "outer", lag=1e-3, lag_arc=0.1, extent=0.1, extent_mm=1.0)
+WRONG = {
+    "None and no SizeEstimate": None,
+    "float 3.0 and no SizeEstimate": 3.0,
+    "dict {'extent': 0.1} and no SizeEstimate": {"extent": 0.1},
+    "whose outcome is str 'estimated' and no SizeOutcome": replace(GOOD, outcome="estimated"),
+    "whose extent is str '0.1' and no number": replace(GOOD, extent="0.1"),
+    "whose lag is an array of shape (2,) and no number": replace(GOOD, lag=np.zeros(2)),
+    "whose extent_interval is float 0.2 and no pair of numbers": replace(GOOD, extent_interval=0.2),
+    "whose lag_interval is tuple (1, 2, 3) and no pair of numbers": replace(GOOD, lag_interval=(1, 2, 3)),
+    "whose candidates are None and not numbers": replace(GOOD, candidates=None),
+    "whose event_times are an array of shape (3,) and no array of numbers (K, 2)": replace(
+        GOOD, event_times=np.zeros(3)
+    ),
+}
+
+
+class Saying:
+    """An estimator that says always the same."""
+
+    def __init__(self, answer: Any) -> None:
+        self.answer = answer
+
+    def estimate(self, acceleration: np.ndarray, rate: float, situation: Situation) -> Any:
+        if isinstance(self.answer, Exception):
+            raise self.answer
+        return self.answer
+
+
+def asked(answer: Any) -> SizeEstimate:
+    estimator = OwnEstimator("mine:Sizer", Saying(answer), "a method that returns a SizeEstimate")
+    return estimator.estimate(np.zeros((4, 2)), 1000.0, None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("problem", WRONG)
+def test_what_is_no_estimate_is_named_with_what_is_due(problem: str) -> None:
+    with pytest.raises(BadInput) as refused:
+        asked(WRONG[problem])
+    told = str(refused.value)
+    assert told.startswith('--estimator = "mine:Sizer": its method estimate gave ')
+    assert problem in told
+    assert told.endswith("allowed: a method that returns a SizeEstimate")
+
+
+def test_estimates_and_refusals_of_one_pass() -> None:
+    silent = SizeEstimate(SizeOutcome.NO_PASSES, "constant")
+    whole = replace(GOOD, extent=np.float32(0.1), candidates=np.array([0.1, 0.2]), lag_interval=[1, math.inf])
+    assert [asked(one) for one in (GOOD, silent, whole)] == [GOOD, silent, whole]
+
+
+def test_what_it_raises_is_told_with_its_line() -> None:
+    with pytest.raises(BadInput, match=r"its method estimate fails: ZeroDivisionError: no load \(.*, line \d+\)"):
+        asked(ZeroDivisionError("no load"))
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_the_command_ends_with_2_and_writes_nothing(
+    workers: int, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = "class Sizer:\n    def estimate(self, acceleration, rate, situation):\n        return 7\n"
+    (tmp_path / "seven.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")  # for the worker processes
+    out = tmp_path / "out"
+    command = ["size", tiny_corpus, "--split", "all", "--estimator", "seven:Sizer", "--out", out, "--workers", workers]
+    done = CliRunner().invoke(app, [str(part) for part in command], catch_exceptions=False)
+    assert done.exit_code == 2
+    assert done.stderr.startswith('error: --estimator = "seven:Sizer": its method estimate gave int 7')
+    assert not out.exists()
+
+
+def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    readers = []
+
+    def watched(*places: Any, **options: Any) -> Iterator[SizedRecord]:
+        for one in sized_records(*places, **options):
+            readers.append(threading.current_thread())
+            yield one
+
+    monkeypatch.setattr("datagen.sizing.score.sized_records", watched)
+    scores = score_sizes(tiny_corpus, None, True, "all", workers=2)
+    assert len(readers) == len(scores.records) == 14
+    assert set(readers) == {threading.current_thread()}

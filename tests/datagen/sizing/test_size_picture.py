@@ -1,0 +1,43 @@
+"""The picture of scored spall sizes: few records, many machines, nothing told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+from matplotlib.figure import Figure
+
+from datagen.drawing.size_report import draw_size_report
+from datagen.drawing.style import house_style, plt
+from datagen.sizing.score import SizeScores
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.summary import summarise
+
+
+def drawn(records: list[ScoredRecord]) -> Figure:
+    with house_style():
+        figure = draw_size_report(SizeScores("x", "spallgen", "all", True, records, summarise(records, True), []))
+        figure.canvas.draw()
+    return figure
+
+
+@pytest.mark.parametrize("rigs", [1, 13])
+def test_the_names_below_the_bars_do_not_lie_on_each_other(rigs: int, scored: Callable[..., ScoredRecord]) -> None:
+    records = [scored(record=k, rig=f"an imaginary rig {k % rigs}", bearing_id=f"b{k}") for k in range(26)]
+    figure = drawn(records)
+    panel = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Rig"))
+    boxes = [label.get_window_extent() for label in panel.get_xticklabels() if not label.get_rotation()]
+    assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
+    assert len(panel.get_xticklabels()) == min(rigs, 8)
+    assert panel.get_title(loc="left") == ("Rig (records, 8 of 13)" if rigs > 8 else "Rig (records)")
+    low, high = panel.get_xlim()
+    assert low + high == pytest.approx(min(rigs, 8) - 1)  # the bars stand in the middle
+    plt.close(figure)
+
+
+def test_where_nothing_was_told_the_panels_say_so(scored: Callable[..., ScoredRecord]) -> None:
+    records = [scored(record=k, outcome="no_events", lag=math.nan, extent=math.nan) for k in range(3)]
+    figure = drawn(records)
+    assert [[text.get_text() for text in axes.texts] for axes in figure.axes[:3]] == [["no record was told a size"]] * 3
+    plt.close(figure)

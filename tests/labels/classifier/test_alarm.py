@@ -1,0 +1,79 @@
+"""Alarms that a stated share of healthy records pass, whether noise hides them or not."""
+
+import numpy as np
+import pytest
+
+from labels.classifier.alarm import CLEAR, CLEARNESS, NOISE_LIKE, Alarm, clearness, fit_alarm, logit
+from labels.features.table import FEATURE_NAMES
+
+
+def rows(kurtosis):
+    table = np.zeros((len(kurtosis), len(FEATURE_NAMES)))
+    table[:, FEATURE_NAMES.index(CLEARNESS)] = kurtosis
+    return table
+
+
+def healthy(records, seed):
+    """Two axes of each record, as they are and in noise: clear records look more like a spall than noise does."""
+    generator = np.random.default_rng(seed)
+    clear = np.repeat(generator.uniform(size=records) < 0.5, 2)
+    level = np.repeat(generator.standard_normal(records), 2) + 2.0 * clear
+    kurtosis = np.where(clear, 1.0, 0.0)
+    level = np.concatenate([level, generator.standard_normal(2 * records)])
+    probability = 1.0 / (1.0 + np.exp(-level))
+    owner = np.tile(np.repeat(np.arange(records), 2), 2)
+    return (
+        probability,
+        rows(np.concatenate([kurtosis, np.zeros(2 * records)])),
+        owner,
+        np.arange(4 * records) // 2 >= records,
+    )
+
+
+def alarming(alarm, probability, table, owner, noisy):
+    """Share of records as they are whose mean logit passes that of the alarm."""
+    margin = (logit(probability) - logit(alarm.at(table)))[~noisy]
+    return np.mean([margin[owner[~noisy] == record].mean() > 0.0 for record in np.unique(owner)])
+
+
+def test_a_row_is_as_clear_as_its_bands_differ_from_noise():
+    middle = np.sqrt(NOISE_LIKE * CLEAR)  # halfway in logarithms
+    np.testing.assert_allclose(
+        clearness(rows([0.0, NOISE_LIKE, middle, CLEAR, 5.0])), [0.0, 0.0, 0.5, 1.0, 1.0], atol=1e-12
+    )
+
+
+def test_between_noise_and_a_clear_record_the_alarm_moves_in_logits():
+    alarm = Alarm(0.5, 0.9)
+    found = alarm.at(rows([0.0, np.sqrt(NOISE_LIKE * CLEAR), 1.0]))
+    np.testing.assert_allclose(found, [0.5, 0.75, 0.9], rtol=1e-9)  # odds 1, 3, 9
+
+
+def test_the_share_asked_of_healthy_records_passes_the_alarm():
+    given = healthy(2000, 1)
+    alarm = fit_alarm(*given, 0.05)
+    assert alarming(alarm, *given) == pytest.approx(0.05, abs=1e-3)  # one record in 2000 is a step of 5e-4
+    # 5 % of 2000 other records scatter by half a percent; three times that.
+    assert alarming(alarm, *healthy(2000, 2)) == pytest.approx(0.05, abs=0.015)
+
+
+def test_noise_raises_half_of_the_alarms_and_needs_less_to_do_so():
+    probability, table, owner, noisy = healthy(2000, 3)
+    alarm = fit_alarm(probability, table, owner, noisy, 0.05)
+    hidden = clearness(table) == 0.0
+    assert np.mean(probability[hidden] > alarm.in_noise) == pytest.approx(0.025, abs=1e-3)  # a quantile of its own rows
+    assert alarm.in_noise < alarm.in_clear
+
+
+def test_healthy_records_in_noise_alone_set_no_alarm():
+    probability, table, owner, noisy = healthy(50, 5)
+    with pytest.raises(ValueError, match="without added noise"):
+        fit_alarm(probability[noisy], table[noisy], owner[noisy], noisy[noisy], 0.05)
+
+
+def test_few_rows_like_noise_leave_one_alarm_for_all():
+    probability, table, owner, noisy = healthy(2000, 4)
+    clear = clearness(table) == 1.0
+    alarm = fit_alarm(probability[clear], table[clear], owner[clear], noisy[clear], 0.05)
+    assert alarm.in_noise == pytest.approx(float(np.quantile(probability[clear], 0.975)))
+    assert alarm.in_clear >= alarm.in_noise * (1.0 - 1e-9)  # up to rounding

@@ -1,0 +1,98 @@
+"""A stopped machine is told from a running one, whatever the gain of the recorder."""
+
+import numpy as np
+import pytest
+
+from labels.classifier.liveness import STOPPED, WHITE, is_dead, liveness
+from labels.features.analysis import analyse
+from labels.features.kinematics import bearing_kinematics
+
+RATE = 20_000.0
+TIME = np.arange(20_000) / RATE
+KNOWN = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 2000.0 / 60.0)
+
+
+STEP = 0.01
+"""m/s²: about what 16 bits over a common range give."""
+
+
+def found(signal, rate=RATE, known=KNOWN):
+    return liveness(analyse(signal, rate, known), signal)
+
+
+def stopped():
+    """Sensor noise and hum of which a recorder with a step of 0.01 m/s² shows little."""
+    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
+    # 240 Hz lies 1.5 % from this bearing's BPFO, 300 Hz on the ninth multiple of its shaft.
+    hum = sum(0.01 / k * np.cos(2.0 * np.pi * 60.0 * k * TIME) for k in range(1, 17))
+    return noise + hum
+
+
+def rushing():
+    """Noise of a machine without any line: 10 dB more of it in the lower half of the band than above."""
+    white = np.random.default_rng(2).standard_normal(TIME.size)
+    return white + np.convolve(white, np.full(4, 0.8), mode="same")
+
+
+def test_sensor_noise_and_mains_hum_are_a_stopped_machine():
+    assert found(stopped()).reason == STOPPED
+
+
+@pytest.mark.parametrize("gain", [0.01, 0.1, 1.0, 10.0, 100.0])
+def test_no_gain_makes_a_stopped_machine_run_or_a_running_one_stop(gain):
+    assert found(gain * np.round(stopped() / STEP)).reason == STOPPED
+    assert found(gain * rushing() * 1e-3).reason == ""
+    assert found(gain * STEP * np.round(rushing() / STEP)).reason == ""
+
+
+def test_drift_and_strong_hum_do_not_make_a_stopped_machine_run():
+    drift = 0.1 * TIME + 0.05 * np.sin(2.0 * np.pi * 0.3 * TIME)
+    hum = 0.1 * np.sin(2.0 * np.pi * 50.0 * TIME)
+    assert found(stopped() + drift).reason == STOPPED
+    assert found(stopped() + hum).reason == STOPPED
+
+
+def test_white_noise_has_no_colour_whatever_its_length():
+    for size in (10_000, 20_000, 100_000):
+        colours = [found(np.random.default_rng(seed).standard_normal(size)).colour for seed in range(20)]
+        # 24 medians of 160 components scatter by 0.02 dB from draw to draw in the shortest.
+        assert abs(np.mean(colours)) < 0.01
+        assert max(colours) < WHITE
+
+
+def test_a_quiet_shaft_that_turns_is_not_stopped():
+    noise = 1e-4 * np.random.default_rng(1).standard_normal(TIME.size)
+    turning = sum(2e-3 * np.cos(2.0 * np.pi * KNOWN.shaft_hz * k * TIME) for k in range(1, 7))
+    assert found(noise + turning).reason == ""
+
+
+def test_in_a_few_turns_nothing_says_that_a_machine_stands_still():
+    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
+    slow = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 7.0)
+    assert found(noise).reason == STOPPED
+    assert found(noise, known=slow).reason == ""
+
+
+def test_a_machine_that_shakes_is_not_stopped_whatever_its_lines():
+    noise = np.random.default_rng(2).standard_normal(TIME.size)
+    assert found(noise).reason == ""
+
+
+def test_the_velocity_of_a_tone_is_its_acceleration_over_its_frequency():
+    signal = 0.5 * np.cos(2.0 * np.pi * 110.0 * TIME) + 1e-6 * np.random.default_rng(3).standard_normal(TIME.size)
+    # RMS of 0.5 / (2π 110) m/s; the noise adds less than 1e-4 of it, its width 1e-4.
+    assert abs(found(signal).velocity / (0.5 / (2.0 * np.pi * 110.0) / np.sqrt(2.0)) - 1.0) < 1e-3
+
+
+def test_the_velocity_is_without_hum():
+    hum = 0.5 * np.cos(2.0 * np.pi * 100.0 * TIME) + 1e-6 * np.random.default_rng(3).standard_normal(TIME.size)
+    assert found(hum).velocity < 1e-6  # of 0.8 mm/s
+
+
+def test_a_sensor_without_signal_is_dead():
+    assert is_dead(np.zeros(5000))
+    assert is_dead(np.full(5000, np.nan))
+    noise = np.random.default_rng(4).standard_normal(5000)
+    assert not is_dead(noise)
+    assert not is_dead(np.concatenate([np.zeros(5000), noise]))
+    assert is_dead(np.concatenate([noise, [np.nan]]))

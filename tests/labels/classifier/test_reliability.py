@@ -1,0 +1,31 @@
+"""Reliability of probabilities drawn to be right."""
+
+import numpy as np
+import pytest
+
+from labels.classifier.reliability import calibration_error, equal_priors, reliability
+
+
+def test_calibrated_probabilities_lie_on_the_diagonal():
+    generator = np.random.default_rng(0)
+    probability = generator.uniform(0.0, 1.0, 20_000)
+    positive = generator.uniform(0.0, 1.0, 20_000) < probability
+    curve = reliability(positive, probability)
+    # 2000 records a bin: shares scatter by 1.1 % at most.
+    np.testing.assert_allclose(curve["observed"], curve["predicted"], atol=0.04)
+    assert calibration_error(positive, probability) < 0.02
+    assert calibration_error(~positive, probability) > 0.3
+
+
+def test_probabilities_under_equal_priors_are_calibrated_whatever_the_prevalence():
+    generator = np.random.default_rng(1)
+    even = generator.uniform(size=40_000) < 0.5
+    # Scores of two normal distributions one apart either way: ln of the odds, under equal priors, is twice the score.
+    score = generator.standard_normal(even.size) + np.where(even, 1.0, -1.0)
+    probability = 1.0 / (1.0 + np.exp(-2.0 * score))
+    kept = ~even | (generator.uniform(size=even.size) < 0.1)
+    positive, probability = even[kept], probability[kept]
+    assert calibration_error(positive, probability) > 0.1
+    # The fewest records of a bin are about 50 positives, whose weight is ten: 1.5 % over all bins.
+    assert calibration_error(positive, probability, equal_priors(positive)) < 0.03
+    assert equal_priors(positive).sum() == pytest.approx(positive.size)

@@ -1,0 +1,135 @@
+"""Scores against counts by hand, and intervals against the binomial distribution."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import binomtest
+
+from labels.classifier.scores import (
+    accuracy,
+    accuracy_against,
+    area_interval,
+    area_under_roc,
+    balanced_accuracy,
+    bootstrap,
+    confusion,
+    paired_difference,
+)
+
+
+def test_balanced_accuracy_is_the_mean_over_classes_not_over_records():
+    truth = np.array(["outer"] * 8 + ["inner"] * 2)
+    said = np.array(["outer"] * 8 + ["outer", "inner"])
+    assert balanced_accuracy(truth, said) == 0.75
+    assert accuracy(truth, said) == 0.9
+    assert balanced_accuracy(truth, said, ("outer", "none")) == 1.0
+
+
+def test_the_area_under_the_roc_counts_pairs_in_order_and_ties_half():
+    positive = np.array([True, True, False, False])
+    assert area_under_roc(positive, np.array([3.0, 1.0, 2.0, 0.0])) == 0.75
+    assert area_under_roc(positive, np.zeros(4)) == 0.5
+    assert math.isnan(area_under_roc(np.array([True, True]), np.zeros(2)))
+
+
+def test_the_bootstrap_interval_of_a_share_is_the_binomial_one():
+    truth = np.array(["a"] * 100)
+    said = np.array(["a"] * 80 + ["b"] * 20)
+    found = bootstrap(accuracy, truth, said)
+    # Standard deviation sqrt(0.8 · 0.2 / 100) = 0.04, so 0.72 to 0.88; 2000 draws give the ends to 0.005.
+    assert found.value == pytest.approx(0.8)
+    assert found.low == pytest.approx(0.72, abs=0.015)
+    assert found.high == pytest.approx(0.88, abs=0.015)
+
+
+@pytest.mark.parametrize("wrong", [0, 20])
+def test_where_all_are_right_or_all_wrong_the_interval_is_the_exact_binomial_one(wrong):
+    truth, said = np.array(["a"] * 20), np.array(["a"] * (20 - wrong) + ["b"] * wrong)
+    exact = binomtest(20 - wrong, 20).proportion_ci()
+    found = bootstrap(accuracy, truth, said)
+    assert (found.low, found.high) == pytest.approx((exact.low, exact.high))
+    assert found.value == 1.0 - wrong / 20
+
+
+def test_two_classes_that_are_all_right_bound_their_mean_by_both():
+    truth = np.array(["a"] * 10 + ["b"] * 7)
+    found = bootstrap(balanced_accuracy, truth, truth, strata=truth)
+    # The least mean of two shares under which ten and seven successes still happen once in forty, on a fine grid.
+    first = np.linspace(0.5, 1.0, 20_001)
+    second = (0.025 / first**10) ** (1.0 / 7.0)
+    assert found.high == 1.0
+    assert found.low == pytest.approx(np.min((first + second)[second <= 1.0] / 2.0), abs=1e-6)
+
+
+def test_a_class_all_right_beside_one_all_wrong_leaves_room_to_both_sides():
+    truth = np.array(["a"] * 10 + ["b"] * 10)
+    found = bootstrap(balanced_accuracy, truth, np.full(20, "a"), strata=truth)
+    assert found.value == 0.5
+    # At least what the class all wrong alone may gain, and no more than both classes' doubt together.
+    assert 0.5 + 0.5 * (1.0 - 0.025 ** (1.0 / 10.0)) < found.high <= 0.5 + (1.0 - 0.025 ** (1.0 / 20.0)) + 1e-12
+    assert found.low == pytest.approx(1.0 - found.high)
+
+
+def test_a_paired_difference_of_equals_is_zero_as_far_as_their_number_says():
+    truth = np.array(["a", "b"] * 20)
+    said = np.array(["a", "a"] * 20)
+    found = paired_difference(accuracy, truth, said, said)
+    bound = 1.0 - 0.025 ** (1.0 / 40.0)  # at most that share of pairs differs: none of 40 did
+    assert (found.value, found.low, found.high) == pytest.approx((0.0, -bound, bound))
+
+
+def test_draws_of_one_recording_do_not_count_as_recordings():
+    generator = np.random.default_rng(4)
+    right = generator.uniform(size=40) < 0.6
+    truth, said = np.full(400, "a"), np.where(np.repeat(right, 10), "a", "b")
+    once = bootstrap(accuracy, truth[::10], said[::10])
+    pooled = bootstrap(accuracy, truth, said, groups=np.repeat(np.arange(40), 10))
+    assert (pooled.low, pooled.high) == pytest.approx((once.low, once.high))  # the same draws of the same recordings
+    alone = bootstrap(accuracy, truth, said)
+    assert pooled.high - pooled.low > 2.5 * (alone.high - alone.low)  # the square root of ten
+    rival = np.where(np.repeat(~right, 10), "a", "b")
+    grouped = paired_difference(accuracy, truth, said, rival, groups=np.repeat(np.arange(40), 10))
+    independent = paired_difference(accuracy, truth, said, rival)
+    assert grouped.high - grouped.low > 2.5 * (independent.high - independent.low)
+
+
+def test_groups_are_drawn_within_their_strata_wherever_their_rows_lie():
+    truth = np.array(["a", "b"] * 30)
+    groups = np.tile(["a1", "b1", "a2", "b2", "a3", "b3"], 10)
+    counts = []
+    bootstrap(lambda drawn: counts.append(int((drawn == "a").sum())) or 0.0, truth, strata=truth, groups=groups)
+    assert set(counts[:-2]) == {30}  # but for the strata alone
+
+
+def test_the_area_under_the_roc_has_no_interval_from_fewer_than_five_a_side():
+    positive = np.array([True] * 30 + [False] * 4)
+    score = np.random.default_rng(0).standard_normal(34) + positive
+    found = area_interval(positive, score)
+    assert 0.0 < found.value < 1.0
+    assert math.isnan(found.low)
+    # Ten draws of four records are four.
+    assert math.isnan(area_interval(np.tile(positive, 10), np.tile(score, 10), groups=np.tile(np.arange(34), 10)).low)
+    assert math.isnan(area_interval(positive, score, np.zeros(34)).high)
+
+
+def test_an_area_of_one_is_bounded_by_the_smaller_side():
+    positive = np.array([True] * 200 + [False] * 8)
+    found = area_interval(positive, positive.astype(float))
+    # P(pos > neg) of 1 − the exact bound of 0 in 8 is still likely if one healthy record in so many scores highest.
+    assert found.low == pytest.approx(0.025 ** (1.0 / 8.0), abs=0.02)  # the larger side adds a little
+    assert found.high == 1.0
+    same = area_interval(positive, positive.astype(float), positive.astype(float))
+    assert (same.value, same.low, same.high) == pytest.approx((0.0, found.low - 1.0, 1.0 - found.low))
+
+
+def test_the_confusion_counts_rows_of_truth():
+    truth, said = np.array(["x", "x", "y"]), np.array(["x", "y", "y"])
+    assert confusion(truth, said, ("x", "y"), ("x", "y")).tolist() == [[1, 1], [0, 1]]
+
+
+def test_accuracy_against_a_quantity_leaves_unknown_values_out():
+    quantity = np.array([1.0, 2.0, 3.0, 4.0, np.nan])
+    table = accuracy_against(quantity, np.array([True, True, False, False, False]), bins=2)
+    assert [point["accuracy"] for point in table] == [1.0, 0.0]
+    assert sum(point["records"] for point in table) == 4

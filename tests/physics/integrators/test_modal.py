@@ -1,0 +1,431 @@
+"""The modal method: its linear part against matrix exponentials, its choice of steps against fine fixed ones."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from kernels import foretell, is_rough, reading, through_end, through_middle, turn
+from scipy.linalg import expm
+
+from physics.assembly import assemble
+from physics.imperfections import Imperfections, Waviness
+from physics.integrators.modal.flow import (
+    AMPLITUDES,
+    AXIS,
+    DISPLACEMENT,
+    OUTER_ACCELERATION,
+    OUTPUT,
+    amplitudes_of,
+    linear_flow,
+    physical_state,
+    ringing,
+)
+from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, may_shrink
+from physics.integrators.modal.march import begin, march_modal
+from physics.integrators.modal.memory import STRIDES, Stride, memory_for
+from physics.integrators.modal.tables import tables_for
+from physics.integrators.modal.weights import (
+    AT_END,
+    AT_HALF,
+    HALF_POWERS,
+    INSIDE_KICKS,
+    INSIDE_OTHER,
+    INSIDE_READINGS,
+    INSIDE_TURN,
+    INSIDE_WEIGHTS,
+    KICKS,
+    OTHER,
+    POWERS,
+    POWERS_AT,
+    SECTION,
+    STEP_WEIGHTS,
+    TURN,
+    set_inside,
+    set_step,
+)
+from physics.integrators.output import DONE, LOGGED
+from physics.motion import motion_model, starting_state
+from physics.outcome import SimulationFailed
+from physics.paths.kinks import known_kinks
+from physics.paths.profile import build_path
+from physics.response.march import empty_output
+from physics.response.modal_case import March, case_of, mean_flow, resting
+from physics.simulate import simulate
+from physics.statics.load_distribution import equilibrium
+
+RATE = 65536.0
+STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)
+# Places of (xi, vi, xo, vo, xr, vr) of one axis in the state (12,).
+PLACES = (0, 6, 2, 8, 4, 10)
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def matrix(rig, axis):
+    """(6, 6) of one axis, written down from the equations of motion with a spring and a damper for the balls."""
+    k, c = STIFFNESS[axis], DAMPING[axis]
+    ko, co = (rig.support_stiffness_x, rig.support_damping_x) if axis == 0 else (
+        rig.support_stiffness_y, rig.support_damping_y
+    )  # fmt: skip
+    stiff = np.array([[k, -k, 0], [-k, k + ko + rig.resonator_stiffness, -rig.resonator_stiffness],
+                      [0, -rig.resonator_stiffness, rig.resonator_stiffness]])  # fmt: skip
+    damp = np.array([[c, -c, 0], [-c, c + co + rig.resonator_damping, -rig.resonator_damping],
+                     [0, -rig.resonator_damping, rig.resonator_damping]])  # fmt: skip
+    mass = np.array([rig.inner_mass, rig.outer_mass, rig.resonator_mass])[:, None]
+    full = np.zeros((6, 6))
+    full[0::2, 1::2] = np.eye(3)
+    full[1::2, 0::2], full[1::2, 1::2] = -stiff / mass, -damp / mass
+    return full
+
+
+@pytest.fixture
+def quiet_flow(fan, build_scene):
+    """Modes of the fan rig without a load, so that the state is that of the modes alone."""
+    motion = motion_model(build_scene(fan, operation={"load": 0.0}))
+    return linear_flow(motion, STIFFNESS, DAMPING)
+
+
+def some_state():
+    generator = np.random.default_rng(5)
+    return np.concatenate([1e-6 * generator.standard_normal(6), 1e-2 * generator.standard_normal(6)])
+
+
+def overdamped(rig):
+    return dataclasses.replace(
+        rig, resonator_damping=3.0 * 2.0 * math.sqrt(rig.resonator_mass * rig.resonator_stiffness)
+    )
+
+
+@pytest.mark.parametrize("change", [lambda rig: rig, overdamped])
+def test_amplitudes_give_back_the_state(fan, build_scene, change):
+    scene = build_scene(change(fan), operation={"unbalance_force": 20.0, "load_fluctuation": 0.3})
+    flow, state = linear_flow(motion_model(scene), STIFFNESS, DAMPING), some_state()
+    found = np.empty(12)
+    physical_state(flow, 0.0, amplitudes_of(flow, state), found)
+    assert found == pytest.approx(state, rel=1e-9, abs=1e-14)  # condition of the modes' basis times round-off
+
+
+def step_weights(flow, step):
+    weights = np.empty(STEP_WEIGHTS)
+    set_step(flow, weights, step, np.empty((2, POWERS + 1, AMPLITUDES)))
+    return weights
+
+
+def kicked(weights, first, stride, power):
+    """Amplitudes (12,) that one power of the force adds."""
+    places = first + power + POWERS * np.arange(AXIS)
+    return np.concatenate([weights[places], weights[stride + places]])
+
+
+@pytest.mark.parametrize("change", [lambda rig: rig, overdamped])
+@pytest.mark.parametrize("step", [1e-7, 1.0 / RATE, 8.0 / RATE])
+def test_the_free_turn_is_the_matrix_exponential(fan, build_scene, step, change):
+    rig = change(fan)
+    flow = linear_flow(motion_model(build_scene(rig, operation={"load": 0.0})), STIFFNESS, DAMPING)
+    end, found = np.empty(AMPLITUDES), np.empty(12)
+    turn(step_weights(flow, step), TURN, OTHER, amplitudes_of(flow, some_state()), end)
+    physical_state(flow, 0.0, end, found)
+    for axis in range(2):
+        here = [place + axis for place in PLACES]
+        expected = expm(step * matrix(rig, axis)) @ some_state()[here]
+        assert found[here] == pytest.approx(expected, rel=1e-7, abs=1e-12)  # round-off times the modes' condition
+
+
+def pushed(rig, axis, step, power, until=1.0):
+    """State (6,) of one axis at `until` of a step from rest under the contact force (t / step)^power, by expm."""
+    chain = np.zeros((7 + power, 7 + power))
+    chain[:6, :6] = matrix(rig, axis)
+    chain[[1, 3], 6] = -1.0 / rig.inner_mass, 1.0 / rig.outer_mass
+    # Entry 6 is the force; each of the following is the derivative of the one before, to the share of the step.
+    for order in range(power):
+        chain[6 + order, 7 + order] = 1.0 / step
+    start = np.zeros(7 + power)
+    start[-1] = math.factorial(power)
+    return (expm(until * step * chain) @ start)[:6]
+
+
+@pytest.mark.parametrize("power", range(POWERS))
+@pytest.mark.parametrize("change", [lambda rig: rig, overdamped])
+@pytest.mark.parametrize("step", [1e-7, 1.0 / RATE, 8.0 / RATE])
+def test_every_power_of_the_force_does_what_the_matrix_exponential_says(fan, build_scene, step, change, power):
+    rig, found = change(fan), np.empty(12)
+    flow = linear_flow(motion_model(build_scene(rig, operation={"load": 0.0})), STIFFNESS, DAMPING)
+    weights = step_weights(flow, step)
+    physical_state(flow, 0.0, kicked(weights, KICKS, OTHER, power), found)
+    for axis in range(2):
+        expected = pushed(rig, axis, step, power)
+        scale = np.abs(expected).max()
+        assert found[[place + axis for place in PLACES]] == pytest.approx(expected, rel=1e-7, abs=1e-11 * scale)
+        for first, until, powers in ((AT_END, 1.0, POWERS), (AT_HALF, 0.5, HALF_POWERS)):
+            if power < powers:
+                place = axis * OTHER + first + 2 * power
+                xi, vi, xo, vo, _, _ = pushed(rig, axis, step, power, until)
+                assert weights[place : place + 2] == pytest.approx([xi - xo, vi - vo], rel=1e-7, abs=1e-11 * scale)
+
+
+def test_a_sample_inside_a_stride_is_the_exact_response_up_to_there(fan, quiet_flow):
+    inside, found = np.empty((7, INSIDE_WEIGHTS)), np.empty(12)
+    set_inside(quiet_flow, inside, 8.0 / RATE, np.empty((POWERS + 1, AMPLITUDES)))
+    for k in range(1, 8):
+        weights = step_weights(quiet_flow, k / RATE)
+        for power in range(POWERS):
+            kicks = kicked(inside[k - 1], INSIDE_KICKS, INSIDE_OTHER, power)
+            physical_state(quiet_flow, 0.0, kicks, found)
+            for axis in range(2):
+                expected = pushed(fan, axis, 8.0 / RATE, power, k / 8)
+                scale = np.abs(expected).max()
+                assert found[[place + axis for place in PLACES]] == pytest.approx(expected, rel=1e-7, abs=1e-11 * scale)
+                for section, row in enumerate(INSIDE_READINGS):
+                    read = inside[k - 1, axis * INSIDE_OTHER + SECTION * section + POWERS_AT + power]
+                    direct = (k / 8) ** power / fan.outer_mass if row == OUTER_ACCELERATION else 0.0
+                    assert read - direct == pytest.approx(reading(quiet_flow, row, kicks, axis), rel=1e-9)
+        for axis in range(2):
+            here, there = axis * INSIDE_OTHER + INSIDE_TURN, axis * OTHER + TURN
+            assert inside[k - 1, here : here + 12] == pytest.approx(weights[there : there + 12], abs=1e-13)
+
+
+def test_the_ringing_of_a_push_is_the_energy_of_its_response(fan, quiet_flow):
+    time = np.arange(0.0, 0.5, 1e-6)
+    energy = []
+    for axis in range(2):
+        values, vectors = np.linalg.eig(matrix(fan, axis))
+        start = np.linalg.solve(vectors, np.array([0, -1.0 / fan.inner_mass, 0, 1.0 / fan.outer_mass, 0, 0]))
+        read = np.array([0, 0, fan.resonator_stiffness, fan.resonator_damping, -fan.resonator_stiffness,
+                         -fan.resonator_damping]) / fan.resonator_mass  # fmt: skip
+        response = sum((read @ vectors[:, k] * start[k] * np.exp(values[k] * time)).real for k in range(6))
+        energy.append(np.sum(response**2) * 1e-6)
+    assert ringing(quiet_flow, 10.0) == pytest.approx(max(energy), rel=1e-3)  # Riemann sum of 100 samples a period
+
+
+def test_without_damping_a_push_rings_as_long_as_the_scene(fan, build_scene):
+    free = dataclasses.replace(
+        fan, film_damping=0.0, support_damping_x=0.0, support_damping_y=0.0, resonator_damping=0.0
+    )
+    motion = motion_model(build_scene(free, operation={"load": 0.0}))
+    flow = linear_flow(motion, STIFFNESS, (0.0, 0.0))
+    assert 0.0 < ringing(flow, 0.1) < np.inf
+    assert ringing(flow, 0.2) == pytest.approx(2.0 * ringing(flow, 0.1), rel=1e-2)  # other modes' beats hardly count
+
+
+@pytest.mark.parametrize("ratio", [0.25, 1.0, 2.0, 37.0])
+def test_the_course_of_a_carried_step_runs_through_five_forces(ratio):
+    force = np.polynomial.Polynomial([0.3, -1.2, 2.0, 0.7, -0.9])
+    powers = foretell(force(-ratio), force(-0.5 * ratio), force(0.0), ratio)
+    for share in (-ratio, -0.5 * ratio, 0.0):
+        assert np.polyval([*powers[::-1], force(0.0)], share) == pytest.approx(force(share), rel=1e-12)
+    powers = through_middle(force(0.0), *powers, force(0.5), ratio)
+    powers = through_end(force(0.0), *powers, force(1.0), ratio)
+    assert powers == pytest.approx(force.coef[1:], rel=1e-9)  # a quartic through five points is the quartic
+
+
+def test_the_error_of_a_quartic_force_is_that_of_simpsons_rule():
+    force = np.polynomial.Polynomial([0.0, 0.0, 0.0, 0.0, 1.0])
+    simpson = (force(0.0) + 4.0 * force(0.5) + force(1.0)) / 6.0 - 1.0 / 5.0
+    assert pytest.approx(simpson, rel=1e-12) == FOURTH_POWER_ERROR
+
+
+def marched(scene, samples, interval):
+    """Acceleration (samples, 2) by carried steps of one `interval` (s) throughout, from the static equilibrium."""
+    contacts, motion = assemble(scene), motion_model(scene)
+    flow = mean_flow(motion, resting(scene))
+    grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
+    start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
+    output = empty_output(contacts, samples, 64, False, False, False)
+    memory = memory_for(flow, start, tables_for(flow, interval), contacts.balls.shape)
+    begin(contacts, flow, grid, memory, output)
+    assert march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output) == DONE
+    assert output.tally[LOGGED] == 0
+    return output.acceleration
+
+
+def test_carried_steps_are_of_order_five_while_no_contact_changes(fan, build_scene):
+    scene = build_scene(
+        fan, bearing={"clearance": -20e-6}, operation={"load": 2000.0, "unbalance_force": 800.0}
+    )  # loaded all round, and shaken hard so that the error is far above round-off
+    fine = marched(scene, 8193, 1.0 / RATE / 64.0)[::64]
+    errors = [rms(marched(scene, 128 * k + 1, 1.0 / k / RATE)[::k] - fine) for k in (1, 2, 4)]
+    assert -np.diff(np.log2(errors)) == pytest.approx(5.0, abs=0.1)
+
+
+def test_a_march_that_pauses_goes_on_as_if_it_had_not(reference_scene, reference_trace):
+    scene, samples = reference_scene("F1", 0.1), round(0.1 * RATE)
+    start = starting_state(motion_model(scene), equilibrium(scene, np.zeros(1)).displacement[0])
+    grid = Stride(samples, 1.0 / RATE, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
+    once, paused = March(case_of(scene, start, RATE), samples), March(case_of(scene, start, RATE), samples)
+    once.go_on(grid)
+    for until in (1, 700, 701, 2048, samples):
+        paused.go_on(grid._replace(samples=until))
+    fine = reference_trace("F1", 0.1, 16)
+    for march in (once, paused):
+        assert rms(march.output.acceleration - fine.acceleration) < 1e-3 * rms(fine.acceleration)  # 1e-9 N s a step
+        assert march.output.tally[LOGGED] == fine.changes.time.size
+
+
+def test_readings_are_what_the_state_gives(fan, quiet_flow):
+    state = some_state()
+    modal = amplitudes_of(quiet_flow, state)
+    assert reading(quiet_flow, DISPLACEMENT, modal, 1) == pytest.approx(state[1] - state[3], rel=1e-9)
+    spring = fan.resonator_stiffness * (state[3] - state[5]) + fan.resonator_damping * (state[9] - state[11])
+    assert reading(quiet_flow, OUTPUT, modal, 1) == pytest.approx(spring / fan.resonator_mass, rel=1e-9)
+
+
+SCENES = ("G1", "G1p", "G2r", "F0", "F1", "F1s", "F2", "F2r")
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("accuracy", [1e-4, 2e-3])
+def test_the_accuracy_asked_for_is_kept_and_the_error_known(name, accuracy, reference_scene, reference_trace):
+    fine = reference_trace(name, 0.1, 16).acceleration
+    trace = simulate(reference_scene(name, 0.1), RATE, accuracy=accuracy)
+    error = rms(trace.acceleration - fine) / rms(fine)
+    assert error < accuracy
+    assert trace.error_estimate < accuracy
+    assert error < 4.0 * trace.error_estimate  # pushes are counted as if they were noise
+
+
+def variants(reference_scene):
+    scene = reference_scene("F1", 0.08)
+    bearing = scene.rig.bearing
+    roller = dataclasses.replace(bearing, exponent=10.0 / 9.0, load_deflection=bearing.load_deflection * 4e-3)
+    waves = (Waviness("outer", 11, 2e-7, 0.3), Waviness("inner", 5, 3e-7, 1.0))
+    uneven = tuple(tuple(1e-7 * math.sin(3 * ball + row) for ball in range(bearing.balls)) for row in range(2))
+    sharp = dataclasses.replace(scene.spalls[0], entry_taper=0.0, exit_taper=0.0)
+    return {
+        "without tension": dataclasses.replace(scene, contact_law="no_tension"),
+        "rollers": dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=roller)),
+        "edges without tapers": dataclasses.replace(scene, spalls=(sharp,)),
+        "two cages": dataclasses.replace(scene, second_cage=scene.cage),
+        "turning loads": dataclasses.replace(
+            scene, operation=dataclasses.replace(scene.operation, unbalance_force=30.0, load_fluctuation=0.2)
+        ),
+        "waves and unequal balls": dataclasses.replace(scene, imperfections=Imperfections(waves, uneven)),
+        "an overdamped resonator": dataclasses.replace(scene, rig=overdamped(scene.rig)),
+    }
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "without tension",
+        "rollers",
+        "edges without tapers",
+        "two cages",
+        "turning loads",
+        "waves and unequal balls",
+        "an overdamped resonator",
+    ],
+)
+def test_the_accuracy_is_kept_on_scenes_of_every_kind(name, reference_scene):
+    scene = variants(reference_scene)[name]
+    fine = simulate(scene, RATE, substeps=16, estimate_error=False).acceleration
+    trace = simulate(scene, RATE)
+    assert rms(trace.acceleration - fine) < 1e-3 * rms(fine)
+
+
+@pytest.mark.parametrize("name", ["a line spall", "turning loads"])
+def test_what_else_is_kept_moves_no_bit_and_agrees_with_fixed_steps(name, reference_scene):
+    scene = variants(reference_scene).get(name, reference_scene("F1", 0.05))
+    alone = simulate(scene, RATE)
+    trace = simulate(scene, RATE, keep_state=True, keep_force=True, keep_outer=True)
+    fine = simulate(scene, RATE, substeps=8, keep_state=True, keep_force=True, keep_outer=True, estimate_error=False)
+    assert np.array_equal(alone.acceleration, trace.acceleration)
+    assert alone.contact_force is None
+    for name in ("state", "contact_force", "outer_displacement", "outer_velocity", "outer_acceleration"):
+        here, there = getattr(trace, name), getattr(fine, name)
+        assert rms(here - there) < 1e-3 * rms(there), name  # the accuracy asked for, of the resonator's acceleration
+
+
+def test_more_accuracy_takes_shorter_steps(reference_scene):
+    steps = [simulate(reference_scene("G1", 0.1), RATE, accuracy=a).step * RATE for a in (1e-5, 1e-4, 1e-3, 1e-2)]
+    assert all(np.diff(steps) > 0.0)
+    assert steps[0] > 1.0 / 16.0
+
+
+def test_a_beginning_too_coarse_for_the_scene_is_made_again(reference_scene):
+    scene = reference_scene("G1", 0.04)  # of which the beginning that says how sensitive the scene is takes four fifths
+    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, film_damping=1e4))
+    fine = simulate(scene, RATE, substeps=64, estimate_error=False).acceleration
+    assert rms(simulate(scene, RATE).acceleration - fine) < 0.7e-3 * rms(fine)  # 1.7e-3 if it is kept
+
+
+def test_an_error_that_is_always_allowed_spares_steps(reference_scene):
+    scene = reference_scene("G1", 0.1)
+    strict, lax = simulate(scene, RATE, accuracy=1e-5), simulate(scene, RATE, accuracy=1e-5, least_error=0.01)
+    assert lax.step > 2.0 * strict.step
+    assert rms(lax.acceleration - strict.acceleration) < 0.01
+
+
+@pytest.mark.parametrize("accuracy", [0.0, 1e-7, 0.2, math.nan])
+def test_an_accuracy_out_of_range_is_refused_with_the_range(accuracy, reference_scene):
+    with pytest.raises(SimulationFailed, match=r"accuracy = .*from 1e-06 to 0\.1"):
+        simulate(reference_scene("G0", 0.01), RATE, accuracy=accuracy)
+
+
+def test_the_modal_method_takes_no_fixed_steps(reference_scene):
+    with pytest.raises(SimulationFailed, match="chooses its own steps"):
+        simulate(reference_scene("G0", 0.01), RATE, method="modal", substeps=2)
+
+
+@pytest.mark.parametrize("load", [20.0, 60.0])
+def test_a_touch_of_a_rough_spall_shorter_than_a_step_is_not_passed_over(load, reference_scene):
+    scene = reference_scene("F2r", 0.06)
+    operation = dataclasses.replace(scene.operation, load=load, shaft_speed=4.0 * scene.operation.shaft_speed)
+    cage = dataclasses.replace(scene.cage, nominal_speed=4.0 * scene.cage.nominal_speed)
+    scene = dataclasses.replace(scene, operation=operation, cage=cage, contact_law="no_tension")
+    trace, fine = simulate(scene, RATE), simulate(scene, RATE, substeps=32, estimate_error=False)
+    assert trace.changes.time.size == fine.changes.time.size
+    assert rms(trace.acceleration - fine.acceleration) < 1e-3 * rms(fine.acceleration)
+
+
+@pytest.mark.parametrize(("name", "speed", "load"), [("F1s", 3.0, 0.3), ("F2r", 1.0, 3.0)])
+def test_a_ball_that_changes_sides_and_back_within_a_step_is_not_passed_over(name, speed, load, reference_scene):
+    scene = reference_scene(name, 0.1, speed_factor=speed)
+    scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, load=load * scene.operation.load))
+    found = simulate(scene, RATE, repeat=False).changes
+    fine = simulate(scene, RATE, substeps=32, estimate_error=False).changes
+    assert found.time.size == fine.time.size
+    here, there = (np.lexsort((changes.time, changes.ball, changes.row)) for changes in (found, fine))
+    assert np.array_equal(found.ball[here], fine.ball[there])
+    assert np.abs(found.time[here] - fine.time[there]).max() < 0.1 / RATE  # of changes, not of their pairs
+
+
+def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_scene):
+    scene = reference_scene("F2r", 0.01)
+    path = build_path(scene.spalls[0], scene.rig.bearing)
+    generator = np.random.default_rng(8)
+    for level in range(path.relief.size - 1):
+        width = path.cell * 2**level
+        left = generator.uniform(path.breaks[0], path.breaks[-1] - width, 200)
+        share = np.linspace(0.0, 1.0, 33)
+        depth = path.depth((left[:, None] + share * width).ravel()).reshape(200, 33)
+        chord = depth[:, :1] + share * (depth[:, -1:] - depth[:, :1])
+        assert np.abs(depth - chord).max() <= 1.1 * path.relief[level]  # the bound sums what grid points stray
+    assert np.all(np.diff(path.relief) >= 0.0)
+
+
+def test_a_smooth_path_has_no_relief_and_is_not_searched(reference_scene):
+    scene = reference_scene("G2", 0.01)
+    assert not build_path(scene.spalls[0], scene.rig.bearing).relief.any()
+    assert not is_rough(assemble(scene).track)
+    assert is_rough(assemble(reference_scene("G2r", 0.01)).track)
+
+
+def test_no_step_is_taken_back_for_ever():
+    grid = Stride(100, 1.0 / RATE, 3, 1e-9, 1e-9, 1.0, 512.0, 1.0)
+    step, halvings = 8.0 / RATE, 0
+    while may_shrink(grid, step):
+        step, halvings = 0.5 * step, halvings + 1
+    assert halvings <= 14  # from eight samples to a sixty-fourth of a unit, 2^13 times shorter
+
+
+def test_the_finest_accuracy_that_may_be_asked_for_is_answered(reference_scene):
+    assert np.isfinite(simulate(reference_scene("G0", 0.01), RATE, accuracy=1e-6).acceleration).all()
+
+
+def test_the_sensitivity_of_a_tame_scene_is_small(reference_scene):
+    trace = simulate(reference_scene("G1", 0.1), RATE)
+    assert 0.0 < trace.sensitivity < 10.0
+    assert not trace.chaotic

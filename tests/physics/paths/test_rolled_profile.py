@@ -1,0 +1,139 @@
+"""The path of the ball's centre over measured tables and rough floors."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from physics.paths.profile import build_path, race_depth
+from physics.paths.spall_surface import roughness_curve, window
+from physics.spall import Spall
+
+RACES = pytest.mark.parametrize("race", ["outer", "inner"])
+EXTENT = math.radians(2.0)
+BOTTOM = math.radians(270.0)
+BETWEEN_NODES = 1e-9  # m: what cells of 4 µm leave between the corners, which are edges of cells
+
+
+def gap(race="outer", extent=EXTENT, depth=1e-3, **other):
+    return Spall(race, 1, BOTTOM, extent, depth, profile="ball_path", **other)
+
+
+def tukey(race="outer", **changes):
+    return dataclasses.replace(Spall(race, 1, BOTTOM, EXTENT, 12e-6, 0.010, 0.004), **changes)
+
+
+def hanging(race, bearing, psi):
+    """Drop at the angle ψ from a sharp edge, as the model page prints it."""
+    r, ball = bearing.raceway_radius(race), bearing.ball_radius
+    return ball - np.sqrt(ball**2 - r**2 * np.sin(psi) ** 2) + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
+
+
+def inside(spall, count=1001):
+    return np.linspace(-spall.extent / 2, spall.extent / 2, count)
+
+
+def table(race, angle, depth, extent=EXTENT):
+    return Spall(race, 1, BOTTOM, extent, 0.0, profile="table", table_angle=tuple(angle), table_depth=tuple(depth))
+
+
+@RACES
+def test_a_table_of_a_gentle_surface_is_followed_by_the_ball(gearbox, race):
+    knots = np.array([-0.15, -0.05, 0.1, 0.15])
+    values = np.array([0.0, 6e-6, 2e-6, 0.0])
+    path = build_path(table(race, knots, values, 0.3), gearbox.bearing)
+    arcs = np.linspace(-0.15, 0.15, 601)
+    surface = np.interp(arcs if race == "outer" else -arcs, knots, values)
+    steepest = 6e-6 / 0.05 / gearbox.bearing.raceway_radius(race)
+    assert np.max(np.abs(path.depth(arcs) - surface)) < gearbox.bearing.ball_radius * steepest**2  # Rb (s′)²/2, corners
+    assert not path.bridged
+
+
+@RACES
+def test_a_table_is_given_in_the_direction_of_rising_angle_on_either_race(gearbox, build_scene, race):
+    spall = table(race, [-0.15, -0.14, 0.15], [0.0, 5e-6, 0.0], 0.3)
+    scene = build_scene(gearbox, spall)
+    low, high = race_depth(scene, 1, BOTTOM + np.array([-0.12, 0.12]))
+    assert low == pytest.approx(5e-6 * 0.27 / 0.29, rel=5e-3)  # the ball hangs a little above a sloping floor
+    assert high == pytest.approx(5e-6 * 0.03 / 0.29, rel=5e-3)
+    assert build_path(spall, gearbox.bearing).deepest * spall.travel_sign < -0.1
+
+
+@RACES
+def test_a_table_of_a_gap_gives_the_path_of_the_gap(gearbox, race):
+    half = EXTENT / 2
+    spall = table(race, [-half, half], [30e-6, 30e-6])
+    arcs = inside(spall)
+    rolled, analytic = build_path(spall, gearbox.bearing), build_path(gap(race, depth=30e-6), gearbox.bearing)
+    assert np.max(np.abs(rolled.depth(arcs) - analytic.depth(arcs))) < BETWEEN_NODES
+    assert rolled.bridged
+    assert analytic.bridged
+
+
+@RACES
+def test_a_pit_narrower_than_the_ball_can_feel_is_felt_as_a_narrow_gap(gearbox, race):
+    spall = table(race, [-0.001, -0.00099, 0.00099, 0.001], [0.0, 20e-6, 20e-6, 0.0])
+    path = build_path(spall, gearbox.bearing)
+    assert path.bridged
+    assert path.largest_depth == pytest.approx(float(hanging(race, gearbox.bearing, 0.001)), rel=0.05)  # sloping walls
+    assert path.largest_depth < 0.01 * 20e-6
+
+
+@RACES
+def test_a_lip_beside_a_measured_spall_lifts_the_ball_before_it_gets_there(gearbox, race):
+    half = EXTENT / 2
+    spall = table(race, [-half, -half + 0.002, -half + 0.004, half], [0.0, -3e-6, 10e-6, 0.0])
+    path = build_path(spall, gearbox.bearing)
+    first, last = path.kinks[[0, -1]] * spall.travel_sign
+    arcs = np.linspace(*path.kinks[[0, -1]], 2001)
+    depth = path.depth(arcs)
+    assert depth.min() == pytest.approx(-3e-6, rel=5e-3)  # the lip is a corner between two points of the surface
+    assert np.max(np.abs(depth[[0, -1]])) < 1e-18
+    assert np.max(np.abs(np.diff(depth))) < 0.1e-6  # no jump at the edges of the spall
+    assert min(first, last) < -half
+
+
+def rough(race="outer", profile="tukey", seed=1, deviation=1e-6, count=41):
+    values = np.random.default_rng(seed).normal(0, deviation, count)
+    values[[0, -1]] = 0.0
+    return tukey(race, profile=profile, roughness=deviation, roughness_values=tuple(values))
+
+
+def test_a_rough_tukey_path_is_the_window_plus_the_natural_spline_through_its_values(gearbox):
+    spall = rough()
+    arcs = inside(spall, 2001)
+    knots = np.linspace(-EXTENT / 2, EXTENT / 2, 41)
+    bumps = CubicSpline(knots, spall.roughness_values, bc_type="natural")(arcs)
+    path = build_path(spall, gearbox.bearing)
+    assert np.max(np.abs(path.depth(arcs) - 12e-6 * window(spall, arcs) - bumps)) < 0.02e-6  # quarters of the steps
+    at_knots = path.depth(knots) - 12e-6 * window(spall, knots)
+    assert np.allclose(at_knots, spall.roughness_values, atol=0.02e-6)
+    assert np.std(at_knots) == pytest.approx(np.std(spall.roughness_values), rel=0.01)  # nothing is filtered twice
+
+
+def test_a_smooth_spall_has_no_roughness_curve():
+    assert roughness_curve(tukey()) is None
+
+
+@RACES
+def test_a_rough_floor_of_a_rolled_gap_is_smoothed_by_the_ball_from_above(gearbox, race):
+    spall = rough(race, "ball_path")
+    arcs = inside(spall, 1001)
+    surface = 12e-6 * window(spall, arcs) + roughness_curve(spall)(arcs)
+    depth = build_path(spall, gearbox.bearing).depth(arcs)
+    smooth = build_path(tukey(race, profile="ball_path"), gearbox.bearing).depth(arcs)
+    assert np.all(depth <= np.maximum(surface, 0.0) + BETWEEN_NODES)
+    assert np.mean(depth) < np.mean(smooth)  # the ball rides on the crests
+    assert np.std(np.diff(depth, 2)) < np.std(np.diff(surface, 2))
+
+
+@RACES
+@pytest.mark.parametrize("profile", ["tukey", "ball_path"])
+def test_the_deepest_point_of_a_rough_path_may_lie_between_nodes(gearbox, race, profile):
+    path = build_path(rough(race, profile), gearbox.bearing)
+    arcs = np.linspace(-EXTENT / 2, EXTENT / 2, 400_001)
+    depth = path.depth(arcs)
+    assert path.largest_depth == pytest.approx(depth.max(), abs=1e-10)  # m: half a step beside a corner of the path
+    assert path.deepest == pytest.approx(arcs[np.argmax(depth)], abs=1e-7)  # one step, 9e-8; nodes are 2e-4 apart

@@ -1,0 +1,260 @@
+"""The rolling-ball filter against its closed form, against plain geometry, and as a morphological filter."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from physics.paths.rolling import branches, deep_gap_drop, hanging_reach, rolled_path
+
+BALL = 3.56e-3
+RACE = {"outer": 22.935e-3, "inner": 15.815e-3}
+RACES = pytest.mark.parametrize("race", ["outer", "inner"])
+HALF = math.radians(1.0)
+STEP = 5e-6 / RACE["outer"]
+ROUNDING = 1e-15  # m: a few units in the last place of a race's radius
+
+
+def roll(surface, race, half=HALF, step=STEP, rough=False):
+    return rolled_path(surface, half, race, RACE[race], BALL, step, rough)[:2]
+
+
+def gap(depth):
+    return lambda arc: np.full_like(arc, depth)
+
+
+def hanging(race, psi):
+    """Drop at the angle ψ from a sharp edge, as the model page prints it."""
+    r = RACE[race]
+    sag = BALL - np.sqrt(BALL**2 - r**2 * np.sin(psi) ** 2)
+    return sag + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
+
+
+def closest(surface, race, arcs, drop, half=HALF):
+    """Distance (m) of each ball's centre to the nearest point of the raceway, from Cartesian coordinates."""
+    outward = 1 if race == "outer" else -1
+    centre = RACE[race] - outward * BALL + outward * drop
+    theta = np.linspace(-half - 0.15, half + 0.15, 40001)
+    theta = np.union1d(theta, arcs)
+    depth = np.where(np.abs(theta) < half * (1 - 1e-12), surface(theta), 0.0)
+    x, y = (RACE[race] + outward * depth) * np.stack([np.cos(theta), np.sin(theta)])
+    along, across = centre * np.stack([np.cos(arcs), np.sin(arcs)])
+    return np.hypot(x - along[:, None], y - across[:, None]).min(axis=1)
+
+
+def bumpy(seed, height, waves=8):
+    """A random smooth surface, zero at both edges."""
+    rng = np.random.default_rng(seed)
+    amplitude, phase = rng.normal(0, 1, waves) / math.sqrt(waves), rng.uniform(0, 2 * np.pi, waves)
+    order = np.arange(1, waves + 1)
+
+    def surface(arc):
+        waviness = (amplitude * np.cos(order * np.asarray(arc)[..., None] / HALF * np.pi + phase)).sum(-1)
+        return height * waviness * np.clip(1 - (np.asarray(arc) / HALF) ** 2, 0, None)
+
+    return surface
+
+
+@RACES
+def test_a_deep_gap_is_crossed_on_the_closed_form_of_its_two_edges(race):
+    arcs, drop = roll(gap(1e-3), race)
+    assert np.max(np.abs(drop - hanging(race, HALF - np.abs(arcs)))) < ROUNDING
+
+
+@RACES
+def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
+    arcs, drop = roll(gap(4e-6), race)
+    expected = np.minimum(hanging(race, HALF - np.abs(arcs)), 4e-6)
+    assert np.max(np.abs(drop - expected)) < ROUNDING
+    assert np.count_nonzero(np.abs(drop - 4e-6) < ROUNDING) > 0.2 * arcs.size
+
+
+@RACES
+@pytest.mark.parametrize("steps", [800, 801])  # the corner lies on a node, or in the middle between two
+def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slope(race, steps):
+    path = rolled_path(gap(1e-3), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5))
+    assert path.arc.size == steps + 1
+    found = branches(path)
+    assert found.edges[1:-1] == pytest.approx([0.0], abs=1e-9)
+    _, slope = deep_gap_drop(race, RACE[race], BALL)
+    here, steep = np.flatnonzero(found.arc == found.edges[1]), float(slope(np.array(HALF)))
+    assert found.slope[here] == pytest.approx([steep, -steep], rel=1e-6)
+    assert found.drop[here] == pytest.approx(float(hanging(race, HALF)), abs=1e-13)
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(3))
+def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
+    path = rolled_path(bumpy(seed, 8e-6), HALF, race, RACE[race], BALL, STEP)
+    found = branches(path)
+    assert 2 < found.edges.size < 20
+    width, rise = np.diff(found.arc), np.diff(found.drop)
+    inside = width > 0.0
+    mean = 0.5 * (found.slope[1:] + found.slope[:-1])[inside]
+    assert np.allclose(mean * width[inside], rise[inside], rtol=0, atol=1e-10)  # trapezia of 5 µm: h³/12 times a bend
+    corners = ~inside
+    assert np.all(found.drop[1:][corners] == found.drop[:-1][corners])
+    assert np.all(found.slope[1:][corners] < found.slope[:-1][corners])  # the ball falls from one bump onto the other
+
+
+@RACES
+def test_the_closed_form_s_slope_is_its_derivative(race):
+    drop, slope = deep_gap_drop(race, RACE[race], BALL)
+    psi, h = np.linspace(0.001, 0.15, 50), 1e-6
+    assert np.allclose((drop(psi + h) - drop(psi - h)) / (2 * h), slope(psi), rtol=1e-6)  # third derivative times h²
+
+
+@RACES
+@given(depth=st.floats(1e-9, 3e-3))
+@settings(max_examples=50, deadline=None, derandomize=True)
+def test_the_reach_of_a_hanging_ball_inverts_the_closed_form(race, depth):
+    reach = hanging_reach(race, RACE[race], BALL, depth)
+    assert float(hanging(race, reach)) == pytest.approx(depth, rel=1e-6, abs=1e-15)  # cancellation in Rb − √(…)
+
+
+@RACES
+def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
+    furthest = math.asin(BALL / RACE[race])
+    deepest = float(hanging(race, furthest - 1e-12))
+    assert hanging_reach(race, RACE[race], BALL, 1.5 * deepest) == pytest.approx(furthest, rel=1e-6)  # a square root
+    assert hanging_reach(race, RACE[race], BALL, 0.0) == 0.0
+
+
+@RACES
+@pytest.mark.parametrize("ball_share", [0.16, 0.30, 0.46])
+def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(race, ball_share):
+    ball = ball_share * RACE[race]
+    half = 0.98 * math.asin(ball_share)
+    arcs, drop, _, _ = rolled_path(gap(5e-3), half, race, RACE[race], ball, STEP)
+    exact, _ = deep_gap_drop(race, RACE[race], ball)
+    assert np.max(np.abs(drop - np.minimum(exact(half - np.abs(arcs)), 5e-3))) < ROUNDING * 10  # steep: more rounding
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(4))
+def test_the_ball_touches_the_surface_and_never_enters_it(race, seed):
+    surface = bumpy(seed, 8e-6)
+    arcs, drop = roll(surface, race)
+    distance = closest(surface, race, arcs[::16], drop[::16])
+    assert np.max(np.abs(distance - BALL)) < 1e-8  # contacts found to 0.6 µm on bumps of 50 µm radius: 4 nm, twice
+
+
+@RACES
+def test_a_smooth_healthy_race_leaves_the_ball_where_it_is(race):
+    _, drop = roll(gap(0.0), race)
+    assert np.max(np.abs(drop)) < ROUNDING
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(3))
+def test_the_ball_s_centre_is_never_deeper_than_the_surface_below_it(race, seed):
+    surface = bumpy(seed, 20e-6)
+    arcs, drop = roll(surface, race)
+    assert np.all(drop <= np.where(np.abs(arcs) < HALF, surface(arcs), 0.0) + ROUNDING)
+
+
+@RACES
+@pytest.mark.parametrize("taper", [4e-6, 1e-5, 1e-4])
+def test_a_ball_neither_sinks_into_a_steep_taper_nor_is_lifted_by_it(race, taper):
+    width, depth, half = taper / RACE[race], 80e-6, 0.3e-3 / RACE[race]
+
+    def surface(arc):
+        return depth * np.sin(0.5 * np.pi * np.clip((half - np.abs(arc)) / width, 0.0, 1.0)) ** 2
+
+    arcs, drop = roll(surface, race, half)
+    for arc, found in zip(arcs[1:-1:23], drop[1:-1:23], strict=True):
+        # Points of the taper itself, much closer together than it bends.
+        edge = half - width * np.linspace(0.0, 1.0, 200_001)
+        theta = np.concatenate([-edge, edge])
+        radius = RACE[race] + (surface(theta) if race == "outer" else -surface(theta))
+        lever = radius * np.sin(theta - arc)
+        hanging = np.sqrt(BALL**2 - lever**2)
+        sign = 1.0 if race == "outer" else -1.0
+        drops = sign * (radius * np.cos(theta - arc) - RACE[race]) - hanging + BALL
+        assert found == pytest.approx(drops.min(), abs=4e-10)  # twice what a ball may sink between points
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(3))
+def test_a_deeper_surface_never_lifts_the_ball(race, seed):
+    shallow = bumpy(seed, 10e-6)
+    extra = bumpy(seed + 100, 10e-6)
+    # Rough surfaces are all sampled at the same points.
+    _, upper = roll(lambda arc: np.maximum(shallow(arc), 0.0), race, rough=True)
+    arcs, lower = roll(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race, rough=True)
+    assert np.all(lower >= upper - ROUNDING)
+    assert np.max(lower - upper) > 1e-7
+    assert arcs.size == upper.size
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(2))
+def test_rolling_over_what_the_ball_left_reachable_changes_nothing(race, seed):
+    surface = bumpy(seed, 8e-6)
+    arcs, drop = roll(lambda arc: np.maximum(surface(arc), 0.0), race)
+    outward = 1 if race == "outer" else -1
+    centre = RACE[race] - outward * BALL + outward * drop
+    away = arcs[:, None] - arcs[None, :]
+    furthest_out = outward * centre * np.cos(away) + np.sqrt(BALL**2 - (centre * np.sin(away)) ** 2)
+    reached = np.max(furthest_out, axis=1) - outward * RACE[race]
+    assert np.max(surface(arcs) - reached) > 1e-6
+    _, again = roll(lambda arc: np.interp(arc, arcs, reached), race)
+    assert np.max(np.abs(again - drop)) < 1e-8  # the surface left is known every 1.6 µm, on bumps of 50 µm radius: 6 nm
+
+
+@RACES
+def test_a_symmetric_surface_gives_a_symmetric_path(race):
+    surface = bumpy(1, 10e-6)
+    _, drop = roll(lambda arc: surface(arc) + surface(-arc), race)
+    assert np.allclose(drop, drop[::-1], rtol=0, atol=ROUNDING)
+
+
+@RACES
+def test_a_mirrored_surface_gives_the_mirrored_path(race):
+    surface = bumpy(2, 10e-6)
+    _, drop = roll(surface, race)
+    _, mirrored = roll(lambda arc: surface(-arc), race)
+    assert np.allclose(drop, mirrored[::-1], rtol=0, atol=ROUNDING)
+
+
+def ridge(arc):
+    """A lip 6 µm proud of the race beside the entry edge, before a deep floor."""
+    return np.where(np.abs(arc + HALF - 2e-4) < 1e-4, -6e-6, 30e-6)
+
+
+@RACES
+def test_a_bump_that_stands_proud_lifts_the_ball_before_the_edge(race):
+    arcs, drop = roll(ridge, race)
+    assert drop.min() == pytest.approx(-6e-6, abs=1e-11)  # the grid may miss the lip's centre by half a step
+    assert arcs[0] < -HALF
+    approach = drop[arcs < -HALF + 1e-4]
+    assert np.all(np.diff(approach[2:]) < 0.0)
+    assert np.all(np.abs(approach[:2]) < ROUNDING)
+    assert np.max(np.abs(np.diff(approach))) < 0.02 * 6e-6  # no jump: the lip lifts the ball over hundreds of steps
+
+
+@RACES
+def test_both_edges_stay_exact_when_a_bump_stands_proud(race):
+    arcs, drop = roll(ridge, race)
+    beside_exit = (arcs > HALF - 5e-3) & (arcs < HALF)
+    expected = hanging(race, HALF - arcs[beside_exit])
+    assert np.max(np.abs(drop[beside_exit] - expected)) < ROUNDING
+
+
+@RACES
+@pytest.mark.parametrize("height", [5e-6, 5e-4])
+def test_the_path_of_a_lifted_ball_begins_and_ends_at_zero(race, height):
+    arcs, drop = roll(lambda arc: np.where(np.abs(arc) > HALF - 1e-4, -height, 0.0), race)
+    assert arcs[0] == pytest.approx(-arcs[-1], rel=1e-12)
+    assert max(abs(drop[0]), abs(drop[-1])) < ROUNDING
+    touch = hanging_reach(race, RACE[race] - height if race == "outer" else RACE[race] + height, BALL, height)
+    assert -HALF - touch - arcs[0] < 1.5 * (arcs[1] - arcs[0])
+
+
+@RACES
+def test_arcs_are_no_further_apart_than_asked(race):
+    arcs, _ = roll(gap(1e-5), race, half=0.3, step=STEP)
+    assert np.max(np.diff(arcs)) <= STEP * (1 + 1e-9)
+    assert np.ptp(np.diff(arcs)) < 1e-12

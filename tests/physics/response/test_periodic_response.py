@@ -1,0 +1,112 @@
+"""Without slip a response repeats itself: it is marched until it does, and every later period is read from the last."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from physics.cage import CagePath
+from physics.imperfections import Imperfections, Waviness
+from physics.integrators.methods import MODAL
+from physics.response.periodic import METHOD, balls_a_period, period_of
+from physics.response.resampling import read_at
+from physics.simulate import simulate
+
+RATE = 65536.0
+
+
+@pytest.fixture(scope="module", params=["F1", "F2", "F0"])
+def steady(request, reference_scene):
+    return _without_slip(reference_scene(request.param), 1.0)
+
+
+def _without_slip(scene, duration):
+    return replace(scene, cage=CagePath(scene.cage.nominal_speed, duration, scene.cage.start_angle, 0.004))
+
+
+def test_what_is_repeated_is_what_a_march_to_the_end_gives(steady):
+    trace, exact = simulate(steady, RATE), simulate(steady, RATE, accuracy=1e-5)
+    assert trace.method == METHOD
+    assert exact.method == MODAL
+    assert trace.acceleration.shape == exact.acceleration.shape
+    error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
+    assert error <= trace.error_estimate <= 1e-3
+
+
+def test_the_same_balls_touch_and_part_at_the_same_times(steady):
+    trace, exact = simulate(steady, RATE), simulate(steady, RATE, accuracy=1e-5)
+    for ball in range(1, steady.rig.bearing.balls + 1):
+        for made in (True, False):
+            own, other = (_times(one.changes, ball, made) for one in (trace, exact))
+            assert own.size == other.size
+            assert np.abs(own - other).max(initial=0.0) < 1e-5
+
+
+def _times(changes, ball, made):
+    return changes.time[(changes.ball == ball) & (changes.made == made)]
+
+
+def test_a_finer_accuracy_than_can_be_read_is_marched_to_the_end(steady):
+    assert simulate(steady, RATE, accuracy=1e-4).method == MODAL
+
+
+def test_states_are_kept_by_marching_to_the_end(steady):
+    trace = simulate(steady, RATE, keep_state=True)
+    assert trace.method == MODAL
+    assert trace.state is not None
+
+
+def test_a_short_record_is_marched_to_the_end(reference_scene):
+    assert simulate(_without_slip(reference_scene("F1"), 0.1), RATE).method == MODAL
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda scene: scene,  # slips
+        lambda scene: replace(_without_slip(scene, 1.0), second_cage=CagePath(scene.cage.nominal_speed, 1.0)),
+        lambda scene: _running(scene, unbalance_force=5.0),
+        lambda scene: _running(scene, load_fluctuation=0.1),
+        lambda scene: _imperfect(scene, waviness=(Waviness("inner", 5, 1e-7),)),
+        lambda scene: replace(
+            _without_slip(scene, 1.0), spalls=tuple(replace(spall, race="inner") for spall in scene.spalls)
+        ),
+    ],
+)
+def test_what_turns_with_the_shaft_or_slips_never_repeats_itself(reference_scene, change):
+    assert period_of(change(reference_scene("F1", slip_seed=1))) == np.inf
+
+
+def _running(scene, **settings):
+    return replace(_without_slip(scene, 1.0), operation=replace(scene.operation, **settings))
+
+
+def _imperfect(scene, **settings):
+    return replace(_without_slip(scene, 1.0), imperfections=Imperfections(**settings))
+
+
+def test_unequal_balls_repeat_themselves_once_all_have_passed(reference_scene):
+    scene = reference_scene("F1")
+    bearing = scene.rig.bearing
+    unequal = tuple(tuple(1e-7 * (ball % 3) for ball in range(bearing.balls)) for _ in range(bearing.rows))
+    alike, different = _without_slip(scene, 1.0), _imperfect(scene, ball_deviation=unequal)
+    assert (balls_a_period(alike), balls_a_period(different)) == (1, bearing.balls)
+    assert period_of(alike) == pytest.approx(bearing.spacing / alike.cage.mean_speed)
+    assert period_of(different) == pytest.approx(2.0 * np.pi / alike.cage.mean_speed)
+
+
+def test_waves_of_the_outer_race_repeat_themselves_with_the_balls(reference_scene):
+    scene = _imperfect(reference_scene("F0"), waviness=(Waviness("outer", 7, 2e-7),))
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, accuracy=1e-5)
+    assert trace.method == METHOD
+    error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
+    assert error <= trace.error_estimate <= 1e-3
+
+
+def test_a_polynomial_of_degree_five_is_read_exactly_anywhere():
+    grid, place = np.arange(40.0), np.array([0.0, 0.3, 1.7, 12.5, 20.0, 37.9, 39.0])
+    rows = np.column_stack([grid**5 - 3.0 * grid**2, 2.0 - grid**3])
+    expected = np.column_stack([place**5 - 3.0 * place**2, 2.0 - place**3])
+    assert read_at(rows, place) == pytest.approx(expected, rel=1e-10, abs=1e-6)
+    with pytest.raises(ValueError, match="5 samples"):
+        read_at(rows[:5], place)

@@ -1,0 +1,26 @@
+import numpy as np
+import pytest
+
+from physics.imperfections import Imperfections
+from physics.statics.ball_load import ball_load
+from physics.statics.load_distribution import equilibrium
+
+INSTANTS = np.sort(np.random.default_rng(5).uniform(0.0, 0.05, 60))
+BALLS = np.random.default_rng(6).integers(1, 13, 60)
+SCENES = {
+    "two rows": {},
+    "tilted contacts": {"bearing": {"contact_angle": 0.3}},
+    "unequal balls": {"imperfections": Imperfections(ball_deviation=((3e-7, *(0.0,) * 11), (0.0,) * 12))},
+    "turning loads": {"operation": {"load_fluctuation": 0.3, "unbalance_force": 100.0}},
+}
+
+
+@pytest.mark.parametrize("row", [1, 2])
+@pytest.mark.parametrize("variant", SCENES)
+def test_it_is_the_load_that_the_equilibrium_of_all_balls_gives_this_one(gearbox, build_scene, variant, row):
+    scene = build_scene(gearbox, start_angle=0.05, **SCENES[variant])
+    every = equilibrium(scene, INSTANTS).ball_load
+    expected = every[np.arange(INSTANTS.size), row - 1, BALLS - 1]
+    found = ball_load(scene, INSTANTS, row, BALLS)
+    assert found == pytest.approx(expected, abs=1e-7 * every.max())  # a billionth of the shaft's load, unbalanced
+    assert np.count_nonzero(found) > 10

@@ -31,12 +31,12 @@ from physics import catalog
 from physics.cage import CagePath, draw_slip_knots
 from physics.hertz import contact_width
 from physics.operation import Operation
-from physics.profile import build_path, wrap
-from physics.roughness import draw_roughness
+from physics.paths.profile import build_path, wrap
+from physics.paths.roughness import draw_roughness
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.statics import equilibrium
+from physics.statics.load_distribution import equilibrium
 from physics.trace import Trace
 
 Array = NDArray[np.float64]

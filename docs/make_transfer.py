@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import binomtest
 
-from labels.scores import FEWEST_A_SIDE
+from labels.classifier.scores import FEWEST_A_SIDE
 
 PAGE = Path(__file__).with_name("transfer.md")
 BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 
 from datagen.corpora.atomic import locked
@@ -18,8 +19,8 @@ from datagen.runs.plan import plan_shards, selection
 from datagen.runs.progress import Reporter, Silence
 from datagen.runs.requirements import require_memory, require_possible_rates, require_room
 from datagen.runs.run import Run, Summary
-from datagen.runs.task import load_kernels_in_workers
-from datagen.runs.workers import Engine, engaged, no_workers
+from datagen.runs.task import kernels_loading_in_workers
+from datagen.runs.workers import Engine, engaged, nobody
 
 
 def generate(
@@ -43,15 +44,15 @@ def generate(
     check_folder(folder, identity)
     require_memory(recipe)
     require_possible_rates(recipe, asked)
-    with engaged(engine or Engine()):
-        workers_are_ready = load_kernels_in_workers() if not manifest_path(folder).exists() else no_workers
+    begun = manifest_path(folder).exists()
+    with engaged(engine or Engine()), nullcontext(nobody) if begun else kernels_loading_in_workers() as are_ready:
         planned = plan_shards(recipe, asked[-1][1])
         require_room(recipe, planned, folder)
         _make_folder(folder)
         with locked(folder):
             run = Run(recipe, folder, identity, asked, reporter or Silence())
             try:
-                run.make(planned, workers_are_ready)
+                run.make(planned, are_ready)
             finally:
                 run.finish()
     return run.summary(time.monotonic() - began)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -204,13 +205,14 @@ class Run:
     def _make_together(self, todo: Sequence[PlannedShard], started: set[int]) -> None:
         """Make the shards, longest first; `started` collects the numbers of those handed to workers."""
         by_number = {shard.number: shard for shard in todo}
-        for row in run_tasks(make_shard, self._tasks(longest_first(todo), started), _time_limit(todo)):
-            shard = by_number[row.shard]
-            if row.error:
-                self.errors[row.shard] = (shard, row.error)
-                self.reporter.say(f"shard {row.shard} could not be made: {row.error.strip().splitlines()[-1]}")
-            self.done += self._wanted_of(shard)
-            self.reporter.advance(self.done, len(self.wanted))
+        with closing(run_tasks(make_shard, self._tasks(longest_first(todo), started), _time_limit(todo))) as rows:
+            for row in rows:
+                shard = by_number[row.shard]
+                if row.error:
+                    self.errors[row.shard] = (shard, row.error)
+                    self.reporter.say(f"shard {row.shard} could not be made: {row.error.strip().splitlines()[-1]}")
+                self.done += self._wanted_of(shard)
+                self.reporter.advance(self.done, len(self.wanted))
 
     def _tasks(self, todo: Sequence[PlannedShard], started: set[int]) -> Iterator[tuple[Any, ...]]:
         folder = self.folder.absolute()

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
 from datagen.runs.progress import Reporter
-from datagen.runs.workers import no_workers, wake_workers
+from datagen.runs.workers import nobody, woken_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -43,12 +44,14 @@ def warm_kernels(reporter: Reporter) -> None:
     warm_up()
 
 
-def load_kernels_in_workers() -> Callable[[], bool]:
-    """Start local workers and let them load compiled kernels, if there are any; see `wake_workers`."""
+@contextmanager
+def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
+    """Local workers start and load compiled kernels, if there are any, while the block goes on; see `woken_workers`."""
     from physics._jit import CACHE_FOLDER
     from physics.warming import warm_up
 
-    return wake_workers(warm_up) if any(CACHE_FOLDER.iterdir()) else no_workers
+    with woken_workers(warm_up) if any(CACHE_FOLDER.iterdir()) else nullcontext(nobody) as are_ready:
+        yield are_ready
 
 
 def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:

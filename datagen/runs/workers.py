@@ -7,8 +7,8 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -84,15 +84,17 @@ def engaged(engine: Engine) -> Iterator[None]:
             yield
 
 
-def no_workers() -> bool:
-    """What `wake_workers` gives where there is nobody to wake."""
+def nobody() -> bool:
+    """What `woken_workers` gives where there is nobody to wake."""
     return False
 
 
-def wake_workers(function: Callable[[], Any]) -> Callable[[], bool]:
-    """Start the worker processes of this machine, each to call `function`, and return at once.
+@contextmanager
+def woken_workers(function: Callable[[], Any]) -> Iterator[Callable[[], bool]]:
+    """The worker processes of this machine start, each to call `function`, while the block goes on.
 
-    What comes back waits for them and says whether they did: not if this process does the work, or Dask.
+    The block gets what waits for them and says whether they did: not if this process does the work, or Dask. Its end
+    waits for them too.
     """
     from joblib import Parallel, delayed, effective_n_jobs
     from joblib.externals.loky.process_executor import BrokenProcessPool
@@ -100,7 +102,8 @@ def wake_workers(function: Callable[[], Any]) -> Callable[[], bool]:
 
     count = effective_n_jobs(None)
     if type(get_active_backend()[0]).__name__ != "LokyBackend" or count == 1:
-        return no_workers
+        yield nobody
+        return
     calls = Parallel(return_as="generator_unordered", batch_size=1)(delayed(function)() for _ in range(count))
 
     def are_ready() -> bool:
@@ -109,14 +112,20 @@ def wake_workers(function: Callable[[], Any]) -> Callable[[], bool]:
         except BrokenProcessPool:
             return False
 
-    return are_ready
+    try:
+        yield are_ready
+    finally:
+        # What is left to the garbage collector, joblib ends at any time and from any thread: also under the next run.
+        with suppress(Exception):
+            are_ready()
 
 
 def run_tasks(
     function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], time_limit: float | None = None
-) -> Iterator[Any]:
+) -> Generator[Any]:
     """Results of `function(*task)` as they come; raises WorkerLost, and whatever `function` raises.
 
+    Close it where it is left early: what the garbage collector closes may end the workers of a later run.
     `time_limit` (s) bounds one task on Dask, where a task that keeps killing its worker would otherwise never end.
     """
     from multiprocessing import TimeoutError as TaskTimeout

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gc
 import os
 import socket
 import threading
@@ -11,7 +12,7 @@ from typing import Any
 import pytest
 
 from datagen.errors import BadInput
-from datagen.runs.workers import Engine, WorkerLost, engaged, run_tasks, wake_workers
+from datagen.runs.workers import Engine, WorkerLost, engaged, run_tasks, woken_workers
 
 
 def results(engine: Engine, function: Callable[..., Any], tasks: list[tuple[Any, ...]]) -> list[Any]:
@@ -30,16 +31,28 @@ def test_several_workers_are_processes_of_their_own_and_one_is_this_process() ->
 
 def test_workers_that_were_woken_do_the_tasks_and_may_have_died_meanwhile() -> None:
     with engaged(Engine(workers=2)):
-        are_ready = wake_workers(os.getpid)
-        assert are_ready()
+        with woken_workers(os.getpid) as are_ready:
+            assert are_ready()
+            assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
+        with woken_workers(partial(os._exit, 3)) as are_ready:
+            assert not are_ready()
+            assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
+
+
+def test_workers_that_nobody_waited_for_leave_nothing_to_the_garbage_collector(
+    recwarn: pytest.WarningsRecorder,
+) -> None:
+    with engaged(Engine(workers=2)):
+        with pytest.raises(BadInput), woken_workers(partial(time.sleep, 0.1)):
+            raise BadInput("found while they start")
+        gc.collect()
         assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
-        assert not wake_workers(partial(os._exit, 3))()
-        assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
+    assert not recwarn.list
 
 
 def test_there_is_nobody_to_wake_where_this_process_does_the_work() -> None:
-    with engaged(Engine(workers=1)):
-        assert not wake_workers(partial(os._exit, 3))()
+    with engaged(Engine(workers=1)), woken_workers(partial(os._exit, 3)) as are_ready:
+        assert not are_ready()
 
 
 def test_an_exception_of_a_task_is_raised() -> None:

@@ -9,18 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
-from physics.integrators.output import Grid
-from physics.integrators.propagator import reach
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.adaptive import ACCELERATION_ALONE, respond_accurately
-from physics.response.march import MODEL, respond, respond_by_reference
+from physics.response.fixed_steps import respond_by_fixed_steps
+from physics.response.march import MODEL, respond_by_reference
 from physics.response.modal_case import Kept
 from physics.response.oversampling import oversampling
 from physics.response.periodic import respond_until_repeated, worth_repeating
 from physics.response.resampling import decimate
-from physics.response.stability import require_stable, stable_substeps
 from physics.scene import Scene
 from physics.statics.load_distribution import carried
 from physics.trace import Trace
@@ -28,14 +26,6 @@ from physics.trace import Trace
 Array = NDArray[np.float64]
 
 SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
-STEPS_PER_FAST_PERIOD = 6.2
-PILOT_PASSES = 3.0
-# A pilot of a scene that turns with the shaft has to see it come round twice.
-PILOT_TURNS = 2.2
-SHORTEST_PILOT = 2048
-MOST_SUBSTEPS = 32
-# On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
-PILOT_ORDER = 2.0
 
 
 def simulate(
@@ -83,29 +73,16 @@ def simulate(
     if method == REFERENCE:
         trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=keep_state)
         return _lowered(trace, rate, factor, samples)
+    kept = Kept(keep_state, keep_force, keep_outer)
     if method == MODAL:
-        kept = Kept(keep_state, keep_force, keep_outer)
         wanted = (scene, start, rate * factor, samples * factor, accuracy, least_error)
         repeated = repeat and kept == ACCELERATION_ALONE and worth_repeating(scene, samples / rate, accuracy)
         trace = respond_until_repeated(*wanted) if repeated else respond_accurately(*wanted, kept)
         return _lowered(trace, rate, factor, samples)
-    steps, error = substeps or default_substeps(scene, rate * factor), math.nan
-    least = stable_substeps(scene, METHODS[method], rest, rate * factor)
-    if substeps is None:
-        steps = max(steps, least)
-    require_stable(METHODS[method], rate * factor, steps, least)
-    if estimate_error:
-        most = steps if substeps else max(MOST_SUBSTEPS, steps)
-        steps, error = _pilot(scene, start, rate * factor, method, steps, most, accuracy)
-    grid = Grid(samples * factor, steps, 1.0 / (rate * factor * steps))
-    trace = respond(scene, start, grid, method, keep_state=keep_state, keep_force=keep_force, keep_outer=keep_outer)
-    return replace(_lowered(trace, rate, factor, samples), error_estimate=error)
-
-
-def default_substeps(scene: Scene, rate: float) -> int:
-    """Fewest steps a sample that give the fastest linear mode about six steps a period."""
-    per_step = reach(motion_model(scene), 1.0 / rate)
-    return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
+    trace = respond_by_fixed_steps(
+        scene, rest, rate * factor, samples * factor, method, substeps, accuracy if estimate_error else None, kept
+    )
+    return _lowered(trace, rate, factor, samples)
 
 
 def _check_request(
@@ -142,40 +119,6 @@ def _check_request(
         problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
-
-
-def _pilot(
-    scene: Scene, start: Array, rate: float, method: str, steps: int, most: int, accuracy: float
-) -> tuple[int, float]:
-    """Steps a sample (up to `most`) that meet `accuracy` over the scene's first passes, and their estimated error."""
-    samples = min(round(scene.duration * rate), max(SHORTEST_PILOT, math.ceil(_pilot_duration(scene) * rate)))
-
-    def response(steps: int) -> Array:
-        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method).acceleration
-
-    coarse, fine = response(steps), response(2 * steps)
-    error = _relative_error(coarse, fine)
-    while error > accuracy and 2 * steps <= most:
-        steps *= 2
-        coarse, fine = fine, response(2 * steps)
-        error = _relative_error(coarse, fine)
-    return steps, error
-
-
-def _pilot_duration(scene: Scene) -> float:
-    passes = PILOT_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
-    turns = PILOT_TURNS * 2.0 * math.pi / scene.operation.shaft_speed
-    run = scene.operation
-    turning = scene.defective_race == "inner" or run.unbalance_force > 0.0 or run.load_fluctuation > 0.0
-    return max(passes, turns) if turning else passes
-
-
-def _relative_error(coarse: Array, fine: Array) -> float:
-    """Estimated RMS error of `coarse`, relative to its RMS, from a response at half the step."""
-    size = np.sqrt(np.mean(fine**2))
-    if size == 0.0:
-        return 0.0
-    return float(np.sqrt(np.mean((coarse - fine) ** 2)) / size / (1.0 - 2.0**-PILOT_ORDER))
 
 
 def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:

@@ -10,7 +10,7 @@ from datagen.cards.croissant import croissant_text
 from datagen.cards.facts import Facts, Kind, corpus_facts
 from datagen.cards.origin_text import origin_text
 from datagen.cards.vocabulary_table import vocabulary_table
-from datagen.corpora.atomic import write_atomically
+from datagen.corpora.atomic import write_results
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.places import require_folder
@@ -40,12 +40,7 @@ def write_report(folder: Path, out: Path | None = None) -> Report:
     if not facts.info.records:
         raise BadInput("this corpus holds no record yet", str(folder))
     contents = _contents(folder, facts)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        for name, content in contents.items():
-            write_atomically(out / name, content)
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(out), "--out") from None
+    write_results(out, contents)
     return Report(str(out), tuple(contents), facts)
 
 

@@ -21,9 +21,8 @@ from physics.reference_scenes import reference_scene
 from physics.response.adaptive import respond_accurately
 from physics.response.march import respond
 from physics.response.modal_case import Kept
-from physics.response.stability import longest_stable_step
+from physics.response.stability import longest_stable_step, stable_substeps
 from physics.scene import Scene
-from physics.simulate import stable_substeps
 from physics.statics.load_distribution import equilibrium
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import socket
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -28,6 +28,16 @@ def write_atomically(path: Path, data: bytes | memoryview) -> None:
         temporary.unlink(missing_ok=True)
         raise
     _sync_folder(path.parent)
+
+
+def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            write_atomically(folder / name, content)
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
 
 
 def _sync_folder(folder: Path) -> None:

@@ -30,15 +30,15 @@ def size_report_png(scores: SizeScores) -> bytes:
     if scores.summary is None:
         return b""
     with house_style():
-        figure = draw_size_report(scores)
+        figure = draw_size_report(scores, scores.summary)
         figure.savefig(picture, dpi=130, format="png")
         plt.close(figure)
     return picture.getvalue()
 
 
-def draw_size_report(scores: SizeScores) -> Figure:
-    """The figure of a corpus scored against a known truth."""
-    dependences = {name: rows for name, rows in (scores.summary or {})["by"].items() if name != "size, mm"}
+def draw_size_report(scores: SizeScores, summary: dict[str, Any]) -> Figure:
+    """The figure of a corpus scored against a known truth, and of the `summary` of its scores."""
+    dependences = {name: rows for name, rows in summary["by"].items() if name != "size, mm"}
     figure, axes = plt.subplots(4, 3, figsize=(11.5, 13.0), layout="constrained")
     panels = axes.ravel()
     told = [one for one in scores.records if one.known_truth and one.scorable and one.found]

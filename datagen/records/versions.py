@@ -28,6 +28,7 @@ def program_versions() -> dict[str, str]:
     return {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}", **packages}
 
 
+@cache
 def _version(package: str) -> str:
     try:
         return version(package)

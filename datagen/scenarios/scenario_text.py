@@ -141,7 +141,7 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         "second_cage": scene.second_cage
         and {"start_angle": scene.second_cage.start_angle} | _slip(scene.second_cage, scenario),
         "defects": [_defect(spall) for spall in scene.spalls],
-        "waviness": [asdict(wave) for wave in scene.imperfections.waviness],
+        "waviness": [vars(wave) for wave in scene.imperfections.waviness],
         "ball_deviation": [list(row) for row in scene.imperfections.ball_deviation],
         "chain": chain_data(scenario.chain),
         "background": background_data(scenario),

@@ -6,8 +6,7 @@ import csv
 import io
 from pathlib import Path
 
-from datagen.corpora.atomic import write_atomically
-from datagen.errors import BadInput
+from datagen.corpora.atomic import write_results
 from datagen.plain import plain_json
 from datagen.sizing.score import SizeScores
 
@@ -24,12 +23,7 @@ def write_report(scores: SizeScores, folder: Path) -> None:
         from datagen.drawing.size_report import size_report_png
 
         files["size_report.png"] = size_report_png(scores)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            write_atomically(folder / name, content)
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
+    write_results(folder, files)
 
 
 def estimates_csv(scores: SizeScores) -> str:

@@ -175,6 +175,12 @@ def law_power(law: Law, compression: float) -> float:
 
 
 @njit_inline
+def law_force(law: Law, compression: float, rate: float) -> float:
+    """What the contact law gives, N, for a compression (m) and its rate (m/s), touching or not; it may pull."""
+    return law.stiffness * max(compression, 0.0) * law_power(law, compression) + law.damping * rate
+
+
+@njit_inline
 def press(contacts: Contacts, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
     """Net force (N) of the contact set along x and y, pushing the outer ring [P14 Eq. 8, 10].
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.contact_set import touches
-from physics.contact.forces import ACTIVE, Contacts, compression_of, law_power, of_ball, press, set_time
+from physics.contact.forces import ACTIVE, Contacts, compression_of, law_force, of_ball, press, set_time
 from physics.motion import MotionModel, outer_load, relative_acceleration
 
 Array = NDArray[np.float64]
@@ -75,8 +75,7 @@ def contact_condition(contacts: Contacts, way: Way, ball: int, share: float) -> 
     compression, rate = compression_of(contacts, ball, way.time + share * step, x, y, u / step, v / step)
     if law.no_tension:
         # Compression (m) is brought to the scale of a force so that one number carries both conditions.
-        force = law.stiffness * max(compression, 0.0) * law_power(law, compression) + law.damping * rate
-        return min(law.stiffness * 1e-3 * compression, force), 0.0, rate
+        return min(law.stiffness * 1e-3 * compression, law_force(law, compression, rate)), 0.0, rate
     return compression, rate * step, rate
 
 

@@ -19,7 +19,8 @@ LARGEST_ACCELERATION = 1e12
 # Entries of the tally: contact changes logged, changes left unlocated, steps.
 LOGGED, UNLOCATED, STEPS = range(3)
 TALLY_ENTRIES = 3
-# Entries of `touched`: how long balls were in contact and in tension, summed over the balls, in one unit or another.
+# Entries of `touched`: how long balls were in contact and in tension, summed over the balls; in seconds, or in samples
+# where a method looks at samples alone. Only the share of one in the other is used.
 HELD, PULLED = range(2)
 
 

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_lean
 from physics.assembly import assemble, ball_numbers
-from physics.contact.forces import FORCE, Contacts, of_ball, set_time
-from physics.motion import MotionModel, motion_model, outer_load
+from physics.contact.forces import FORCE, Contacts, of_ball
+from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
-from physics.statics.stiffness import expected, settle
+from physics.statics.stiffness import expected, rest_at
 
 Array = NDArray[np.float64]
 
@@ -38,8 +38,6 @@ def _follow(
 ) -> None:
     """Fill `load` (K,), N in radial direction, along the way of the shaft, `place` (K, 2), m."""
     for k in range(time.size):
-        set_time(contacts, time[k])
         x, y = expected(place, k, 1)
-        load_x, load_y = outer_load(motion, time[k])
-        place[k, 0], place[k, 1], _ = settle(contacts, load_x, load_y, x, y, TOLERANCE)
+        place[k, 0], place[k, 1], _ = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
         load[k] = of_ball(contacts.balls, FORCE, ball[k])

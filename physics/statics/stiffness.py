@@ -42,15 +42,23 @@ def _follow(
 ) -> None:
     """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m."""
     for k in range(time.size):
-        set_time(contacts, time[k])
         x, y = expected(place, k, 1)
-        load_x, load_y = outer_load(motion, time[k])
-        place[k, 0], place[k, 1], hold = settle(contacts, load_x, load_y, x, y, tolerance)
+        place[k, 0], place[k, 1], hold = rest_at(contacts, motion, time[k], x, y, tolerance)
         stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
 
 
 @njit_inline
-def settle(
+def rest_at(
+    contacts: Contacts, motion: MotionModel, time: float, x: float, y: float, tolerance: float
+) -> tuple[float, float, Hold]:
+    """Where the shaft rests (m, m) at `time` (s), looked for from the place (x, y) expected, and what holds there."""
+    set_time(contacts, time)
+    load_x, load_y = outer_load(motion, time)
+    return _settle(contacts, load_x, load_y, x, y, tolerance)
+
+
+@njit_inline
+def _settle(
     contacts: Contacts, load_x: float, load_y: float, x: float, y: float, tolerance: float
 ) -> tuple[float, float, Hold]:
     """Where the shaft rests (m, m) under the load (N, N), looked for from the place expected, and what holds there.

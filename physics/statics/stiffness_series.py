@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
-from physics.contact.forces import FORCE, Contacts, set_time
+from physics.contact.forces import FORCE, Contacts
 from physics.contact.track import ANGLE, CAGE, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, cage_at
-from physics.motion import MotionModel, motion_model, outer_load
+from physics.motion import MotionModel, motion_model
 from physics.paths.profile import is_rough
 from physics.scene import Scene
-from physics.statics.stiffness import expected, settle, stiffness_trace
+from physics.statics.stiffness import expected, rest_at, stiffness_trace
 
 Array = NDArray[np.float64]
 
@@ -104,9 +104,7 @@ def _fill(contacts: Contacts, motion: MotionModel, time: Array, stride: int, ser
 @njit_inner
 def _solve(contacts: Contacts, motion: MotionModel, time: Array, series: Array, k: int, x: float, y: float) -> None:
     """Row `k` of the series, looked for from the place (x, y), m."""
-    set_time(contacts, time[k])
-    load_x, load_y = outer_load(motion, time[k])
-    series[k, PLACE_X], series[k, PLACE_Y], hold = settle(contacts, load_x, load_y, x, y, TOLERANCE)
+    series[k, PLACE_X], series[k, PLACE_Y], hold = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
     series[k, XX], series[k, YY], series[k, XY] = hold.xx, hold.yy, hold.xy
     series[k, MARK] = _mark(contacts, time[k])
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner
-from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_force
 from physics.contact.track import (
     CAGE,
     CELL,
@@ -100,7 +100,7 @@ def _first_contradiction(
         touching = compression > 0.0
         if law.no_tension and touching:
             rate = ((3.0 * c3 * share + 2.0 * c2) * share + begin_rate - slope * travel) / step
-            touching = law.stiffness * compression * law_power(law, compression) + law.damping * rate > 0.0
+            touching = law_force(law, compression, rate) > 0.0
         if touching != held:
             return share
     return 0.0

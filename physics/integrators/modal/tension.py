@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inner, njit_pasted
-from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FORCE, Contacts, Law
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FORCE, Contacts, Law, law_force
 from physics.integrators.modal.memory import PULLING, Memory
 from physics.integrators.output import HELD, PULLED, Output
 
@@ -38,7 +38,7 @@ def pulled_share(balls: Array, law: Law, noted: Array, step: float) -> float:
         for j in range(balls.shape[2]):
             if balls[cage, ACTIVE, j] < 0.5:
                 continue
-            starts = force_of(law, noted[cage, 0, j], noted[cage, 1, j]) < 0.0
+            starts = law_force(law, noted[cage, 0, j], noted[cage, 1, j]) < 0.0
             ends = balls[cage, FORCE, j] < 0.0
             if starts and ends:
                 total += 1.0
@@ -66,17 +66,8 @@ def sign_change(
         share = 0.5 * (low + high)
         compression = first + share * (begin + share * (square + share * cube))
         rate = (begin + share * (2.0 * square + share * 3.0 * cube)) / step
-        if (force_of(law, compression, rate) < 0.0) == starts:
+        if (law_force(law, compression, rate) < 0.0) == starts:
             low = share
         else:
             high = share
     return 0.5 * (low + high)
-
-
-@njit_inner
-def force_of(law: Law, compression: float, rate: float) -> float:
-    """What the paper's law gives, N, for a compression (m) and its rate (m/s)."""
-    force = law.damping * rate
-    if compression > 0.0:
-        force += law.stiffness * compression**law.exponent
-    return force

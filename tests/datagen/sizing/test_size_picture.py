@@ -17,7 +17,8 @@ from datagen.sizing.summary import summarise
 
 def drawn(records: list[ScoredRecord]) -> Figure:
     with house_style():
-        figure = draw_size_report(SizeScores("x", "spallgen", "all", True, records, summarise(records, True), []))
+        summary = summarise(records, True)
+        figure = draw_size_report(SizeScores("x", "spallgen", "all", True, records, summary, []), summary)
         figure.canvas.draw()
     return figure
 

@@ -5,24 +5,12 @@ import math
 
 import numpy as np
 import pytest
+from at_rest import LINE, SOLVED, START, angles
 from scipy.optimize import brentq
 
 from physics.imperfections import Imperfections
 from physics.outcome import StaticOutcome
-from physics.spall import Spall
 from physics.statics.load_distribution import OUTCOMES, equilibrium, load_vector
-
-BOTTOM = math.radians(270.0)
-START = np.zeros(1)
-LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
-SOLVED = 1e-9  # the solver stops at 1e-11 of the load, or where rounding of micrometres stops it
-
-
-def angles(scene, time):
-    """φ of every ball, (T, rows, balls)."""
-    bearing = scene.rig.bearing
-    within = np.arange(bearing.rows)[:, None] * bearing.stagger + np.arange(bearing.balls) * bearing.spacing
-    return scene.cage.angle(time)[:, None, None] + within
 
 
 def loads_of(scene, time=START):

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from at_rest import BOTTOM, LINE, SOLVED, START, angles
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kernels import elastic, set_time
@@ -16,18 +17,6 @@ from physics.imperfections import Imperfections
 from physics.outcome import StaticOutcome
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium, load_vector
-
-BOTTOM = math.radians(270.0)
-START = np.zeros(1)
-LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
-SOLVED = 1e-9  # the solver stops at 1e-11 of the load, or where rounding of micrometres stops it
-
-
-def angles(scene, time):
-    """φ of every ball, (T, rows, balls)."""
-    bearing = scene.rig.bearing
-    within = np.arange(bearing.rows)[:, None] * bearing.stagger + np.arange(bearing.balls) * bearing.spacing
-    return scene.cage.angle(time)[:, None, None] + within
 
 
 def net_force(scene, time, ball_load):

@@ -1,0 +1,100 @@
+"""A response by a method of fixed steps: as many a sample as are stable, resolve the modes and keep an accuracy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.integrators.methods import METHODS
+from physics.integrators.output import Grid
+from physics.integrators.propagator import reach
+from physics.motion import motion_model, starting_state
+from physics.response.march import respond
+from physics.response.modal_case import Kept
+from physics.response.stability import require_stable, stable_substeps
+from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium
+from physics.trace import Trace
+
+Array = NDArray[np.float64]
+
+STEPS_PER_FAST_PERIOD = 6.2
+PILOT_PASSES = 3.0
+# A pilot of a scene that turns with the shaft has to see it come round twice.
+PILOT_TURNS = 2.2
+SHORTEST_PILOT = 2048
+MOST_SUBSTEPS = 32
+# On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
+PILOT_ORDER = 2.0
+
+
+def respond_by_fixed_steps(
+    scene: Scene,
+    rest: Equilibrium,
+    rate: float,
+    samples: int,
+    method: str,
+    substeps: int | None,
+    accuracy: float | None,
+    kept: Kept,
+) -> Trace:
+    """Trace of `scene` at k / rate from its `rest` at t = 0 by `substeps` steps a sample of `method`.
+
+    None starts from the fewest that are stable and resolve the fastest mode, and doubles them until a pilot of a few
+    ball passes keeps the `accuracy`, or MOST_SUBSTEPS are reached. Without an accuracy there is no pilot, and no
+    estimate of the error. Raises SimulationFailed for steps that are not stable.
+    """
+    start = starting_state(motion_model(scene), rest.displacement[0])
+    least = stable_substeps(scene, METHODS[method], rest, rate)
+    steps = substeps or max(default_substeps(scene, rate), least)
+    require_stable(METHODS[method], rate, steps, least)
+    error = math.nan
+    if accuracy is not None:
+        most = steps if substeps else max(MOST_SUBSTEPS, steps)
+        steps, error = _pilot(scene, start, rate, method, steps, most, accuracy)
+    grid = Grid(samples, steps, 1.0 / (rate * steps))
+    trace = respond(scene, start, grid, method, keep_state=kept.state, keep_force=kept.force, keep_outer=kept.outer)
+    return replace(trace, error_estimate=error)
+
+
+def default_substeps(scene: Scene, rate: float) -> int:
+    """Fewest steps a sample that give the fastest linear mode about six steps a period."""
+    per_step = reach(motion_model(scene), 1.0 / rate)
+    return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
+
+
+def _pilot(
+    scene: Scene, start: Array, rate: float, method: str, steps: int, most: int, accuracy: float
+) -> tuple[int, float]:
+    """Steps a sample (up to `most`) that meet `accuracy` over the scene's first passes, and their estimated error."""
+    samples = min(round(scene.duration * rate), max(SHORTEST_PILOT, math.ceil(_pilot_duration(scene) * rate)))
+
+    def response(steps: int) -> Array:
+        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method).acceleration
+
+    coarse, fine = response(steps), response(2 * steps)
+    error = _relative_error(coarse, fine)
+    while error > accuracy and 2 * steps <= most:
+        steps *= 2
+        coarse, fine = fine, response(2 * steps)
+        error = _relative_error(coarse, fine)
+    return steps, error
+
+
+def _pilot_duration(scene: Scene) -> float:
+    passes = PILOT_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
+    turns = PILOT_TURNS * 2.0 * math.pi / scene.operation.shaft_speed
+    run = scene.operation
+    turning = scene.defective_race == "inner" or run.unbalance_force > 0.0 or run.load_fluctuation > 0.0
+    return max(passes, turns) if turning else passes
+
+
+def _relative_error(coarse: Array, fine: Array) -> float:
+    """Estimated RMS error of `coarse`, relative to its RMS, from a response at half the step."""
+    size = np.sqrt(np.mean(fine**2))
+    if size == 0.0:
+        return 0.0
+    return float(np.sqrt(np.mean((coarse - fine) ** 2)) / size / (1.0 - 2.0**-PILOT_ORDER))

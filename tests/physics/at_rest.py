@@ -1,0 +1,19 @@
+"""What the tests of a bearing at rest share: an instant, a line spall at the bottom, where balls are."""
+
+import math
+
+import numpy as np
+
+from physics.spall import Spall
+
+BOTTOM = math.radians(270.0)
+START = np.zeros(1)
+LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
+SOLVED = 1e-9  # the solver stops at 1e-11 of the load, or where rounding of micrometres stops it
+
+
+def angles(scene, time):
+    """φ of every ball, (T, rows, balls)."""
+    bearing = scene.rig.bearing
+    within = np.arange(bearing.rows)[:, None] * bearing.stagger + np.arange(bearing.balls) * bearing.spacing
+    return scene.cage.angle(time)[:, None, None] + within

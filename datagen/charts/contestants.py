@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from physics.integrators.general_purpose import (
     CONTACT_KERNEL,
     PAIRS,
     absolute_tolerance,
+    c_right_hand_side,
     integrate_compiled,
     right_hand_side,
 )
@@ -44,6 +46,8 @@ ACCURACIES: tuple[float, ...] = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 TOLERANCES: tuple[float, ...] = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SCIPY_TOLERANCES: tuple[float, ...] = (1e-5, 1e-7)
 SCIPY_SOLVERS = ("RK45", "DOP853", "LSODA", "Radau")
+NUMBALSODA: Mapping[str, str] = {"LSODA": "lsoda", "DOP853": "dop853"}
+MOST_STEPS_A_SAMPLE = 100_000
 QUICK = 2
 
 
@@ -76,6 +80,8 @@ def contestants(scene: Scene, quick: bool) -> list[Contestant]:
     found += [_model(name) for name in SIMPLER_MODELS]
     for kind in (BALL_BY_BALL, CONTACT_KERNEL):
         found += [_compiled(pair, kind, tolerance) for pair in PAIRS for tolerance in TOLERANCES[kept]]
+        if find_spec("numbalsoda"):
+            found += [_numbalsoda(name, kind, tolerance) for name in NUMBALSODA for tolerance in TOLERANCES[kept]]
         solvers = SCIPY_SOLVERS[:2] if quick else SCIPY_SOLVERS
         found += [_scipy(solver, kind, tolerance) for solver in solvers for tolerance in SCIPY_TOLERANCES[kept]]
     return found
@@ -118,6 +124,22 @@ def _compiled(pair: str, kind: str, tolerance: float) -> Contestant:
         return integrate_compiled(scene, pair, kind, start_of(scene), rate, samples, tolerance)[0]
 
     return Contestant(COMPILED, f"compiled {pair}, {kind}", f"tolerance {tolerance:g}", run, _of_states)
+
+
+def _numbalsoda(solver: str, kind: str, tolerance: float) -> Contestant:
+    import numbalsoda
+
+    solve = NUMBALSODA[solver]
+
+    def run(scene: Scene, rate: float) -> Raw:
+        start, time = start_of(scene), np.arange(round(scene.duration * rate)) / rate
+        slopes = c_right_hand_side(scene, kind, start)
+        deviation, done = getattr(numbalsoda, solve)(
+            slopes.address, np.zeros(12), time, slopes.data, tolerance, tolerance, MOST_STEPS_A_SAMPLE
+        )
+        return start + slopes.data[12:24] * deviation if done else np.full((time.size, 12), np.nan)
+
+    return Contestant(COMPILED, f"numbalsoda {solver}, {kind}", f"tolerance {tolerance:g}", run, _of_states)
 
 
 def _scipy(solver: str, kind: str, tolerance: float) -> Contestant:

@@ -20,6 +20,8 @@ WIDTH, HEIGHT, DPI = 9.2, 6.4, 110
 METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
 MODEL_MARKERS = ("*", "P", "X", "D")
 RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": PURPLE}
+# On the contact kernel and ball by ball.
+RIVAL_STYLES = {"compiled": ("-", "-"), "numbalsoda": ("-.", "-."), "SciPy": ("--", ":")}
 WORST_SHOWN, BEST_SHOWN = 8.0, 1e-7
 EDGE_ROW = 0.03  # of the height of the panel of errors
 
@@ -96,7 +98,7 @@ def _draw(axes: Axes, chart: Chart, name: str, methods: list[str], models: list[
         axes.plot(speed, error, marker, markersize=8, color=INK, alpha=0.75, zorder=3, label=f"model: {name}")
     else:
         solver = name.split(",")[0].split()[-1]
-        style = (":" if BALL_BY_BALL in name else "--") if name.startswith("SciPy") else "-"
+        style = RIVAL_STYLES[name.split()[0]][BALL_BY_BALL in name]
         marker = "s" if BALL_BY_BALL in name else "^"
         axes.plot(
             speed, error, marker=marker, linestyle=style, color=RIVAL_COLOURS[solver], markersize=3.5, linewidth=0.9,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import DOP853, RK45
 
-from physics._jit import njit, specialise
+from physics._jit import CCallback, c_callback, njit, specialise
 from physics.assembly import assemble
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import Contacts, set_time
@@ -173,6 +173,13 @@ def right_hand_side(scene: Scene, kind: str) -> tuple[Callable[..., Array], Equa
     if kind == BALL_BY_BALL:
         return _SLOPES[kind], write_equations(scene)
     return _SLOPES[kind], Kernel(assemble(scene), motion_model(scene))
+
+
+def c_right_hand_side(scene: Scene, kind: str, start: Array) -> CCallback:
+    """The right-hand side of `kind` as a C function, of the deviation from the `start` (12,) over typical ones."""
+    callback = c_callback(*right_hand_side(scene, kind), start.size)
+    callback.data[:12], callback.data[12:24] = start, absolute_tolerance(scene, 1.0)
+    return callback
 
 
 def absolute_tolerance(scene: Scene, tolerance: float) -> Array:

@@ -153,6 +153,26 @@ def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(p
     assert not np.array_equal(loose, states)
 
 
+@pytest.mark.parametrize("kind_of_slope", [BALL_BY_BALL, CONTACT_KERNEL])
+@pytest.mark.parametrize("solver", entrants.NUMBALSODA)
+def test_numbalsoda_reaches_the_same_response_where_it_is_installed(solver, kind_of_slope):
+    pytest.importorskip("numbalsoda", reason="numbalsoda needs a Fortran compiler to install")
+    scene = reference_scene("F1", 0.03)
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False)
+    name = f"numbalsoda {solver}, {kind_of_slope}"
+    finest = [one for one in entrants.contestants(scene, quick=False) if one.name == name][-1]
+    found = finest.read(scene, RATE, finest.run(scene, RATE))
+    size = np.sqrt(np.mean(exact.acceleration**2))
+    assert np.sqrt(np.mean((found.acceleration - exact.acceleration) ** 2)) < 1e-3 * size  # steps over jumps of force
+
+
+def test_numbalsoda_takes_part_only_where_it_is_installed(monkeypatch):
+    monkeypatch.setattr(entrants, "find_spec", lambda name: None)
+    names = {one.name for one in entrants.contestants(reference_scene("F1", 0.03), quick=True)}
+    assert not any("numbalsoda" in name for name in names)
+    assert f"compiled DOP853, {CONTACT_KERNEL}" in names
+
+
 def test_speed_at_an_error_is_read_between_runs_on_logarithms():
     def made(error, speed):
         scored = Score(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0)

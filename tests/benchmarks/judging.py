@@ -1,0 +1,128 @@
+"""How fast records are judged: features and verdicts of `classify`, and the estimates of `size`.
+
+python tests/benchmarks/judging.py [--records 1000] [--sizes 40] [--workers 2] writes docs/judging.json and the table of
+docs/pipeline.md: wall clock on a machine that does nothing else, corpora made beforehand and learners trained.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from datagen.benchmark.rows import Reading, read_rows
+from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, SPEED_ERROR, train_models, train_rule, training_set
+from datagen.benchmark.verdicts import judge
+from datagen.corpus import Corpus
+from datagen.recipes.recipe import load_recipe
+from datagen.runs.generate import generate
+from datagen.sizing.estimators import default_estimator
+from datagen.sizing.sized_records import sized_records
+
+ROOT = Path(__file__).resolve().parents[2]
+BEGIN, END = "<!-- judging: begin (written by tests/benchmarks/judging.py) -->", "<!-- judging: end -->"
+LEARNED_FROM = 160
+TRAINING = Reading(speed_error=SPEED_ERROR, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB)
+
+
+def made(name: str, folder: Path, records: list[int]) -> Path:
+    """A corpus of these records of the dataset `name`."""
+    generate(load_recipe(ROOT / "datasets" / name), folder, records=records)
+    return folder
+
+
+def spread(name: str, count: int) -> list[int]:
+    """So many records all over the dataset `name`, of all its parts."""
+    return np.linspace(0, load_recipe(ROOT / "datasets" / name).count - 1, count).round().astype(int).tolist()
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Wall-clock seconds of the work."""
+    begin = time.perf_counter()
+    work()
+    return time.perf_counter() - begin
+
+
+def classifying(scratch: Path, records: int, workers: int) -> dict[str, float]:
+    """Seconds that features and verdicts of `records` of `corpus` take, of one second and two axes each."""
+    training = made("transfer", scratch / "transfer", list(range(LEARNED_FROM)))
+    labels = Corpus(training).labels
+    learned = training_set(training, labels, TRAINING, workers)
+    rule, models = train_rule(learned), train_models(learned, "all")
+    folder = made("corpus", scratch / "corpus", spread("corpus", records))
+    tested = Corpus(folder).labels
+    own = tested["record"].to_numpy(np.int64)
+    read_rows(folder, own[:48], Reading(), workers)  # what is loaded at first use is there
+    found = {}
+
+    def features() -> None:
+        found["rows"] = read_rows(folder, own, Reading(), workers)
+
+    spent = seconds(features)
+    verdicts = seconds(lambda: judge(folder, tested, found["rows"], rule, models, 0.0, False))
+    return {"features_s": spent, "verdicts_s": verdicts}
+
+
+def sizing(scratch: Path, records: int) -> dict[str, float]:
+    """Median and largest seconds an estimate of a record of `size_ladder` takes, one process, reading not included."""
+    folder = made("size_ladder", scratch / "size_ladder", spread("size_ladder", records))
+    estimator = default_estimator()
+    asked = list(sized_records(folder, load_known=True))
+    estimator.estimate(asked[0].acceleration, asked[0].rate, asked[0].situation)
+    spent = [seconds(lambda: estimator.estimate(one.acceleration, one.rate, one.situation)) for one in asked]  # noqa: B023
+    return {"median_s": statistics.median(spent), "longest_s": max(spent), "records": len(asked)}
+
+
+def page(found: dict[str, dict[str, float]], records: int, workers: int, machine: str) -> str:
+    """The table, as Markdown."""
+    classified, sized = found["classify"], found["size"]
+    return "\n".join(
+        [
+            "| what | seconds |",
+            "|---|---|",
+            f"| features of {records} records of 1 s, two axes, {workers} workers | {classified['features_s']:.1f} |",
+            f"| verdicts on them by the rule and all three learners | {classified['verdicts_s']:.1f} |",
+            f"| size of the spall in one record of 1 s at 65 536 Hz, median of {sized['records']:.0f} | "
+            f"{sized['median_s']:.2f} |",
+            f"| the longest of them | {sized['longest_s']:.2f} |",
+            "",
+            f"Wall clock. Measured on {machine}.",
+        ]
+    )
+
+
+def main() -> None:
+    """Measure, and write both files."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--records", type=int, default=1000)
+    parser.add_argument("--sizes", type=int, default=40)
+    parser.add_argument("--workers", type=int, default=2)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="spallgen-judging-") as name:
+        scratch = Path(name)
+        found = {
+            "classify": classifying(scratch, options.records, options.workers),
+            "size": sizing(scratch, options.sizes),
+        }
+    versions = {name: version(name) for name in ("numpy", "scipy", "scikit-learn", "numba")}
+    machine = f"{platform.machine()}, {platform.system()}, " + ", ".join(f"{k} {v}" for k, v in versions.items())
+    facts = {"records": options.records, "workers": options.workers, "machine": machine, **found}
+    (ROOT / "docs" / "judging.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+    target = ROOT / "docs" / "pipeline.md"
+    text = target.read_text(encoding="utf-8")
+    head, tail = text[: text.index(BEGIN)], text[text.index(END) :]
+    table = page(found, options.records, options.workers, machine)
+    target.write_text(f"{head}{BEGIN}\n{table}\n{tail}", encoding="utf-8")
+    print(table)
+
+
+if __name__ == "__main__":
+    main()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# A response that makes more of the errors of its steps than this is chaotic: no trajectory converges.
+# A response that makes more of the errors of its steps than this may be chaotic: no trajectory converges.
 CHAOTIC = 50.0
 
 
@@ -64,5 +64,5 @@ class Trace:
 
     @property
     def chaotic(self) -> bool:
-        """Whether bouncing balls make more of any error than shorter steps can mend: judge spectra, not points."""
-        return self.sensitivity > CHAOTIC
+        """Whether bouncing balls make more of any error than shorter steps could mend: judge spectra, not points."""
+        return self.sensitivity > CHAOTIC and self.error_estimate >= 1.0

@@ -35,6 +35,9 @@ AIM, MARGIN = 0.1, 0.75
 # A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where contacts may
 # make errors grow: it is made again with this share of the tolerance, and what both are apart tells.
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
+# Of a response that is twice farther than this share of its size from a coarser one no point is known; no more than so
+# many are made to confirm it.
+LOST, MOST_CONFIRMATIONS = 0.1, 4
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -64,34 +67,39 @@ def respond_accurately(
 
     `least` (m/s², RMS) is an error that is always allowed. `go_on` may end a march before all samples. A coarse
     `pilot` of some samples and the beginning of the response say how large the signal is and how much this scene makes
-    of the errors of its steps; where that is much, a finer response says it again. Raises SimulationFailed if the
-    response stops being finite, contact changes more often than can be logged, or steps become too many.
+    of the errors of its steps; where that is much, a finer response says it again. A response that no finer one
+    confirms is chaotic: two are as far apart as two records of the same machine, and the estimate is 1. Raises
+    SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps become
+    too many.
     """
     case = case_of(scene, start, rate)
     march = March(case, samples, kept)
     seen, sensitivity = _beginning(march, pilot, accuracy, least)
-    output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, sensitivity)
-    if (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) < sensitivity <= CHAOTIC:
+    tame = 1.0 if sensitivity > CHAOTIC else _tame(sensitivity)
+    output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, tame)
+    if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL):
         again = March(case, samples, kept)
         output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, sensitivity)
     marched = output.acceleration.shape[0]
     trace = trace_of(scene, Grid(marched, 1, grid.interval), output, MODAL)
     step = (marched - 1) * grid.interval / max(1, int(output.tally[STEPS]))
-    # Of a chaotic response no point is known: two such traces are as far apart as two records of the same machine.
-    relative = 1.0 if sensitivity > CHAOTIC else error / size if size > 0.0 else 0.0
-    return replace(trace, step=step, error_estimate=relative, sensitivity=sensitivity)
+    return replace(trace, step=step, error_estimate=error / size if size > 0.0 else 0.0, sensitivity=sensitivity)
+
+
+def _tame(sensitivity: float) -> float:
+    """How many times more exact the steps of a scene have to be than those of one that makes nothing of errors."""
+    return max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
 
 
 def _to_accuracy(
-    march: March, go_on: GoOn, accuracy: float, least: float, seen: float, sensitivity: float
+    march: March, go_on: GoOn, accuracy: float, least: float, seen: float, tame: float
 ) -> tuple[Output, Stride, float, float]:
     """The response with an estimated error (m/s², RMS) within the accuracy, the grid that gave it, that error, and the
     response's own RMS (m/s²).
 
-    The first attempt goes on with the `march` that has begun, unless the scene makes much of errors; more begin anew.
+    The first attempt goes on with the `march` that has begun, unless steps are to be more exact; more begin anew.
     """
     case, samples = march.case, march.samples
-    tame = 1.0 if sensitivity > CHAOTIC else max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
     aim, error = AIM / tame, math.inf
     for attempt in range(MOST_ATTEMPTS):
         if attempt > 0 or tame > CALM:
@@ -114,18 +122,54 @@ def _made_sure(
     """The response made again by a fresh `march` on a finer grid than the `output`'s; its estimated error and its own
     RMS (m/s²), and the sensitivity that both tell.
 
-    Once more, to that sensitivity, if that is not within the accuracy.
+    Once more, to that sensitivity, if that is not within the accuracy; and where that is CHAOTIC, until another one
+    confirms it.
     """
     case = march.case
-    finer = go_on(march, grid._replace(share=FINER * grid.share, least=FINER * grid.least))
-    both = min(output.acceleration.shape[0], finer.acceleration.shape[0])
-    apart, pushed = rms(output.acceleration[:both] - finer.acceleration[:both]), case.pushed(output)
-    sensitivity = max(sensitivity, apart / pushed if pushed > 0.0 else 0.0)
+    finer = go_on(march, _finer(grid))
+    sensitivity = max(sensitivity, _shown(case, output, finer))
     error, size = SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
-    if error > max(accuracy * size, least) and sensitivity <= CHAOTIC:
-        again = March(case, march.samples, march.kept)
-        finer, _, error, size = _to_accuracy(again, go_on, accuracy, least, size**2, sensitivity)
-    return finer, error, size, sensitivity
+    if sensitivity <= CHAOTIC and error <= max(accuracy * size, least):
+        return finer, error, size, sensitivity
+    fresh = March(case, march.samples, march.kept)
+    exact, grid, error, size = _to_accuracy(fresh, go_on, accuracy, least, size**2, _tame(sensitivity))
+    if sensitivity > CHAOTIC:
+        exact, error, size = _confirmed(fresh, go_on, accuracy, least, exact, grid)
+    return exact, error, size, sensitivity
+
+
+def _confirmed(
+    march: March, go_on: GoOn, accuracy: float, least: float, output: Output, grid: Stride
+) -> tuple[Output, float, float]:
+    """A response finer than the `output` of a `march`, that is within the accuracy of the one before; how far these two
+    are apart, and its RMS (m/s²).
+
+    Where even the finest is LOST, its error is its size.
+    """
+    for attempt in range(MOST_CONFIRMATIONS):
+        grid = _finer(grid)
+        finer = go_on(March(march.case, march.samples, march.kept), grid)
+        apart, size = _apart(output, finer), rms(finer.acceleration)
+        if apart <= max(accuracy * size, least) or (attempt > 0 and apart > LOST * size):
+            break
+        output = finer
+    return finer, max(apart, size) if apart > LOST * size else apart, size
+
+
+def _finer(grid: Stride) -> Stride:
+    return grid._replace(share=FINER * grid.share, least=FINER * grid.least)
+
+
+def _shown(case: Case, coarse: Output, fine: Output) -> float:
+    """How many times the errors of its steps the `coarse` response is apart from the `fine` one."""
+    pushed = case.pushed(coarse)
+    return _apart(coarse, fine) / pushed if pushed > 0.0 else 0.0
+
+
+def _apart(one: Output, other: Output) -> float:
+    """How far two responses are apart (m/s², RMS), as long as both last."""
+    both = min(one.acceleration.shape[0], other.acceleration.shape[0])
+    return rms(one.acceleration[:both] - other.acceleration[:both])
 
 
 def rms(values: Array) -> float:

@@ -19,6 +19,7 @@ from physics.integrators.modal.memory import (
     NEARLY,
     NO_BALL,
     ON_GRID,
+    ON_WAY,
     PACE,
     STOP,
     STRIDES,
@@ -86,9 +87,10 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choic
     unit, time = grid.interval / UNITS, clock[TIME]
     if marks[BALL] != NO_BALL:
         left = clock[LEFT]
-        length = left if left <= clock[GRADED] else 0.5 * left
+        length = min(left if left <= clock[GRADED] else 0.5 * left, clock[ON_WAY])
         units = int(length / unit + 0.5)
-        if marks[ON_GRID] == 1 and units > 0 and abs(left / unit - int(left / unit + 0.5)) < NEARLY:
+        whole = abs(left / unit - int(left / unit + 0.5)) < NEARLY and (units - NEARLY) * unit <= clock[ON_WAY]
+        if marks[ON_GRID] == 1 and units > 0 and whole:
             return Choice(units, units, time + units * unit, time + units * unit)
         return Choice(0, 0, time + length, time + length)
     level = stride_level(balls, grid, stops, memory)

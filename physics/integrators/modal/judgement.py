@@ -17,6 +17,7 @@ from physics.integrators.modal.memory import (
     GRADED,
     LEFT,
     ON_GRID,
+    ON_WAY,
     PACE,
     SHORTEST,
     SQUARES,
@@ -83,7 +84,7 @@ def meet_change(
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
     if losing and marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
         left = unit * max(1, int(left / unit + 0.5))
-    marks[BALL], clock[LEFT] = ball, left
+    marks[BALL], clock[LEFT], clock[ON_WAY] = ball, left, left
     if not losing:
         clock[PACE] = min(clock[PACE], clock[GRADED])
         clock[GRADED] = step
@@ -140,6 +141,19 @@ def carried_error(memory: Memory, step: float) -> float:
     The step does not miss it, so a smooth force is less wrong than this; a rough one is about as wrong.
     """
     return step * FOURTH_POWER_ERROR * (abs(memory.course[0, 4]) + abs(memory.course[1, 4]))
+
+
+@njit_inner
+def too_coarse(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
+    """Whether a step on the way to a change of contact, which no earlier one foretold, has to be taken back for one
+    half as long."""
+    if is_carried(memory, step) or not may_shrink(grid, step):
+        return False
+    error = resolution_error(contacts, memory.noted, memory.midway, step)
+    if error <= REJECTED * memory.clock[TOLERANCE]:
+        return False
+    memory.clock[ON_WAY] = 0.5 * step
+    return True
 
 
 @njit_pasted

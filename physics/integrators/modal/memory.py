@@ -22,9 +22,9 @@ NO_BALL = -1
 # Lengths that differ by less than this share of a unit are one.
 NEARLY = 1e-6
 # Entries of `clock`: time (s), longest next step (s), length of the step before (s, 0 if its past is of no use), what
-# is left to the contact change ahead (s), longest step next to it (s), tolerance (N s), sum of the squares of the
-# acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
-TIME, PACE, BEFORE, LEFT, GRADED, TOLERANCE, SQUARES, BUDGET = range(8)
+# is left to the contact change ahead (s), longest step next to it (s) and on the way to it (s), tolerance (N s), sum of
+# the squares of the acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
+TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(9)
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
 # of the contact change ahead, whether `time` is a whole number of units, balls that pull now.
 CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING = range(7)
@@ -92,6 +92,6 @@ def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shap
         past=np.zeros((2, 2)),
         noted=np.zeros((cages, 2, balls)),
         midway=np.zeros((cages, 2, balls)),
-        clock=np.zeros(8),
+        clock=np.zeros(9),
         marks=np.zeros(7, dtype=np.int64),
     )

@@ -46,7 +46,7 @@ def calibration(scores: dict[str, Any]) -> str:
 
 
 def without_odd(test: dict[str, Any], model: str) -> str:
-    """Balanced accuracy over outer and inner without the records that their publishers' readers call odd."""
+    """Balanced accuracy over outer and inner without the odd records, whose envelopes disagree with their label."""
     shares = []
     for race in ("outer", "inner"):
         own = [entry for entry in test["predictions"] if entry["truth"] == race and entry["recording"] not in ODD]

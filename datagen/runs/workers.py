@@ -163,7 +163,9 @@ def _dask_client(engine: Engine) -> Any:
         from distributed import Client
     except ImportError as problem:
         raise BadInput(
-            "Dask is not installed; install it with: pip install 'spallgen[dask]'", field="--backend", value="dask"
+            'Dask is not installed; install it in a checkout with: pip install -e ".[dask]"',
+            field="--backend",
+            value="dask",
         ) from problem
     # A default client would outlive its closing in Dask's configuration, and xarray would ask for it when writing.
     if engine.scheduler is None:

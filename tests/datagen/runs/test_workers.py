@@ -3,6 +3,7 @@ from __future__ import annotations
 import gc
 import os
 import socket
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -63,6 +64,12 @@ def test_an_exception_of_a_task_is_raised() -> None:
 def test_a_worker_that_dies_is_reported_as_lost() -> None:
     with pytest.raises(WorkerLost):
         results(Engine(workers=2), os._exit, [(3,)] * 4)
+
+
+def test_without_dask_the_message_says_how_a_checkout_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(BadInput, match=r'pip install -e "\.\[dask\]"'):
+        results(Engine(backend="dask"), pow, [(1, 1)])
 
 
 def test_a_task_that_never_ends_on_dask_is_reported_as_lost_after_its_time_limit() -> None:

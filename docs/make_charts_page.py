@@ -1,0 +1,130 @@
+"""Writes the tables of docs/charts/README.md from the JSON files beside it: python docs/make_charts_page.py."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+CHARTS = Path(__file__).with_name("charts")
+PAGE = CHARTS / "README.md"
+BEGIN, END = "<!-- {}: begin (written by docs/make_charts_page.py) -->", "<!-- {}: end -->"
+SCENES = ("G1", "F1", "G2", "F2", "G1_3x", "F1_3x", "G2_3x", "F2_3x")
+MARCHED, REPEATED, DEFAULT = "modal", "modal, repeated", 1e-3
+PACKAGES = ("numpy", "scipy", "numba", "numbalsoda")
+MODELS = ("impulse train", "quasi-static", "linear time-varying")
+Facts = dict[str, Any]
+
+
+def error(run: Facts) -> float:
+    """Relative RMS error of the acceleration of a run that was scored."""
+    return float(run["score"]["acceleration"])
+
+
+def asked(run: Facts) -> float:
+    """The accuracy that a run of the modal method was asked for."""
+    return float(run["setting"].split()[1])
+
+
+def runs_of(chart: Facts, name: str) -> list[Facts]:
+    """The scored runs of one contestant."""
+    return [run for run in chart["runs"] if run["name"] == name and run["score"] is not None]
+
+
+def at_accuracy(chart: Facts, name: str, accuracy: float) -> Facts | None:
+    """The run of a modal contestant that was asked for this accuracy."""
+    return next((run for run in runs_of(chart, name) if asked(run) == accuracy), None)
+
+
+def fastest(chart: Facts, group: str, equations: str) -> tuple[str, float] | None:
+    """Name and times real time at an error of 0.1 % of the fastest solver of a kind; None if none reaches it."""
+    names = {run["name"] for run in chart["runs"] if run["group"] == group and run["name"].endswith(equations)}
+    found = [(chart["best"][name], name) for name in names if chart["best"][name] is not None]
+    return (max(found)[1], max(found)[0]) if found else None
+
+
+def told(run: Facts | None) -> str:
+    """Speed and error of a run; a dash if there is none."""
+    return "–" if run is None else f"{run['real_time']:.0f} ({error(run):.1e})"
+
+
+def rival(found: tuple[str, float] | None, speed: float) -> str:
+    """A solver's speed, its name, and how many times slower it is than `speed`."""
+    if found is None:
+        return "–"
+    return f"{found[1]:.2g} ({found[0].split(',')[0]}): {speed / found[1]:.0f} times slower"
+
+
+def speeds(charts: dict[str, Facts]) -> list[str]:
+    """One row a scene: the default, its fastest accurate run, and the fastest rival of each kind."""
+    lines = [
+        "| scene | `modal`, 1e-3 asked: times real time (error) | its fastest run below 0.1 % | `modal, repeated`, "
+        "1e-3 asked | compiled solver, ball by ball | compiled solver, contact kernel | SciPy solver |",
+        "|---" * 7 + "|",
+    ]
+    for name, chart in charts.items():
+        default = at_accuracy(chart, MARCHED, DEFAULT)
+        assert default is not None
+        kinds = (("compiled solver", "ball by ball"), ("compiled solver", "contact kernel"), ("SciPy solver", ""))
+        cells = [told(default), told(fastest_run(chart)), told(at_accuracy(chart, REPEATED, DEFAULT))]
+        cells += [rival(fastest(chart, *kind), default["real_time"]) for kind in kinds]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    made = charts[SCENES[0]]["made_with"]
+    versions = ", ".join(f"{package} {made[package]}" for package in PACKAGES)
+    return [*lines, "", f"Measured on {made['machine']}, Python {made['python']}, {versions}."]
+
+
+def fastest_run(chart: Facts) -> Facts:
+    """The fastest run of the modal method with an error below 0.1 %, which is `best` in the JSON."""
+    return max((run for run in runs_of(chart, MARCHED) if error(run) <= DEFAULT), key=lambda run: run["real_time"])
+
+
+def accuracies(charts: dict[str, Facts]) -> list[str]:
+    """One row a scene: what a tenth of the error costs, what was missed, and how near any run is to the reference."""
+    lines = [
+        "| scene | speed lost from 1e-3 to 1e-4 asked | from 1e-4 to 1e-5 | accuracy missed | nearest run to the "
+        "reference |",
+        "|---" * 5 + "|",
+    ]
+    for name, chart in charts.items():
+        speed = {asked(run): run["real_time"] for run in runs_of(chart, MARCHED)}
+        lost = [f"{100.0 * (1.0 - speed[fine] / speed[coarse]):.0f} %" for coarse, fine in ((1e-3, 1e-4), (1e-4, 1e-5))]
+        nearest = min((run for run in chart["runs"] if run["score"] is not None), key=error)
+        near = f"{error(nearest):.1e} ({nearest['name']}, {nearest['setting']})"
+        lines.append(f"| {name} | {lost[0]} | {lost[1]} | {missed(chart)} | {near} |")
+    return lines
+
+
+def missed(chart: Facts) -> str:
+    """The runs of the modal method whose error is above what was asked for."""
+    late = [run for one in (MARCHED, REPEATED) for run in runs_of(chart, one) if error(run) > asked(run)]
+    return ", ".join(f"{run['name']}: {asked(run):g} asked, {error(run):.1e} got" for run in late) or "none"
+
+
+def simpler(charts: dict[str, Facts]) -> list[str]:
+    """One row a scene: speed and error of the simpler models beside the default."""
+    lines = [f"| scene | `modal`, 1e-3 asked | {' | '.join(MODELS)} |", "|---" * (2 + len(MODELS)) + "|"]
+    for name, chart in charts.items():
+        cells = [told(at_accuracy(chart, MARCHED, DEFAULT)), *(told(runs_of(chart, model)[0]) for model in MODELS)]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def replaced(page: str, name: str, lines: list[str]) -> str:
+    """The page with new lines between the marks of one table."""
+    begin, end = BEGIN.format(name), END.format(name)
+    head, rest = page.split(begin)
+    return f"{head}{begin}\n" + "\n".join(lines) + f"\n{end}" + rest.split(end)[1]
+
+
+def main() -> None:
+    """Write the tables."""
+    charts = {name: json.loads((CHARTS / f"{name}.json").read_text(encoding="utf-8")) for name in SCENES}
+    page = PAGE.read_text(encoding="utf-8")
+    for name, table in (("speeds", speeds), ("accuracies", accuracies), ("simpler models", simpler)):
+        page = replaced(page, name, table(charts))
+    PAGE.write_text(page, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -75,8 +75,9 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
         )
         heights = [line for line in heights if line[1] > limits[0]]
         axes.plot(
-            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour, label=name,
-            linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3, clip_on=False,
+            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour,
+            label=name if heights or number == 0 else None, linestyle="", markersize=6, markerfacecolor="none",
+            markeredgewidth=1.3, clip_on=False,
         )  # fmt: skip
     axes.set(
         xlim=(0.0, top),

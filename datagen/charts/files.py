@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Sequence
 from pathlib import Path
 
 from datagen.charts.measure import Chart
-from datagen.corpora.atomic import write_atomically
-from datagen.errors import BadInput
+from datagen.corpora.atomic import write_results
 from datagen.places import require_folder
 from datagen.plain import plain_json
 
@@ -33,21 +33,24 @@ COLUMNS = (
 def chart_folder(folder: Path) -> Path:
     """The folder to write into, made if need be; raises BadInput if that cannot be."""
     require_folder(folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise BadInput(f"cannot make this folder: {problem.strerror}", field="--out", value=str(folder)) from None
+    write_results(folder, {})
     return folder
 
 
-def write_files(folder: Path, name: str, picture: bytes, facts: object, table: str | None = None) -> list[Path]:
-    """Write NAME.png, NAME.json and, if there is a table, NAME.csv; gives their paths."""
-    contents = {".png": picture, ".json": plain_json(facts).encode()}
+def write_files(
+    folder: Path, name: str, pictures: bytes | Sequence[bytes], facts: object, table: str | None = None
+) -> list[Path]:
+    """Write NAME.png, of several pictures also NAME_2.png and so on, NAME.json and, if there is a table, NAME.csv.
+
+    Gives their paths; raises BadInput where they cannot be written, as on a full disk.
+    """
+    sheets = [pictures] if isinstance(pictures, bytes) else pictures
+    contents = {f"{name}.png" if k == 1 else f"{name}_{k}.png": sheet for k, sheet in enumerate(sheets, 1)}
+    contents[f"{name}.json"] = plain_json(facts).encode()
     if table is not None:
-        contents[".csv"] = table.encode()
-    for ending, content in contents.items():
-        write_atomically(folder / f"{name}{ending}", content)
-    return [folder / f"{name}{ending}" for ending in contents]
+        contents[f"{name}.csv"] = table.encode()
+    write_results(folder, contents)
+    return [folder / file for file in contents]
 
 
 def chart_table(chart: Chart) -> str:

@@ -1,17 +1,30 @@
-"""Which scene a chart is of: a named reference scene, at a multiple of its speed if wanted, or a recipe's record."""
+"""Which scene a chart is of: a named reference scene, at a multiple of its speed or with slip, or a recipe's record."""
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from datagen.errors import BadInput
+from datagen.recipes.recipe_files import shipped_recipes
+from datagen.recipes.spelling import suggestion
+from physics.cage import draw_slip_knots
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.scene import Scene
 
 RATE = 65536.0
 LONGEST = 0.5
 SHORTEST = 0.2
+RIG_NAMES = {"gearbox": "G1", "fan": "F1"}
+NAMES = (*REFERENCE_SCENES, *RIG_NAMES)
+SLOWEST, FASTEST = 0.01, 100.0
+MOST_SLIP = 10.0  # %, as in recipes
+SLIP_SEED = 1
+FORM = re.compile(r"(?P<name>[^@~]*)(?:@(?P<times>[^@~]*))?(?:~(?P<slip>[^@~]*))?")
 
 
 @dataclass(frozen=True)
@@ -31,18 +44,24 @@ class Subject:
 
 
 def find_subject(source: str, record: int) -> Subject:
-    """The scene `source` names: G0 … F2r, the same with @3 for three times the speed, or a recipe's `record`.
+    """The scene that `source` names: a reference scene first, or else the `record` of a recipe.
 
-    Raises BadInput for an unknown name or recipe, and for a record too short to be scored.
+    G0 to F2r, and gearbox and fan for G1 and F1; @3 behind the name turns it three times as fast, ~1 lets its cage slip
+    at random by 1 %, and @3~1 does both. A recipe is a file, its folder or the name of a dataset. Raises BadInput for
+    what is none of these, and for a record too short to be scored.
     """
-    name, _, factor = source.partition("@")
-    if name in REFERENCE_SCENES:
-        return _named(name, factor)
+    name = re.split("[@~]", source)[0]
+    return _named(source) if name in NAMES else _record_of(source, record)
+
+
+def _record_of(source: str, record: int) -> Subject:
     from datagen.recipes.recipe import load_recipe
     from datagen.scenarios.sampling import draw_scenario
 
-    if not Path(source).exists() and "/" not in source and not source.endswith(".toml"):
-        raise BadInput(field="SCENE", value=source, allowed=f"{', '.join(REFERENCE_SCENES)}, or a recipe")
+    shipped = shipped_recipes()
+    if not Path(source).exists() and "/" not in source and not source.endswith(".toml") and source not in shipped:
+        allowed = f"{', '.join(NAMES)} (with @3, ~1 or @3~1), {', '.join(shipped)}, or a recipe"
+        raise BadInput(field="SCENE", value=source, allowed=allowed + suggestion(source, (*NAMES, *shipped)))
     recipe = load_recipe(Path(source))
     recipe.place(record)
     scenario = draw_scenario(recipe, record)
@@ -57,13 +76,36 @@ def find_subject(source: str, record: int) -> Subject:
     return replace(whole, scene=whole.lasting(min(LONGEST, scenario.duration)))
 
 
-def _named(name: str, factor: str) -> Subject:
-    try:
-        times = float(factor or 1.0)
-    except ValueError:
-        times = 0.0
-    if not 0.01 <= times <= 100.0:
-        raise BadInput(field="SCENE", value=f"{name}@{factor}", allowed=f"{name}@0.01 to {name}@100")
+def _named(source: str) -> Subject:
+    form = FORM.fullmatch(source)
+    times = _number("1" if form is None else form["times"] or "1")
+    slip = _number("nan" if form is None else form["slip"] or "0")
+    if form is None or not (SLOWEST <= times <= FASTEST and 0.0 <= slip <= MOST_SLIP) or source[-1] in "@~":
+        name = re.split("[@~]", source)[0]
+        speeds, slips = f"{name}@{SLOWEST:g} to {name}@{FASTEST:g}", f"{name}~0 to {name}~{MOST_SLIP:g}"
+        allowed = f"{speeds} (times its speed), {slips} (% slip), or both, as in {name}@3~1"
+        raise BadInput(field="SCENE", value=source, allowed=allowed)
+    name = RIG_NAMES.get(form["name"], form["name"])
     scene = reference_scene(name, LONGEST, speed_factor=times)
-    title = f"{name}, {scene.rig.name} rig at {scene.operation.shaft_speed * 9.549296585513721:.4g} rpm"
-    return Subject(name if times == 1.0 else f"{name}_{times:g}x", title, scene, RATE)
+    title = f"{name}, {scene.rig.name} rig at {scene.operation.shaft_speed * 9.549296585513721:.5g} rpm"
+    if times != 1.0:
+        name += f"_{times:g}x"
+    if slip > 0.0:
+        name, title = f"{name}_slip{slip:g}", f"{title}, {slip:g} % slip"
+        scene = _slipping(scene, 0.01 * slip)
+    return Subject(name, title, scene, RATE)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _slipping(scene: Scene, deviation: float) -> Scene:
+    """The scene with random slip of one ball pass of correlation time, as `reference_scene` draws its 1 %."""
+    cage = scene.cage
+    one_pass = scene.rig.bearing.spacing / cage.nominal_speed
+    step, start, values = draw_slip_knots(np.random.default_rng(SLIP_SEED), deviation, one_pass, cage.duration)
+    return replace(scene, cage=replace(cage, knot_step=step, knot_start=start, knot_values=values))

@@ -36,8 +36,9 @@ STEPS = tuple(float(n) for n in SAMPLES_A_STEP) + tuple(1.0 / n for n in STEPS_A
 ACCURACIES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 BY_STEP, BY_ACCURACY = "samples a step", "accuracy asked for"
 FINEST = 64
+ROUNDING = 1e-9  # as where `simulate` rounds steps a sample up
 CONVERGED = 1e-3
-NO_ANSWER, CHAOTIC = math.inf, math.nan
+VALUE, NOT_CONVERGED = "value", "not converged"
 
 
 @dataclass(frozen=True)
@@ -54,9 +55,11 @@ class Sweep:
 class Map:
     """Errors of one method over one sweep.
 
-    `error` (V, S), for each value and each of `rows`, which are steps or accuracies as `scale` says: RMS error of the
-    acceleration over its RMS; infinite where the program ends with a typed outcome, NaN where no step converges.
-    `limit` (V,) is the longest stable step in samples by the linearised scene, infinite if there is none.
+    Each is of a value and one of `rows`, which are steps or accuracies as `scale` says, (V, S). `error`: RMS error of
+    the acceleration over its RMS; NaN where there is none. `outcomes`: VALUE where there is an error, NOT_CONVERGED
+    where no step gives anything to compare with, or the outcome with which the calculation ended. `refused`: the step
+    lies above `limit` (V,), so that `simulate` does not begin. `limit` is the longest stable step in samples by the
+    linearised scene, infinite if there is none.
     """
 
     method: str
@@ -66,6 +69,8 @@ class Map:
     unit: str
     values: tuple[float, ...]
     error: tuple[tuple[float, ...], ...]
+    outcomes: tuple[tuple[str, ...], ...]
+    refused: tuple[tuple[bool, ...], ...]
     limit: tuple[float, ...]
 
 
@@ -132,15 +137,26 @@ def stability_maps(told: Callable[[str], None]) -> list[Map]:
         told(sweep.name)
         scenes = [sweep.apply(reference_scene("G1", DURATION), value) for value in sweep.values]
         exact = [_exact(scene) for scene in scenes]
-        for name in (MODAL, *MARCHES):
-            scale, rows = (BY_ACCURACY, ACCURACIES) if name == MODAL else (BY_STEP, STEPS)
-            error = tuple(
-                tuple(_error(scene, name, row, found) for row in rows)
-                for scene, found in zip(scenes, exact, strict=True)
-            )
-            limit = tuple(_limit(scene, name) for scene in scenes)
-            maps.append(Map(name, scale, rows, sweep.name, sweep.unit, sweep.values, error, limit))
+        maps += [_map(name, sweep, scenes, exact) for name in (MODAL, *MARCHES)]
     return maps
+
+
+def _map(name: str, sweep: Sweep, scenes: list[Scene], exact: list[Array | None]) -> Map:
+    scale, rows = (BY_ACCURACY, ACCURACIES) if name == MODAL else (BY_STEP, STEPS)
+    cells = [[_cell(scene, name, row, found) for row in rows] for scene, found in zip(scenes, exact, strict=True)]
+    limit = tuple(_limit(scene, name) for scene in scenes)
+    return Map(
+        method=name,
+        scale=scale,
+        rows=rows,
+        sweep=sweep.name,
+        unit=sweep.unit,
+        values=sweep.values,
+        error=tuple(tuple(error for error, _ in row) for row in cells),
+        outcomes=tuple(tuple(outcome for _, outcome in row) for row in cells),
+        refused=tuple(tuple(_refused(row, longest) for row in rows) for longest in limit),
+        limit=limit,
+    )
 
 
 def facts(maps: list[Map]) -> dict[str, object]:
@@ -179,18 +195,23 @@ def _misfit(found: Array, exact: Array) -> float:
     return float(np.sqrt(np.mean((found - exact) ** 2))) / size if size > 0.0 else 0.0
 
 
-def _error(scene: Scene, method: str, row: float, exact: Array | None) -> float:
+def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[float, str]:
+    """Error and outcome of one method at one step or accuracy."""
     if exact is None:
-        return CHAOTIC
+        return math.nan, NOT_CONVERGED
     try:
         if method == MODAL:
             samples = round(scene.duration * RATE)
             trace = respond_accurately(scene, start_of(scene), RATE, samples, row, 0.0, Kept())
-            return _misfit(trace.acceleration, exact)
+            return _misfit(trace.acceleration, exact), VALUE
         found = _response(scene, method, row)
-    except SimulationFailed:
-        return NO_ANSWER
-    return _misfit(found, exact[:: max(1, round(row))][: found.shape[0]])
+    except SimulationFailed as failure:
+        return math.nan, failure.outcome.name.lower().replace("_", " ")
+    return _misfit(found, exact[:: max(1, round(row))][: found.shape[0]]), VALUE
+
+
+def _refused(step: float, longest: float) -> bool:
+    return step > longest * (1.0 + ROUNDING)
 
 
 def _limit(scene: Scene, method: str) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -11,12 +10,17 @@ import typer
 from datagen.commands.program import JsonFile, command, write_json
 from datagen.errors import BadInput
 
+SOURCE_HELP = (
+    "Recipe file, its folder or name of a dataset; or reference scene G0 to F2r, gearbox or fan "
+    "(G1@3: three times faster; G1~1: 1 % random slip; G1@3~1: both)."
+)
+
 
 @command("spallgen chart G1 --out out/charts")
 def chart(
     source: Annotated[
         str,
-        typer.Argument(metavar="RECIPE|SCENE", help="Recipe, or reference scene G0 to F2r (G1@3: three times faster)."),
+        typer.Argument(metavar="RECIPE|SCENE", help=SOURCE_HELP),
     ] = "",
     out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON.")] = None,
     record: Annotated[int, typer.Option(metavar="N", help="Which record of a recipe.")] = 0,
@@ -41,10 +45,12 @@ def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Pat
     from datagen.charts.files import chart_folder, chart_table, write_files
     from datagen.charts.measure import measure
     from datagen.charts.scenes import find_subject
+    from datagen.runs.progress import steps_told
 
     subject = find_subject(source, record)
     folder = chart_folder(out)
-    measured = measure(subject, quick, rounds, _tell)
+    with steps_told() as tell:
+        measured = measure(subject, quick, rounds, tell)
     from datagen.drawing.work_precision import work_precision_png
 
     return write_files(folder, subject.name, work_precision_png(measured), measured, chart_table(measured)), measured
@@ -53,15 +59,11 @@ def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Pat
 def _stability(out: Path) -> tuple[list[Path], object]:
     from datagen.charts.files import chart_folder, write_files
     from datagen.charts.stability import facts, stability_maps
-    from datagen.drawing.stability_map import stability_png
+    from datagen.drawing.stability_map import stability_sheets
+    from datagen.runs.progress import steps_told
 
     folder = chart_folder(out)
-    maps = stability_maps(_tell)
+    with steps_told() as tell:
+        maps = stability_maps(tell)
     found = facts(maps)
-    return write_files(folder, "stability_maps", stability_png(maps), found), found
-
-
-def _tell(what: str) -> None:
-    """One line of progress on a terminal, nothing when piped."""
-    if sys.stderr.isatty():
-        print(f"\r\033[K{what}", end="", file=sys.stderr, flush=True)
+    return write_files(folder, "stability_maps", stability_sheets(maps), found), found

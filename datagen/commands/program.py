@@ -12,6 +12,7 @@ import typer
 
 from datagen.errors import BadInput
 from datagen.places import require_file
+from physics.outcome import SimulationFailed
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -34,8 +35,8 @@ Command = Callable[..., None]
 
 
 def command(example: str, name: str | None = None) -> Callable[[Command], Command]:
-    """Add a command to the program, called `name` or like its function: bad input and Ctrl-C end it with a sentence
-    and their exit code."""
+    """Add a command to the program, called `name` or like its function: bad input, a scene that cannot be simulated
+    and Ctrl-C end it with a sentence and their exit code."""
 
     def register(function: Command) -> Command:
         @functools.wraps(function)
@@ -46,6 +47,9 @@ def command(example: str, name: str | None = None) -> Callable[[Command], Comman
             except BadInput as problem:
                 complain(f"error: {problem}")
                 raise typer.Exit(BAD_INPUT) from None
+            except SimulationFailed as problem:
+                complain(f"error: this cannot be simulated: {problem}")
+                raise typer.Exit(FAILED) from None
             except PermissionError as problem:
                 complain(f"error: {problem.filename}: {problem.strerror}; allowed: what you may read and write")
                 raise typer.Exit(BAD_INPUT) from None

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 HARMONICS = 6
 CURSOR_TOLERANCE = 0.012
-RESOLVED_BINS = 2.5
+RESOLVED_BINS = 4.0  # from the middle of one line to the next, each as wide as its window
 FEWEST_LINES = 2
 DECADES = 4.5
 
@@ -69,12 +69,15 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
     if np.count_nonzero(shown) < FEWEST_LINES:
         words = f"too short a record: its lines lie {frequency[1]:.3g} Hz apart"
         axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=GREY)
-    for name, marker, colour, targets in cursors(portrait):
-        heights = line_heights(frequency, amplitude, [target for target in targets if target < top], known["FTF"])
+    for number, (name, marker, colour, targets) in enumerate(cursors(portrait)):
+        heights = line_heights(
+            frequency, amplitude, [target for target in targets if target < top], known["FTF"], peaks=number > 0
+        )
         heights = [line for line in heights if line[1] > limits[0]]
         axes.plot(
-            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour, label=name,
-            linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3, clip_on=False,
+            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour,
+            label=name if heights or number == 0 else None, linestyle="", markersize=6, markerfacecolor="none",
+            markeredgewidth=1.3, clip_on=False,
         )  # fmt: skip
     axes.set(
         xlim=(0.0, top),
@@ -100,7 +103,8 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
 def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
     """Name, marker, colour and frequencies (Hz) of each family of lines worth looking for in this record.
 
-    Sidebands that a record of its length cannot tell from the line between them are left out.
+    The record's own family comes first. Lines that a record of its length cannot tell from their neighbours, or from
+    the mean, are left out.
     """
     known, main = portrait.frequencies, portrait.defect_frequency
     harmonics = [k * known[main] for k in range(1, HARMONICS + 1)]
@@ -108,26 +112,35 @@ def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
     sidebands = [f + s * known[by] for f in harmonics[:3] for s in (-1.0, 1.0)]
     beyond = "" if known[main] < portrait.rate / 2.0 else " (above half the rate)"
     families = [(f"{main} {known[main]:.4g} Hz{beyond}", "o", VERMILLION, harmonics)]
-    if known[by] * portrait.duration > RESOLVED_BINS:
+    if known[by] * portrait.duration >= RESOLVED_BINS:
         families.append((f"± {by} {known[by]:.3g} Hz", "D", GREEN, sidebands))
-    if by != "shaft":
+    if by != "shaft" and known["shaft"] * portrait.duration >= RESOLVED_BINS:
         families.append((f"shaft {known['shaft']:.3g} Hz", "s", PURPLE, [k * known["shaft"] for k in range(1, 4)]))
     return families
 
 
-def line_heights(frequency: Array, amplitude: Array, targets: list[float], spacing: float) -> list[tuple[float, float]]:
+def line_heights(
+    frequency: Array, amplitude: Array, targets: list[float], spacing: float, *, peaks: bool = False
+) -> list[tuple[float, float]]:
     """Frequency (Hz) and height of the largest line near each of `targets` (Hz) that the spectrum reaches.
 
-    Other lines lie `spacing` (Hz) apart. What the record is too short to tell from its mean is left out.
+    Other lines lie `spacing` (Hz) apart. What the record is too short to tell from its mean is left out, and with
+    `peaks` also what stands out from neither neighbour, as on the flank of a larger line.
     """
     found = []
     for target in targets:
         reach = max(min(CURSOR_TOLERANCE * target, spacing / 3.0), frequency[1])
         near = np.flatnonzero((np.abs(frequency - target) <= reach) & (frequency > 0.0))
         if near.size and target > 0.0:
-            best = near[int(np.argmax(amplitude[near]))]
-            found.append((float(frequency[best]), float(amplitude[best])))
+            best = int(near[int(np.argmax(amplitude[near]))])
+            if not peaks or _is_peak(amplitude, best):
+                found.append((float(frequency[best]), float(amplitude[best])))
     return found
+
+
+def _is_peak(amplitude: Array, place: int) -> bool:
+    beside = [amplitude[k] for k in (place - 1, place + 1) if 0 <= k < amplitude.size]
+    return all(amplitude[place] > other for other in beside)
 
 
 def above(amplitude: Array, limits: tuple[float, float]) -> Array:

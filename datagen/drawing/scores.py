@@ -15,10 +15,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
-WIDTH, ROW, DPI = 18.0, 3.0, 100
+WIDTH, ROW, DPI = 20.0, 3.0, 100
 MOST_FEATURES = 15
 AGAINST = {"snr_db": "SNR, dB", "speed_rpm": "speed, rpm", "extent_mm": "size, mm"}
 COLUMNS = 3 + len(AGAINST)
+COLUMN_WIDTHS = (1.0, 1.6, *[1.0] * (COLUMNS - 2))  # room for a confusion table of each model
 
 
 def scores_png(results: dict[str, Any]) -> bytes:
@@ -26,7 +27,9 @@ def scores_png(results: dict[str, Any]) -> bytes:
     tests = results["tests"]
     with house_style():
         rows = len(tests) + 1
-        figure, axes = plt.subplots(rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False)
+        figure, axes = plt.subplots(
+            rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False, width_ratios=COLUMN_WIDTHS
+        )
         for panels, test in zip(axes, tests, strict=False):
             draw_scores(panels[0], test)
             draw_confusion(panels[1], test)
@@ -78,19 +81,32 @@ def say(axes: Axes, title: str, text: str) -> None:
 
 
 def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
-    """Truth against what the last model says."""
-    name, scores = list(test["models"].items())[-1]
-    table = scores["confusion"]
+    """Truth against what each model says, a small table a model in the place of `axes`."""
+    models, place = test["models"], axes.get_subplotspec()
+    if place is None:
+        raise ValueError("the axes stand in no grid that could be divided")
+    axes.axis("off")
+    across = 1 if len(models) == 1 else 2
+    cells = place.subgridspec(-(-len(models) // across), across)
+    for number, (name, scores) in enumerate(models.items()):
+        row, column = divmod(number, across)
+        panel = axes.figure.add_subplot(cells[row, column])
+        below = number + across >= len(models)
+        _draw_table(panel, name, scores["confusion"], named_rows=column == 0, named_columns=below)
+
+
+def _draw_table(axes: Axes, name: str, table: dict[str, Any], named_rows: bool, named_columns: bool) -> None:
     counts = np.array(table["counts"])
     shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
     axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.3, aspect="auto")
     for row, column in np.ndindex(*counts.shape):
-        axes.text(column, row, str(counts[row, column]), ha="center", va="center", color=INK)
-    axes.set_xticks(range(len(table["columns"])), table["columns"])
-    axes.set_yticks(range(len(table["rows"])), table["rows"])
-    axes.set_xlabel(f"said by {name}")
-    axes.set_ylabel("truth")
-    axes.set_title("confusion")
+        axes.text(column, row, str(counts[row, column]), ha="center", va="center", color=INK, fontsize=7)
+    axes.set_xticks(range(len(table["columns"])), table["columns"] if named_columns else [])
+    axes.set_yticks(range(len(table["rows"])), table["rows"] if named_rows else [])
+    axes.tick_params(labelsize=7)
+    if named_rows:
+        axes.set_ylabel("truth")
+    axes.set_title(f"said by {name}", fontsize=8.5)
 
 
 def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:

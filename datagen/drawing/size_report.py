@@ -105,7 +105,7 @@ def _bars(axes: Axes, rows: list[dict[str, Any]], title: str) -> None:
     axes.set_xlim(middle - half, middle + half)
     _name_bins(axes, table)
     left_out = f", {len(table)} of {len(rows)}" if len(table) < len(rows) else ""
-    axes.set(title=f"{title} (records{left_out})", ylabel="mean |error| / true")
+    axes.set(title=f"{title} (records{left_out})", ylabel="mean |error| / true; share without estimate")
     if title.startswith("Noise"):
         axes.margins(y=0.35)
         axes.legend(fontsize=6.5, ncols=3, loc="upper left", columnspacing=1.0, handlelength=1.2)

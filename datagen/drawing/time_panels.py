@@ -153,9 +153,10 @@ def draw_spectrogram(axes: Axes, portrait: Portrait) -> None:
                 f"{line * 1e-3:.2f}", (1.0, line * 1e-3), xycoords=("axes fraction", "data"), xytext=(3, 0),
                 textcoords="offset points", va="center", fontsize=7, color=INK,
             )  # fmt: skip
-    axes.set(ylim=(0.0, top * 1e-3), ylabel="kHz", xlabel="time (ms)")
+    axes.set(ylim=(0.0, top * 1e-3), ylabel="kHz")
+    axes.set_xlabel("time (ms); dashed: modes along y at the middle of the close-up" if lines else "time (ms)")
     whose = "with background" if portrait.clean is None else "clean"
-    axes.set_title(f"Spectrogram, {whose}, {DYNAMIC_RANGE_DB:.0f} dB; dashed: modes along y")
+    axes.set_title(f"Spectrogram, {whose}, {DYNAMIC_RANGE_DB:.0f} dB")
 
 
 def vertical_modes(portrait: Portrait) -> list[float]:

@@ -11,18 +11,19 @@ from datagen.charts.contestants import METHOD, MODEL
 from datagen.charts.measure import TARGET, Chart, Run
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, house_style, plt
 from physics.integrators.general_purpose import BALL_BY_BALL
+from physics.integrators.methods import MODAL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-WIDTH, HEIGHT, DPI = 9.2, 6.4, 110
+WIDTH, HEIGHT, DPI = 9.4, 7.2, 150
 METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
 MODEL_MARKERS = ("*", "P", "X", "D")
 RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": PURPLE}
 # On the contact kernel and ball by ball.
 RIVAL_STYLES = {"compiled": ("-", "-"), "numbalsoda": ("-.", "-."), "SciPy": ("--", ":")}
-WORST_SHOWN, BEST_SHOWN = 8.0, 1e-7
+WORST_SHOWN, BEST_SHOWN = 8.0, 1e-8
 EDGE_ROW = 0.03  # of the height of the panel of errors
 
 
@@ -44,7 +45,7 @@ def draw_work_precision(chart: Chart) -> Figure:
         1,
         sharex=True,
         height_ratios=(max(EDGE_ROW * (len(chart.edges) + 1), 1e-3), 1.0),
-        gridspec_kw={"left": 0.085, "right": 0.66, "top": 0.9, "bottom": 0.095, "hspace": 0.02},
+        gridspec_kw={"left": 0.085, "right": 0.7, "top": 0.9, "bottom": 0.085, "hspace": 0.02},
     )
     names = list(dict.fromkeys(run.name for run in chart.runs))
     methods = list(dict.fromkeys(_method(name) for name in names if _group(chart, name) == METHOD))
@@ -53,15 +54,21 @@ def draw_work_precision(chart: Chart) -> Figure:
         _draw(axes, chart, name, methods, models)
     axes.axhline(TARGET, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
     axes.axvline(1.0, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
-    axes.set(xscale="log", yscale="log", ylim=(BEST_SHOWN, WORST_SHOWN))
+    axes.set(xscale="log", yscale="log", ylim=(_bottom(chart), WORST_SHOWN))
     axes.set_xlabel("times real time on one core (more is faster)")
     axes.set_ylabel("RMS error of the acceleration over its RMS, from 0.1 s")
     axes.grid(True, color=PALE, linewidth=0.5)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), fontsize=7.5, handlelength=2.4)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), fontsize=8.5, handlelength=2.2, borderaxespad=0.0)
     _draw_edges(strip, chart, methods)
     figure.text(0.085, 0.957, f"Speed against accuracy: {chart.title}", fontsize=11, fontweight="bold", color=INK)
     figure.text(0.085, 0.925, _facts(chart), fontsize=8, color=GREY)
     return figure
+
+
+def _bottom(chart: Chart) -> float:
+    """The decade below the smallest error, or BEST_SHOWN."""
+    errors = [error for name in dict.fromkeys(run.name for run in chart.runs) for _, error in _points(chart.runs, name)]
+    return max(BEST_SHOWN, 10.0 ** math.floor(math.log10(min(errors, default=TARGET))))
 
 
 def _group(chart: Chart, name: str) -> str:
@@ -91,7 +98,15 @@ def _draw(axes: Axes, chart: Chart, name: str, methods: list[str], models: list[
         colour = _colour(name, methods)
         style, face = ("o-", colour) if _method(name) == name else ("o--", "white")
         axes.plot(
-            speed, error, style, color=colour, markerfacecolor=face, markersize=4.5, linewidth=1.6, label=name, zorder=4
+            speed,
+            error,
+            style,
+            color=colour,
+            markerfacecolor=face,
+            markersize=4.5,
+            linewidth=1.6,
+            zorder=4,
+            label=f"{name} (default)" if name == MODAL else name,
         )
     elif _group(chart, name) == MODEL:
         marker = MODEL_MARKERS[models.index(name) % len(MODEL_MARKERS)]
@@ -128,6 +143,6 @@ def _draw_edges(strip: Axes, chart: Chart, methods: list[str]) -> None:
 def _facts(chart: Chart) -> str:
     made = chart.made_with
     return (
-        f"{chart.rate:g} Hz, {chart.duration:g} s, against {chart.reference}; {made['machine']}, "
-        f"numba {made['numba']}, scipy {made['scipy']}"
+        f"{chart.rate:g} Hz, {chart.duration:g} s, against {chart.reference}; "
+        f"{made['processor']}, numba {made['numba']}, scipy {made['scipy']}"
     )

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from datagen.corpora.atomic import write_atomically
+from datagen.corpora.atomic import write_results
 from datagen.drawing.style import house_style, plt
 from datagen.errors import BadInput
 from datagen.paper.chapter import Chapter
@@ -47,28 +47,20 @@ def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) ->
     """Compute and draw the chapters `keys` into the folder `out`; returns what paper.json holds.
 
     For each chapter name.png and name.csv, and for all paper.json and README.md. Raises BadInput if the folder cannot
-    be made or written into, before anything is computed.
+    be made or written into, before anything is computed, and where it is full.
     """
-    _prepare(out)
+    require_folder(out)
+    write_results(out, {})
     chapters = []
     for key in keys:
         chapter: Chapter = import_module(f"datagen.paper.{CHAPTERS[key]}").chapter()
-        write_atomically(out / f"{chapter.name}.png", _picture(chapter))
-        write_atomically(out / f"{chapter.name}.csv", csv_text(chapter.rows).encode())
+        picture, table = _picture(chapter), csv_text(chapter.rows).encode()
+        write_results(out, {f"{chapter.name}.png": picture, f"{chapter.name}.csv": table})
         chapters.append(chapter)
         report(chapter.title)
     results = {chapter.name: _facts(chapter) for chapter in chapters}
-    write_atomically(out / "paper.json", plain_json(results).encode())
-    write_atomically(out / "README.md", page(chapters).encode())
+    write_results(out, {"paper.json": plain_json(results).encode(), "README.md": page(chapters).encode()})
     return results
-
-
-def _prepare(out: Path) -> None:
-    require_folder(out)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise BadInput(f"cannot make this folder: {problem.strerror}", field="--out", value=str(out)) from None
 
 
 def _picture(chapter: Chapter) -> bytes:

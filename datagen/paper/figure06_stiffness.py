@@ -200,7 +200,14 @@ def draw(found: dict[str, Stiffness]) -> Figure:
             axes.plot(
                 healthy.cage, healthy.row[0, :, component], color=HEALTHY, linewidth=1.0, label="healthy, one row"
             )
-            axes.plot(healthy.cage, healthy.row[1, :, component], color=HEALTHY, linewidth=1.0, linestyle=(0, (3, 2)))
+            axes.plot(
+                healthy.cage,
+                healthy.row[1, :, component],
+                color=HEALTHY,
+                linewidth=1.0,
+                linestyle=(0, (3, 2)),
+                label="healthy, other row",
+            )
             axes.plot(
                 healthy.cage,
                 healthy.total[:, component],
@@ -224,5 +231,5 @@ def draw(found: dict[str, Stiffness]) -> Figure:
         "gearbox rig, 346 N; x across the load, y along it",
     )
     figure.subplots_adjust(left=0.07, right=0.985, top=0.9, bottom=0.125, hspace=0.27, wspace=0.09)
-    legend_below(figure, list(grid[0]), columns=3)
+    legend_below(figure, list(grid[0]), columns=4)
     return figure

@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 
 from datagen.drawing.style import (
     BLUE,
-    EXTENDED,
     GREEN,
     GREY,
     INK,
-    LINE,
     ORANGE,
     PURPLE,
     SKY,
@@ -50,6 +48,8 @@ NAME = "figure7"
 DURATION, SETTLED = 0.2, 0.05
 BALLS = range(3, 10)
 COLOURS = dict(zip(BALLS, (GREY, SKY, GREEN, VERMILLION, BLUE, ORANGE, PURPLE), strict=True))
+# The net forces are no ball's, and have no ball's colour.
+ALONG, ACROSS, ALONG_GAP = INK, "#999933", "#882255"
 WINDOWS = {"line": (0.115, 0.125), "extended": (0.09, 0.16)}
 BALL = 6
 GAP = "line G1p, deep gap on the path of the ball's centre"
@@ -215,11 +215,11 @@ def draw(found: dict[str, Forces], gap: Forces) -> Figure:
         for row in (0, 1):
             _draw_balls(grid[row, column], one, part, row)
             letter(grid[row, column], "abcd"[2 * row + column], f"Force on balls of row {row + 1}, {name} spall")
-        _draw_net(grid[2, column], one, part, LINE if name == "line" else EXTENDED)
+        _draw_net(grid[2, column], one, part)
         letter(grid[2, column], "ef"[column], f"Net force, {name} spall")
         if name == "line":
-            axes, label = grid[2, column], "along the load, path of the ball's centre (G1p)"
-            axes.plot(gap.time[part], gap.net[part, 1], color=ORANGE, linewidth=0.9, label=label)
+            axes, label = grid[2, column], "net, along the load, path of the ball's centre (G1p)"
+            axes.plot(gap.time[part], gap.net[part, 1], color=ALONG_GAP, linewidth=0.9, label=label)
         grid[2, column].set(xlim=(start, stop), xlabel="time (s)")
     for row in range(3):
         _same_height(list(grid[row]))
@@ -245,9 +245,9 @@ def _draw_balls(axes: Axes, one: Forces, part: slice, row: int) -> None:
     faint_grid(axes)
 
 
-def _draw_net(axes: Axes, one: Forces, part: slice, colour: str) -> None:
-    axes.plot(one.time[part], one.net[part, 1], color=colour, linewidth=0.9, label="along the load, less 346 N")
-    axes.plot(one.time[part], one.net[part, 0], color=INK, linewidth=0.7, label="across the load")
+def _draw_net(axes: Axes, one: Forces, part: slice) -> None:
+    axes.plot(one.time[part], one.net[part, 1], color=ALONG, linewidth=0.9, label="net, along the load, less 346 N")
+    axes.plot(one.time[part], one.net[part, 0], color=ACROSS, linewidth=0.9, label="net, across the load")
     axes.axvspan(one.entry[BALL], one.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
     faint_grid(axes)
 

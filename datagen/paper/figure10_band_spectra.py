@@ -129,7 +129,7 @@ def draw() -> Figure:
         "Acceleration spectra in the demodulation band (counterpart of Figure 10)",
         "gearbox rig, 1 % slip, 1.4 s, Hann, 1 Hz; grey lines above: ends of the paper's axis; shaded below: its band",
     )
-    figure.subplots_adjust(left=0.07, right=0.975, top=0.885, bottom=0.135, hspace=0.36, wspace=0.09)
+    figure.subplots_adjust(left=0.07, right=0.975, top=0.885, bottom=0.135, hspace=0.36, wspace=0.14)
     legend_below(figure, [grid[0, 0], grid[0, 1]])
     return figure
 

@@ -151,7 +151,7 @@ def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[st
     """Labels of scene, run and place in the corpus."""
     values = label_values(scenario.scene)
     return values | {
-        "validity": "; ".join(filter(None, [str(values["validity"]), _chaos(trace), _unlocated(trace)])),
+        "validity": "; ".join(filter(None, [str(values["validity"]), _chaos(trace), _missed(scenario, trace), _unlocated(trace)])),
         "record": scenario.record,
         "part": scenario.part,
         **dict.fromkeys(RECORDING_LABELS, ""),
@@ -175,9 +175,19 @@ def _chaos(trace: Trace) -> str:
     if not trace.chaotic:
         return ""
     return (
-        f"bouncing balls multiply errors {trace.sensitivity:.0f} times: the response is chaotic, and its spectra hold "
-        "but not its single points"
+        f"bouncing balls multiply errors {trace.sensitivity:.0f} times, and ever finer steps lead to other responses: it "
+        "is chaotic, and its spectra hold but not its single points"
     )
+
+
+def _missed(scenario: Scenario, trace: Trace) -> str:
+    """That the response may be less exact than was asked for; empty if it is not, or chaotic."""
+    accuracy, least = allowed_error(scenario)
+    size = float(np.sqrt(np.mean(trace.acceleration**2)))
+    allowed = max(accuracy, least / size if size > 0.0 else 0.0)
+    if trace.chaotic or not trace.error_estimate > allowed:
+        return ""
+    return f"the accuracy asked for, {allowed:.2g}, was not reached: the response may be wrong by {trace.error_estimate:.2g}"
 
 
 def _unlocated(trace: Trace) -> str:

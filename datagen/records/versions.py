@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import platform
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+CPU_INFO = Path("/proc/cpuinfo")
 PACKAGES = ("spallgen", "numpy", "scipy", "numba", "xarray", "netCDF4")
+MACHINE_FACTS = ("machine", "processor", "cores", "physics")
 
 
 @cache
@@ -26,6 +30,36 @@ def program_versions() -> dict[str, str]:
     """Version of Python and of each package, and the kind of machine."""
     packages = {package: _version(package) for package in PACKAGES}
     return {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}", **packages}
+
+
+def measured_on(*packages: str) -> dict[str, str]:
+    """What a measured speed belongs to: machine, processor, cores, physics (its fingerprint), Python and `packages`."""
+    from physics._jit import fingerprint
+
+    return {
+        "machine": f"{platform.system()} {platform.machine()}",
+        "processor": processor_name(),
+        "cores": str(os.cpu_count() or "unknown"),
+        "physics": fingerprint(),
+        "python": platform.python_version(),
+        **{package: _version(package) for package in packages},
+    }
+
+
+def in_words(made: Mapping[str, str]) -> str:
+    """What `measured_on` gives in one line for people."""
+    packages = ", ".join(f"{name} {value}" for name, value in made.items() if name not in MACHINE_FACTS)
+    return f"{made['processor']}, {made['cores']} cores, {made['machine']}, physics {made['physics']}, {packages}"
+
+
+def processor_name() -> str:
+    """The processor's model name; its kind alone where the system tells no more."""
+    try:
+        lines = CPU_INFO.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next((name for name in names if name), "") or platform.processor() or platform.machine()
 
 
 @cache

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
 SECONDS_BETWEEN_LINES = 2.0
+CLEARED = "\r\033[K"
 
 
 class Reporter(Protocol):
@@ -99,6 +101,29 @@ def reporter() -> Iterator[Reporter]:
     )
     with Progress(*columns, console=Console(stderr=True)) as progress:
         yield Bar(progress)
+
+
+@contextmanager
+def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Callable[[str], None]]:
+    """What tells which of many named steps is under way: on a terminal one line that changes and is gone afterwards,
+    elsewhere a plain line every few seconds, on standard error."""
+    on_terminal = sys.stderr.isatty()
+    last_line = -math.inf
+
+    def tell(step: str) -> None:
+        nonlocal last_line
+        now = clock()
+        if on_terminal:
+            print(f"{CLEARED}{step}", end="", file=sys.stderr, flush=True)
+        elif now - last_line >= SECONDS_BETWEEN_LINES:
+            last_line = now
+            print(step, file=sys.stderr, flush=True)
+
+    try:
+        yield tell
+    finally:
+        if on_terminal:
+            print(CLEARED, end="", file=sys.stderr, flush=True)
 
 
 def for_people(count: float) -> str:

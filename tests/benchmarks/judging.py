@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import argparse
 import json
-import platform
 import statistics
 import tempfile
 import time
 from collections.abc import Callable
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +21,7 @@ from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, SPEED_ERROR,
 from datagen.benchmark.verdicts import judge
 from datagen.corpus import Corpus
 from datagen.recipes.recipe import load_recipe
+from datagen.records.versions import in_words, measured_on
 from datagen.runs.generate import generate
 from datagen.sizing.estimators import default_estimator
 from datagen.sizing.sized_records import sized_records
@@ -112,14 +111,13 @@ def main() -> None:
             "classify": classifying(scratch, options.records, options.workers),
             "size": sizing(scratch, options.sizes),
         }
-    versions = {name: version(name) for name in ("numpy", "scipy", "scikit-learn", "numba")}
-    machine = f"{platform.machine()}, {platform.system()}, " + ", ".join(f"{k} {v}" for k, v in versions.items())
-    facts = {"records": options.records, "workers": options.workers, "machine": machine, **found}
+    made = measured_on("numpy", "scipy", "scikit-learn", "numba")
+    facts = {"records": options.records, "workers": options.workers, "made_with": made, **found}
     (ROOT / "docs" / "judging.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
     target = ROOT / "docs" / "pipeline.md"
     text = target.read_text(encoding="utf-8")
     head, tail = text[: text.index(BEGIN)], text[text.index(END) :]
-    table = page(found, options.records, options.workers, machine)
+    table = page(found, options.records, options.workers, in_words(made))
     target.write_text(f"{head}{BEGIN}\n{table}\n{tail}", encoding="utf-8")
     print(table)
 

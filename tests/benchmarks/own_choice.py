@@ -15,11 +15,9 @@ from __future__ import annotations
 
 import argparse
 import json
-import platform
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +25,7 @@ from numpy.typing import NDArray
 
 from datagen.charts.contestants import ACCURACIES, SUBSTEPS
 from datagen.recipes.recipe import load_recipe
+from datagen.records.versions import measured_on
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from physics.outcome import SimulationFailed
@@ -184,8 +183,7 @@ def main() -> None:
             "seed": options.seed,
             "accuracy": ACCURACY,
             "seconds_a_scene": options.seconds,
-            "machine": f"{platform.machine()}, {platform.system()}",
-            "versions": {name: version(name) for name in ("numpy", "scipy", "numba")},
+            "made_with": measured_on("numpy", "scipy", "numba"),
             "summary": summary(rows) if place >= 9 else {},
             "rows": rows,
         }

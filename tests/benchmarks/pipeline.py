@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import cProfile
 import json
-import platform
 import pstats
 import shutil
 import statistics
@@ -18,12 +17,12 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.metadata import version
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
 from datagen.recipes.recipe import Recipe, Store, load_recipe
+from datagen.records.versions import in_words, measured_on
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard
@@ -134,8 +133,7 @@ def measure(records: int, rounds: int) -> dict[str, object]:
         "datasets": rows,
         "two_workers": {name: two_workers(name, count, rounds) for name, count in WORKER_RECORDS.items()},
         "records": records,
-        "machine": f"{platform.machine()}, {platform.system()}",
-        "versions": {name: version(name) for name in ("numpy", "scipy", "numba", "xarray", "netCDF4", "h5py", "isal")},
+        "made_with": measured_on("numpy", "scipy", "numba", "xarray", "netCDF4", "h5py", "isal"),
     }
 
 
@@ -151,20 +149,19 @@ def page(found: dict[str, object]) -> str:
     for stage in (*STAGES, "all else"):
         told = " | ".join(f"{100.0 * row['shares'][stage]:.0f} %" for row in rows.values())
         lines.append(f"| {stage} | {told} |")
-    versions: dict[str, str] = found["versions"]  # type: ignore[assignment]
+    made: dict[str, str] = found["made_with"]  # type: ignore[assignment]
     pairs: dict[str, dict[str, float]] = found["two_workers"]  # type: ignore[assignment]
     together = "; ".join(
         f"the first {pair['records']} records of {name} {pair['ratio']:.2f} times as fast as one, which takes "
         f"{pair['one_worker_s']:.0f} s"
         for name, pair in pairs.items()
     )
-    made = ", ".join(f"{name} {number}" for name, number in versions.items())
     lines += [
         "",
         f"First {found['records']} records of each dataset, processor time of one process, median of the rounds; "
         f"shares from a profile. Two workers make {together} (wall clock, start of the processes "
         f"included). "
-        f"Measured on {found['machine']}, {made}.",
+        f"Measured on {in_words(made)}.",
     ]
     return "\n".join(lines)
 

@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import platform
 import statistics
 import time
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 
+from datagen.records.versions import in_words, measured_on
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.response.periodic import METHOD as REPEATED
 from physics.simulate import simulate
@@ -128,16 +127,13 @@ def main() -> None:
     warm_up()
     results = {name: measure(name, rounds) for name in REFERENCE_SCENES}
     rivals = {name: measure_rival(reference_scene(name, RIVAL_DURATION)) for name in RIVAL_SCENES}
-    versions = {name: version(name) for name in ("numpy", "scipy", "numba")}
-    machine = f"{platform.machine()}, Python {platform.python_version()}, " + ", ".join(
-        f"{name} {number}" for name, number in versions.items()
-    )
-    facts = {"machine": machine, "rounds": rounds, "scenes": results, "rival_real_time_factor": rivals}
+    made = measured_on("numpy", "scipy", "numba")
+    facts = {"made_with": made, "rounds": rounds, "scenes": results, "rival_real_time_factor": rivals}
     (ROOT / "docs" / "reference_scenes.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
     readme = ROOT / "README.md"
     text = readme.read_text(encoding="utf-8")
     before, after = text.split(BEGIN)[0], text.split(END)[1]
-    new = table(results, rivals, f"Measured on {machine}.")
+    new = table(results, rivals, f"Measured on {in_words(made)}.")
     readme.write_text(f"{before}{BEGIN}\n{new}\n{END}{after}", encoding="utf-8")
     print(new)
 

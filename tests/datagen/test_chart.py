@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import errno
 import json
 import math
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from datagen.charts import contestants as entrants
+from datagen.charts import measure as measuring
 from datagen.charts import stability
 from datagen.charts.files import COLUMNS, chart_table
 from datagen.charts.measure import Run, at_error, measure
@@ -16,12 +18,14 @@ from datagen.charts.response import of_states, of_trace
 from datagen.charts.scenes import find_subject
 from datagen.charts.scores import Score, score
 from datagen.cli import app
-from datagen.drawing.stability_map import kind, stability_png
+from datagen.drawing.stability_map import draw_sheet, kind, kinds, stability_sheets
 from datagen.drawing.style import house_style, plt
 from datagen.drawing.work_precision import draw_work_precision, work_precision_png
 from datagen.errors import BadInput
 from datagen.plain import plain_json
+from datagen.runs.progress import steps_told
 from physics.integrators.general_purpose import BALL_BY_BALL, CONTACT_KERNEL, PAIRS, integrate_compiled
+from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.simulate import simulate
 
@@ -77,6 +81,26 @@ def test_a_speed_is_given_after_an_at_sign():
     assert "1260 rpm" in fast.title
 
 
+def test_slip_is_given_after_a_tilde_and_one_percent_is_that_of_the_reference_scenes():
+    slipping = find_subject("G1@3~1", 0)
+    assert slipping.name == "G1_3x_slip1"
+    assert "1 % slip" in slipping.title
+    assert slipping.scene == reference_scene("G1", 0.5, slip_seed=1, speed_factor=3.0)
+    knots = {percent: find_subject(f"F2~{percent}", 0).scene.cage.knot_values for percent in (0, 1, 4)}
+    assert knots[0] == ()
+    np.testing.assert_allclose(knots[4], 4.0 * np.array(knots[1]), rtol=0.0, atol=5e-12)  # rounded to 1e-12 each
+
+
+@pytest.mark.parametrize(("alias", "name"), [("gearbox", "G1"), ("fan", "F1"), ("fan@3~1", "F1@3~1")])
+def test_a_rig_by_its_name_is_its_line_spall(alias, name):
+    assert find_subject(alias, 0) == find_subject(name, 0)
+
+
+def test_a_dataset_is_charted_by_its_bare_name_as_other_commands_take_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert find_subject("quickstart", 3).name == "quickstart_3"
+
+
 def test_a_record_of_a_recipe_can_be_charted(tiny_recipe):
     with pytest.raises(BadInput, match="lasts"):
         find_subject(str(tiny_recipe), 0)
@@ -89,7 +113,12 @@ def test_a_record_of_a_recipe_can_be_charted(tiny_recipe):
     ("arguments", "words"),
     [
         (("chart", "G9", "--out", "OUT"), "G0, G1, G1s"),
+        (("chart", "G9", "--out", "OUT"), "quickstart"),
+        (("chart", "quikstart", "--out", "OUT"), 'did you mean "quickstart"?'),
         (("chart", "G1@fast", "--out", "OUT"), "G1@0.01 to G1@100"),
+        (("chart", "fan@", "--out", "OUT"), "fan@0.01 to fan@100"),
+        (("chart", "G1~11", "--out", "OUT"), "G1~0 to G1~10"),
+        (("chart", "G1~1@3", "--out", "OUT"), "G1@3~1"),
         (("chart", "nowhere.toml", "--out", "OUT"), "nowhere.toml"),
         (("chart", "G1"), "--out"),
         (("chart", "--out", "OUT"), "--stability"),
@@ -194,6 +223,66 @@ def test_a_chart_holds_every_run_with_machine_and_versions(small_chart):
     assert small_chart.made_with["numba"]
 
 
+def test_a_chart_says_on_what_it_was_measured(small_chart):
+    assert {"processor", "cores", "physics"} <= set(small_chart.made_with)
+
+
+def test_what_is_timed_has_been_run_whole_before_unless_that_is_slow(monkeypatch):
+    durations = []
+    clock = iter([0.0, 0.4, 1.0, 1.1, 2.0, 2.1, 3.0, 3.1])
+    monkeypatch.setattr(measuring.time, "process_time", lambda: next(clock))
+    one = entrants.Contestant("g", "n", "s", lambda scene, rate: durations.append(scene.duration), lambda *_: None)
+    assert measuring._timed(one, reference_scene("F1", 0.5), RATE, rounds=3)[0] == pytest.approx(0.1)
+    assert durations == [0.5] * 4  # the first, of 0.4 s, does not count
+    clock = iter([0.0, 0.6])
+    assert measuring._timed(one, reference_scene("F1", 0.5), RATE, rounds=3)[0] == pytest.approx(0.6)
+    assert durations == [0.5] * 5
+
+
+def test_the_default_has_an_error_of_its_stiffness_and_is_timed_without_keeping_its_state():
+    scene = reference_scene("F1", 0.2)
+    exact = of_trace(simulate(scene, RATE, method="exponential_rk4", substeps=4, estimate_error=False, keep_state=True))
+    chosen = [one for one in entrants.contestants(scene, quick=True) if one.name.startswith("modal")]
+    for one in chosen:
+        result = one.run(scene, RATE)
+        assert one.read(scene, RATE, result).displacement is None
+        assert 0.0 < score(scene, RATE, one.response(scene, RATE, result), exact).stiffness < 0.01
+    assert chosen
+
+
+def test_a_scene_that_cannot_be_simulated_ends_with_1_and_one_line(monkeypatch, tmp_path):
+    def refuse(*_, **__):
+        raise SimulationFailed(Outcome.NO_START, "no position carries the load")
+
+    monkeypatch.setattr(measuring, "simulate", refuse)
+    code, _, told = run_command("chart", "F1", "--quick", "--out", tmp_path)
+    assert code == 1
+    assert "this cannot be simulated: no position carries the load; " in told
+    assert "Traceback" not in told
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_disk_is_one_line_that_names_the_folder(monkeypatch, tmp_path, small_chart):
+    def full(path, data):
+        raise OSError(errno.ENOSPC, "No space left on device", str(path))
+
+    monkeypatch.setattr(measuring, "measure", lambda *_: small_chart)
+    monkeypatch.setattr("datagen.corpora.atomic.write_atomically", full)
+    code, _, told = run_command("chart", "F1", "--out", tmp_path)
+    assert code == 2
+    assert "cannot write here: No space left on device" in told
+    assert str(tmp_path) in told
+    assert "Traceback" not in told
+
+
+def test_progress_is_plain_lines_where_it_is_piped(capsys):
+    clock = iter([0.0, 1.0, 2.5])
+    with steps_told(lambda: next(clock)) as tell:
+        for step in ("1 of 3: a", "2 of 3: b", "3 of 3: c"):
+            tell(step)
+    assert capsys.readouterr().err == "1 of 3: a\n3 of 3: c\n"
+
+
 def test_a_chart_says_what_each_method_and_model_on_it_is_for_and_where_it_holds(small_chart):
     assert {run.name for run in small_chart.runs} < set(small_chart.contracts)
     assert small_chart.contracts["exponential_rk4"]["order"] == 4.0
@@ -231,22 +320,75 @@ def test_maps_tell_accurate_from_wrong_refused_and_unanswerable(monkeypatch, tmp
     assert soft[one_step] < 1e-3  # the goal of the reference scenes
     assert fixed["limit"][0] > 1.0 > fixed["limit"][1]
     assert stiff[one_step] is None or stiff[one_step] > 0.1
+    for one in maps:
+        words, errors = np.array(one["outcomes"]), np.array(one["error"], dtype=object)
+        assert np.array_equal(words == "value", errors != None)  # noqa: E711
+        ends = {each.name.lower().replace("_", " ") for each in Outcome}
+        assert set(words.ravel()) <= {"value", "not converged", *ends}
+    assert [row[one_step] for row in fixed["refused"]] == [False, True]
+    assert not np.any(chosen["refused"])
     assert (tmp_path / "stability_maps.png").read_bytes().startswith(PNG)
 
 
-def test_the_kinds_of_a_map_follow_the_size_of_the_error():
-    assert [kind(error) for error in (5e-4, 5e-3, 5e-2, 0.5, math.inf, math.nan)] == [0, 1, 2, 3, 4, 5]
-    one = stability.Map(
-        "m",
-        stability.BY_STEP,
-        stability.STEPS,
-        "s",
-        "u",
-        (1.0, 2.0),
-        ((0.0,) * 8, (math.inf,) * 8),
-        (math.inf, math.inf),
+def made_map(sweep):
+    """A map of two values: at the first all is accurate, at the second steps end by an outcome or are refused."""
+    return stability.Map(
+        method="m",
+        scale=stability.BY_STEP,
+        rows=stability.STEPS,
+        sweep=sweep,
+        unit="u",
+        values=(1.0, 3e4),
+        error=((0.0,) * 8, (math.nan,) * 8),
+        outcomes=((stability.VALUE,) * 8, ("not finite",) * 8),
+        refused=((False,) * 8, (True,) * 2 + (False,) * 6),
+        limit=(math.inf, 2.0),
     )
-    assert stability_png([one]).startswith(PNG)
+
+
+def test_the_kinds_of_a_map_follow_refusal_outcome_and_size_of_the_error():
+    value, failed = stability.VALUE, (math.nan, "not finite")
+    assert [kind(error, value, False) for error in (5e-4, 5e-3, 5e-2, 0.5)] == [0, 1, 2, 3]
+    assert [kind(*failed, False), kind(*failed, True), kind(5e-4, value, True)] == [4, 6, 6]
+    assert kind(math.nan, stability.NOT_CONVERGED, True) == 5
+    assert kinds(made_map("s")) == [[0, 6]] * 2 + [[0, 4]] * 6
+
+
+def test_a_step_is_refused_on_the_map_where_simulate_refuses_it():
+    soft = stability.SWEEPS[0].apply(reference_scene("G1", 0.01), 1e3)
+    limit = stability._limit(soft, "exponential_rk4")
+    assert 1.0 / 16.0 < limit < 1.0
+    for steps in stability.STEPS_A_SAMPLE:
+        try:
+            simulate(soft, stability.RATE, method="exponential_rk4", substeps=steps, estimate_error=False)
+            outcome = None
+        except SimulationFailed as failure:
+            outcome = failure.outcome
+        assert (outcome is Outcome.UNSTABLE_STEP) == stability._refused(1.0 / steps, limit)
+
+
+def test_a_sheet_of_maps_holds_four_quantities():
+    assert [sheet[:6] for sheet in stability_sheets([made_map(name) for name in "abcde"])] == [PNG] * 2
+    with house_style():
+        figure = draw_sheet([made_map(name) for name in "abcd"], "1 of 2")
+        figure.canvas.draw()
+        named = [panel.texts[0].get_text() for panel in figure.axes]
+        hatched = [sum(patch.get_hatch() is not None for patch in panel.patches) for panel in figure.axes]
+        plt.close(figure)
+    assert named == list("abcd")
+    assert hatched == [2] * 4
+
+
+def test_the_default_is_named_in_the_legend_and_small_errors_are_on_the_panel(small_chart):
+    tiny = dataclasses.replace(small_chart.runs[0].score, acceleration=3e-8)
+    run = dataclasses.replace(small_chart.runs[0], name="modal", score=tiny)
+    with house_style():
+        figure = draw_work_precision(dataclasses.replace(small_chart, runs=(run,), edges={}))
+        panel = figure.axes[1]
+        named, low = [text.get_text() for text in panel.get_legend().get_texts()], panel.get_ylim()[0]
+        plt.close(figure)
+    assert named == ["modal (default)"]
+    assert low == pytest.approx(1e-8)
 
 
 def test_names_in_a_chart_do_not_lie_on_each_other(small_chart):

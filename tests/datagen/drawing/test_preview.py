@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from datagen.drawing.frequency_panels import cursors
+from datagen.drawing.frequency_panels import cursors, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, plt
-from datagen.drawing.time_panels import _lanes, vertical_modes
+from datagen.drawing.time_panels import _lanes, draw_spectrogram, vertical_modes
 from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.recipes.recipe import load_recipe
@@ -133,19 +133,40 @@ def test_modes_along_y_of_the_healthy_gearbox_rig_are_the_check_values(portrait)
 def test_cursors_follow_the_defective_race(portrait):
     outer = {name.split()[0]: targets for name, _, _, targets in cursors(portrait("line, outer"))}
     assert outer["BPFO"] == pytest.approx([34.283 * k for k in range(1, 7)], rel=2e-5)  # last printed digit
-    families = cursors(portrait("line, inner, deep gap"))
+    drawn = portrait("line, inner, deep gap")
+    families = cursors(replace(drawn, acceleration=np.zeros((round(drawn.rate), 2))))  # a second, 13 turns of the shaft
     assert families[0][0].startswith("BPFI")
     # Fan rig: the two ball-pass frequencies, 76.74 Hz for the outer race, add up to 14 turns of the shaft at 800 rpm.
     assert families[0][3][0] == pytest.approx(14.0 * 800.0 / 60.0 - 76.74, abs=0.005)  # last printed digit
     assert "shaft 13.3 Hz" in families[1][0]
 
 
-def test_sidebands_that_a_short_record_cannot_resolve_are_not_marked(portrait):
-    # The cage of the gearbox rig turns 0.7 times in a quarter of a second; in one second 2.86 times.
+@pytest.mark.parametrize(
+    ("seconds", "marked"), [(0.25, ["BPFO"]), (1.0, ["BPFO", "shaft"]), (1.5, ["BPFO", "±", "shaft"])]
+)
+def test_lines_that_a_short_record_cannot_resolve_are_not_marked(seconds, marked, portrait):
+    # A second of the gearbox rig holds 7 turns of the shaft and 2.86 of the cage; lines are told apart at 4 bins.
     drawn = portrait("line, outer")
-    assert [name.split()[0] for name, *_ in cursors(drawn)] == ["BPFO", "shaft"]
-    longer = replace(drawn, acceleration=np.zeros((round(drawn.rate), 2)))
-    assert [name.split()[0] for name, *_ in cursors(longer)] == ["BPFO", "±", "shaft"]
+    lasting = replace(drawn, acceleration=np.zeros((round(seconds * drawn.rate), 2)))
+    assert [name.split()[0] for name, *_ in cursors(lasting)] == marked
+
+
+def test_the_flank_of_a_line_is_not_marked_as_its_sideband():
+    frequency, flank = np.arange(60.0), 10.0 ** (-np.abs(np.arange(60.0) - 30.0))
+    sidebands = [27.0, 33.0]
+    assert line_heights(frequency, flank, sidebands, 3.0, peaks=True) == []
+    assert [line[0] for line in line_heights(frequency, flank, sidebands, 3.0)] == [28.0, 32.0]
+    standing = flank + 0.1 * (frequency == 33.0)
+    assert [line[0] for line in line_heights(frequency, standing, sidebands, 3.0, peaks=True)] == [33.0]
+
+
+def test_the_sheet_says_where_its_modes_are_taken(portrait):
+    with house_style():
+        figure, axes = plt.subplots()
+        draw_spectrogram(axes, portrait("line, outer"))
+        said = axes.get_xlabel()
+        plt.close(figure)
+    assert said.endswith("dashed: modes along y at the middle of the close-up")
 
 
 def test_the_load_of_a_ball_on_a_full_turn_peaks_at_stribecks_value_below_the_shaft(portrait):

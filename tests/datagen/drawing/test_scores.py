@@ -2,7 +2,7 @@
 
 import pytest
 
-from datagen.drawing.scores import draw_against, draw_reliability, draw_scores, scores_png
+from datagen.drawing.scores import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
 from datagen.drawing.style import house_style, plt
 
 NONE = {"value": float("nan"), "low": float("nan"), "high": float("nan")}
@@ -54,6 +54,21 @@ def test_a_corpus_without_healthy_records_says_that_it_has_none(words):
 def test_what_cannot_be_drawn_is_explained(words):
     assert "needs healthy records" in words(draw_reliability, summary_of(96, 0))
     assert "unknown, or the same in all" in words(draw_against, summary_of(96, 0), "snr_db")
+
+
+def test_every_model_has_its_table_of_confusion():
+    test = summary_of(5, 10)
+    (scores,) = test["models"].values()
+    counts = {"rule": 7, "forest": 8, "logistic": 9}
+    test["models"] = {
+        name: scores | {"confusion": scores["confusion"] | {"counts": [[count]]}} for name, count in counts.items()
+    }
+    with house_style():
+        figure, axes = plt.subplots()
+        draw_confusion(axes, test)
+        drawn = {panel.get_title(loc="left"): panel.texts[0].get_text() for panel in figure.axes if panel.texts}
+        plt.close(figure)
+    assert drawn == {"said by rule": "7", "said by forest": "8", "said by logistic": "9"}
 
 
 def test_the_sheet_of_a_corpus_without_faults_is_a_picture():

@@ -1,4 +1,5 @@
 import csv
+import errno
 import json
 from pathlib import Path
 
@@ -66,6 +67,17 @@ def test_a_folder_that_cannot_be_written_into_is_bad_input(tmp_path, monkeypatch
     with pytest.raises(BadInput, match="cannot write into"):
         write_book(tmp_path, ["6"], report=lambda title: None)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_fills_up_is_bad_input_that_names_the_folder(tmp_path, monkeypatch):
+    def full(path, data):
+        raise OSError(errno.ENOSPC, "No space left on device", str(path))
+
+    monkeypatch.setattr("datagen.corpora.atomic.write_atomically", full)
+    code, _, told = run("--out", tmp_path, "--figures", "6")
+    assert code == 2
+    assert "No space left on device" in told
+    assert str(tmp_path) in told
 
 
 def test_chapters_come_in_the_order_of_the_paper():

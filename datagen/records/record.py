@@ -150,8 +150,9 @@ def _profile_depth(scene: Scene) -> Rounded:
 def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:
     """Labels of scene, run and place in the corpus."""
     values = label_values(scenario.scene)
+    warnings = [str(values["validity"]), _chaos(trace), _missed(scenario, trace), _unlocated(trace)]
     return values | {
-        "validity": "; ".join(filter(None, [str(values["validity"]), _chaos(trace), _missed(scenario, trace), _unlocated(trace)])),
+        "validity": "; ".join(filter(None, warnings)),
         "record": scenario.record,
         "part": scenario.part,
         **dict.fromkeys(RECORDING_LABELS, ""),
@@ -175,8 +176,8 @@ def _chaos(trace: Trace) -> str:
     if not trace.chaotic:
         return ""
     return (
-        f"bouncing balls multiply errors {trace.sensitivity:.0f} times, and ever finer steps lead to other responses: it "
-        "is chaotic, and its spectra hold but not its single points"
+        f"bouncing balls multiply errors {trace.sensitivity:.0f} times, and finer steps lead to other responses: it is "
+        "chaotic, and its spectra hold but not its single points"
     )
 
 
@@ -187,7 +188,9 @@ def _missed(scenario: Scenario, trace: Trace) -> str:
     allowed = max(accuracy, least / size if size > 0.0 else 0.0)
     if trace.chaotic or not trace.error_estimate > allowed:
         return ""
-    return f"the accuracy asked for, {allowed:.2g}, was not reached: the response may be wrong by {trace.error_estimate:.2g}"
+    return (
+        f"the accuracy asked for, {allowed:.2g}, was not reached: it may be {trace.error_estimate:.2g} off"
+    )
 
 
 def _unlocated(trace: Trace) -> str:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from physics.integrators.methods import MODAL
 from physics.integrators.modal.memory import STRIDES, Stride
-from physics.integrators.output import STEPS, Grid, Output
+from physics.integrators.output import LOGGED, STEPS, Grid, Output
 from physics.response.march import trace_of
 from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March, case_of
 from physics.scene import Scene
@@ -33,11 +33,14 @@ ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
 # A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where contacts may
-# make errors grow: it is made again with this share of the tolerance, and what both are apart tells.
+# make errors grow, or where the rings part: it is made again with this share of the tolerance, and what both are apart
+# tells.
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
 # Of a response that is twice farther than this share of its size from a coarser one no point is known; no more than so
 # many are made to confirm it.
 LOST, MOST_CONFIRMATIONS = 0.1, 4
+# The finer of two responses may be this many times as wrong as both are apart: some errors of impacts shrink late.
+CONFIRMED = 4.0
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -77,13 +80,19 @@ def respond_accurately(
     seen, sensitivity = _beginning(march, pilot, accuracy, least)
     tame = 1.0 if sensitivity > CHAOTIC else _tame(sensitivity)
     output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, tame)
-    if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL):
+    if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) or _flies_free(output):
         again = March(case, samples, kept)
         output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, sensitivity)
     marched = output.acceleration.shape[0]
     trace = trace_of(scene, Grid(marched, 1, grid.interval), output, MODAL)
     step = (marched - 1) * grid.interval / max(1, int(output.tally[STEPS]))
     return replace(trace, step=step, error_estimate=error / size if size > 0.0 else 0.0, sensitivity=sensitivity)
+
+
+def _flies_free(output: Output) -> bool:
+    """Whether there was an instant at which no ball touched: a ring that falls back multiplies errors, at any time."""
+    made = output.change_made[: output.tally[LOGGED]]
+    return bool((output.initial.sum() + np.cumsum(np.where(made, 1, -1)) < 0.5).any())
 
 
 def _tame(sensitivity: float) -> float:
@@ -122,18 +131,19 @@ def _made_sure(
     """The response made again by a fresh `march` on a finer grid than the `output`'s; its estimated error and its own
     RMS (m/s²), and the sensitivity that both tell.
 
-    Once more, to that sensitivity, if that is not within the accuracy; and where that is CHAOTIC, until another one
-    confirms it.
+    Once more, to that sensitivity, if that is not within the accuracy; and where that is CHAOTIC or the rings part,
+    until another one confirms it.
     """
     case = march.case
     finer = go_on(march, _finer(grid))
     sensitivity = max(sensitivity, _shown(case, output, finer))
     error, size = SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
-    if sensitivity <= CHAOTIC and error <= max(accuracy * size, least):
+    flighty = sensitivity > CHAOTIC or _flies_free(finer)
+    if not flighty and error <= max(accuracy * size, least):
         return finer, error, size, sensitivity
     fresh = March(case, march.samples, march.kept)
     exact, grid, error, size = _to_accuracy(fresh, go_on, accuracy, least, size**2, _tame(sensitivity))
-    if sensitivity > CHAOTIC:
+    if flighty:
         exact, error, size = _confirmed(fresh, go_on, accuracy, least, exact, grid)
     return exact, error, size, sensitivity
 
@@ -141,8 +151,8 @@ def _made_sure(
 def _confirmed(
     march: March, go_on: GoOn, accuracy: float, least: float, output: Output, grid: Stride
 ) -> tuple[Output, float, float]:
-    """A response finer than the `output` of a `march`, that is within the accuracy of the one before; how far these two
-    are apart, and its RMS (m/s²).
+    """A response finer than the `output` of a `march`, that is well within the accuracy of the one before; the error
+    that this tells, and its RMS (m/s²).
 
     Where even the finest is LOST, its error is its size.
     """
@@ -150,10 +160,10 @@ def _confirmed(
         grid = _finer(grid)
         finer = go_on(March(march.case, march.samples, march.kept), grid)
         apart, size = _apart(output, finer), rms(finer.acceleration)
-        if apart <= max(accuracy * size, least) or (attempt > 0 and apart > LOST * size):
+        if CONFIRMED * apart <= max(accuracy * size, least) or (attempt > 0 and apart > LOST * size):
             break
         output = finer
-    return finer, max(apart, size) if apart > LOST * size else apart, size
+    return finer, max(apart, size) if apart > LOST * size else CONFIRMED * apart, size
 
 
 def _finer(grid: Stride) -> Stride:

@@ -23,7 +23,8 @@ def summary_table(summary: dict[str, Any]) -> Table:
             interval = f"{figure.low:.3f} to {figure.high:.3f}"
             table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
     for name, events in summary["events"].items():
-        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", "", str(events["true"]), "", "")
+        interval = f"{events['f1_low']:.3f} to {events['f1_high']:.3f}" if events["true"] else ""
+        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", interval, str(events["true"]))
     return table
 
 

@@ -13,7 +13,9 @@ from datagen.places import require_folder
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
 
-Estimator = Annotated[str | None, typer.Option("--estimator", metavar="module:Class", help="Another estimator.")]
+Estimator = Annotated[
+    str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator, a class or a function.")
+]
 KnownSizes = Annotated[
     list[str] | None,
     typer.Option("--known-size", metavar="RECORD=MM", help="Measured spall of a record; may be given again."),

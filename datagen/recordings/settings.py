@@ -75,6 +75,16 @@ class BearingNumbers(Table):
     """Diameter of a rolling element, mm."""
     contact_angle_deg: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
     """Contact angle, degrees."""
+    load_deflection_n_per_m_to_n: Positive | None = None
+    """K of F = K δⁿ for one rolling element between both races, which tells sizes better where the load is known."""
+    exponent: Annotated[float, Field(ge=1.0, le=2.0)] = 1.5
+    """n of that law: 3/2 for balls, 10/9 for rollers."""
+
+    @model_validator(mode="after")
+    def _exponent_of_a_factor(self) -> BearingNumbers:
+        if "exponent" in self.model_fields_set and self.load_deflection_n_per_m_to_n is None:
+            raise refuse("an exponent needs its factor K", "load_deflection_n_per_m_to_n", "a number above 0")
+        return self
 
 
 class RecordingSettings(Table):

@@ -147,7 +147,7 @@ def _bootstrap(values: Array, bearing: NDArray[np.str_], weights: Array | None =
     return float(low), float(high)
 
 
-def _with_interval(name: str, values: list[float], records: list[ScoredRecord]) -> dict[str, float]:
+def mean_with_interval(name: str, values: list[float], records: list[ScoredRecord]) -> dict[str, float]:
     """The mean of the `values` of these records under its name, and its interval as name_low and name_high."""
     if not values:
         return dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
@@ -199,10 +199,10 @@ def _row(records: list[ScoredRecord]) -> dict[str, Any]:
     lag, arc = [lag_error(one) for one in told], [extent_error(one) for one in told]
     return {
         "records": len(records),
-        **_with_interval("no_estimate", [_silent(one) for one in records], records),
-        **_with_interval("lag_error", lag, told),
+        **mean_with_interval("no_estimate", [_silent(one) for one in records], records),
+        **mean_with_interval("lag_error", lag, told),
         "lag_error_median": _median(lag),
-        **_with_interval("arc_error", arc, told),
+        **mean_with_interval("arc_error", arc, told),
         "arc_error_median": _median(arc),
     }
 
@@ -221,7 +221,7 @@ def _long(records: list[ScoredRecord]) -> dict[str, Any]:
     told = [one for one in own if one.found]
     near = [one for one in told if one.candidates]
     errors = [min(abs(c - one.true_extent) for c in one.candidates) / one.true_extent for one in near]
-    return {"records": len(own), "told": len(told), **_with_interval("error_of_nearest_candidate", errors, near),
+    return {"records": len(own), "told": len(told), **mean_with_interval("error_of_nearest_candidate", errors, near),
             "median": _median(errors)}  # fmt: skip
 
 

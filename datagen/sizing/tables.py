@@ -60,6 +60,20 @@ def _with_interval(value: float, low: float, high: float) -> str:
     return f"{value:.3g} [{low:.3g}, {high:.3g}]"
 
 
+def stated_sentence(stated: dict[str, Any]) -> str:
+    """What the extents and the health that recordings are stated to have say of the estimates."""
+    parts = []
+    if stated["records"]:
+        parts.append(f"of {stated['records']} records of a stated extent {stated['told']} were told a size")
+    if stated["told"]:
+        interval = f"[{stated['arc_error_low']:.3f}, {stated['arc_error_high']:.3f}]"
+        parts.append(f"mean error of their arc {stated['arc_error']:.3f} {interval} of it")
+        parts.append(f"{stated['told_on_the_stated_race']} on the stated race")
+    if stated["healthy"]:
+        parts.append(f"{stated['healthy_told']} of {stated['healthy']} stated healthy were told a size")
+    return ", ".join(parts)
+
+
 def known_size_sentence(known: KnownSize) -> str:
     """What the known size of a record changed."""
     change = 100.0 * (known.factor - 1.0)

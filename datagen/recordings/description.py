@@ -14,6 +14,7 @@ from labels.schema import LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
+from physics.hertz import BALL_EXPONENT
 
 UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "", "contact_law": UNKNOWN}
 HEALTHY: dict[str, Any] = dict.fromkeys(
@@ -76,7 +77,7 @@ def geometry(numbers: BearingNumbers) -> Bearing:
         ball_diameter=numbers.ball_diameter_mm * 1e-3,
         contact_angle=math.radians(numbers.contact_angle_deg),
         load_deflection=numbers.load_deflection_n_per_m_to_n or 1.0,
-        exponent=numbers.exponent,
+        exponent=numbers.exponent or BALL_EXPONENT,
     )
 
 

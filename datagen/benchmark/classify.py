@@ -86,7 +86,9 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
     chosen = [_tested_records(benchmark, folder, labels) for folder in benchmark.tests]
     training = _learned_from(benchmark, labels, say)
     rule = train_rule(training)
-    models = _models(benchmark, training, labels)
+    own_input = _own_input(benchmark, training, labels)
+    curve = _curve(benchmark, own_input)  # copies the user's estimator, which is as it was made only before it learns
+    models = _models(benchmark, own_input)
     results: dict[str, Any] = {
         "train": str(benchmark.train),
         "options": benchmark.options,
@@ -94,9 +96,7 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
         "rule_threshold": rule.threshold,
         "alarms": {model.name: _plain(model.alarm) for model in models},
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
-    }
-    if benchmark.curve:
-        results["learning_curve"] = learning_curve(training, benchmark.learner)
+    } | curve
     tested = []
     results["tests"] = []
     for folder, records in zip(benchmark.tests, chosen, strict=True):
@@ -129,12 +129,24 @@ def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, say: Sa
     return training_set(benchmark.train, labels, reading, workers)
 
 
-def _models(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> list[Model]:
+def _own_input(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> TrainingSet:
+    """What the models learn from: the same records as raw windows where the user's estimator takes those."""
+    if labels is None or not benchmark.takes_windows:
+        return training
+    raw = read_windows(benchmark.train, labels["record"].to_numpy(np.int64), benchmark.window_rate)
+    return joined_labels(raw, labels)
+
+
+def _curve(benchmark: Benchmark, training: TrainingSet) -> dict[str, Any]:
+    if not benchmark.curve:
+        return {}
+    own, windows = benchmark.estimator, benchmark.takes_windows
+    return {"learning_curve": learning_curve(training, benchmark.learner, own, windows)}
+
+
+def _models(benchmark: Benchmark, training: TrainingSet) -> list[Model]:
     if benchmark.estimator is None:
         return train_models(training, benchmark.learner)
-    if benchmark.takes_windows and labels is not None:
-        raw = read_windows(benchmark.train, labels["record"].to_numpy(np.int64), benchmark.window_rate)
-        training = joined_labels(raw, labels)
     return [train_own(training, benchmark.estimator, benchmark.takes_windows)]
 
 
@@ -157,8 +169,10 @@ def _test(
         raw = read_windows(folder, labels["record"].to_numpy(np.int64), benchmark.window_rate)
     tested = judge(folder, labels, rows, rule, models, benchmark.doubt, imported, raw)
     summary = summarise(tested)
-    noise_tells = imported and not benchmark.takes_windows and np.isin(tested.truth, RACES).any()
+    noise_tells = imported and np.isin(tested.truth, RACES).any()
     levels = benchmark.noise_db if noise_tells else ()
+    if benchmark.noise_db and not noise_tells:
+        say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
     summary["noise"] = [_noisy(benchmark, folder, labels, rule, models, level, say) for level in levels]
     if imported:
         log_run(folder, benchmark.train, benchmark.options, summary)

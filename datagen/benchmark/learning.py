@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.benchmark.training import Model, TrainingSet, train_models
+from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_own
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
 from labels.classifier.classes import HEALTHY
@@ -19,9 +19,14 @@ FEWEST_BEARINGS = 10
 SEED = 31
 
 
-def learning_curve(training: TrainingSet, learner: str) -> dict[str, list[dict[str, Any]]]:
+def learning_curve(
+    training: TrainingSet, learner: str, own: Any | None = None, takes_windows: bool = False
+) -> dict[str, list[dict[str, Any]]]:
     """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
-    from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out."""
+    from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out.
+
+    The models are our `learner`, or with the user's `own` estimator copies of that, which must not be fitted yet.
+    """
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))
     cut = max(1, int(HELD_OUT * bearings.size))
@@ -30,8 +35,10 @@ def learning_curve(training: TrainingSet, learner: str) -> dict[str, list[dict[s
     counts = {min(others.size, max(FEWEST_BEARINGS, round(share * others.size))) for share in SHARES}
     curve: dict[str, list[dict[str, Any]]] = {}
     for count in sorted(counts):
+        part = _part(training, np.isin(training.bearings, others[:count]))
+        fresh = None if own is None else copy_of(own)
         try:
-            models = train_models(_part(training, np.isin(training.bearings, others[:count])), learner)
+            models = train_models(part, learner) if fresh is None else [train_own(part, fresh, takes_windows)]
         except BadInput:
             continue
         for model in models:

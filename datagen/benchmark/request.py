@@ -71,6 +71,13 @@ def benchmark_of(
     asked.require()
     levels = asked.levels()
     own = load_own(asked.estimator, SPOKEN) if asked.estimator is not None else None
+    if levels and asked.input == "windows":
+        raise BadInput(
+            "noise is added where features are computed", "", "--noise-db", asked.noise_db, "--input features"
+        )
+    if curve and own is not None and not hasattr(own, "fit"):
+        problem = f"{asked.estimator} does not learn"
+        raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")
     _require_folders(train, tests, asked.input == "windows")
     if out is not None:
         require_folder(out)

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.benchmark.predictions import record_predictions
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
-from labels.classifier.classes import CLASSES
 from labels.classifier.reliability import calibration_error, equal_priors, reliability
 from labels.classifier.scores import (
+    Interval,
     accuracy,
     accuracy_against,
     area_interval,
     balanced_accuracy,
     bootstrap,
     confusion,
+    exact_interval,
     paired_difference,
 )
 from labels.features.conditioning import Array
@@ -26,6 +29,7 @@ from labels.features.modulation import RACES
 from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
 
 AGAINST = ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")
+CALIBRATION_DRAWS = 500
 
 
 def race_balance(truth: Any, said: Any) -> float:
@@ -67,6 +71,7 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
         "detection_auc": asdict(area_interval(faulty[scored], said.score[scored], groups=owner[scored])),
         "healthy": int(healthy.sum()),
         "false_alarms": int(alarms.sum()),
+        "false_alarm_share": asdict(_alarm_share(alarms[healthy], owner[healthy])),
         "healthy_bearings": int(tested.labels["bearing_id"][healthy].nunique()),
         "alarming_bearings": int(tested.labels["bearing_id"][alarms].nunique()),
         "rejected": int((said.location == REJECTED).sum()),
@@ -77,8 +82,16 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
         },
     }
     if said.name != RULE:
-        found |= _against_rule(tested, said, rule) | _calibration(tested, said)
+        found |= _against_rule(tested, said, rule) | _calibration(tested, said) | _condition(tested, said)
     return found | {"accuracy_against": _against(tested, said)}
+
+
+def _alarm_share(alarms: NDArray[np.bool_], owner: NDArray[np.int64]) -> Interval:
+    """Share of healthy verdicts (N,) that call a spall with its exact interval; draws of one record count as one."""
+    if not alarms.size:
+        return Interval(math.nan, math.nan, math.nan)
+    share, records = float(alarms.mean()), np.unique(owner).size
+    return exact_interval(share * records, records)
 
 
 def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
@@ -99,16 +112,35 @@ def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, A
 
 
 def _calibration(tested: Tested, said: Verdicts) -> dict[str, Any]:
-    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned."""
-    known = tested.classes != UNKNOWN
-    if not known.any() or len(np.unique(tested.classes[known])) < 2:
+    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned.
+
+    Chance adds to the calibration error of every draw, so that the interval of a small error may lie above it.
+    """
+    known = tested.truth != UNKNOWN
+    spall, probability = np.isin(tested.truth[known], RACES), 1.0 - said.probability[known, 0]
+    if np.unique(spall).size < 2:
         return {}
-    spall = tested.classes[known] != CLASSES[0]
-    probability, weights = 1.0 - said.probability[known, 0], equal_priors(spall)
+    error = bootstrap(
+        _equal_error, spall, probability, strata=spall, groups=tested.owner[known], draws=CALIBRATION_DRAWS
+    )
+    return {
+        "reliability": reliability(spall, probability, equal_priors(spall)),
+        "calibration_error": error.value,
+        "calibration_error_interval": {"low": error.low, "high": error.high},
+    }
+
+
+def _equal_error(spall: NDArray[np.bool_], probability: Array) -> float:
+    return calibration_error(spall, probability, equal_priors(spall))
+
+
+def _condition(tested: Tested, said: Verdicts) -> dict[str, Any]:
+    """How well line and extended spalls are told apart, where the sizes of the spalls are known."""
+    known = tested.classes != UNKNOWN
+    if np.unique(tested.classes[known]).size < 2:
+        return {}
     conditions = np.array([name.split()[0] for name in tested.classes])
     return {
-        "reliability": reliability(spall, probability, weights),
-        "calibration_error": calibration_error(spall, probability, weights),
         "condition_balanced_accuracy": asdict(
             bootstrap(
                 balanced_accuracy,

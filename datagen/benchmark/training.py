@@ -131,6 +131,14 @@ def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
     )
 
 
+def copy_of(own: Any) -> Any:
+    """A copy of the user's estimator as it was made; raises BadInput if there can be none."""
+    from sklearn.base import clone
+
+    with own_code(estimator_name(own), "it cannot be copied"):
+        return clone(own, safe=False)
+
+
 def train_own(training: TrainingSet, own: Any, takes_windows: bool) -> Model:
     """The user's estimator, fitted if it can be; its spalls are called at even odds.
 

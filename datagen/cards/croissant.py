@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -31,13 +32,26 @@ CONTEXT: dict[str, Any] = {
     "source": "cr:source",
 }
 TYPES = {"str": "sc:Text", "float64": "sc:Float", "int64": "sc:Integer", "bool": "sc:Boolean"}
+REQUIRED = ("license", "url", "creator", "datePublished")
+"""By version 1.0, beside what every corpus has; version is recommended."""
 INDEX, SHARDS = "index.csv", "shards"
 
 
-def croissant_text(folder: Path, facts: Facts) -> str:
-    """The JSON-LD text for the corpus in `folder`; terms that nobody stated are left out."""
+def croissant_text(folder: Path, facts: Facts, out: Path) -> str:
+    """The JSON-LD text for the corpus in `folder`, to lie in `out`; terms that nobody stated are left out."""
+    known = {name: value for name, value in _document(folder, facts, out).items() if value}
+    return json.dumps(known, indent=1, ensure_ascii=False) + "\n"
+
+
+def unstated(facts: Facts) -> tuple[str, ...]:
+    """What Croissant requires and neither recipe nor SPEC states: who publishes a corpus has to add it."""
+    stated = {"license": facts.terms.licence, "url": facts.terms.url}
+    return tuple(name for name in REQUIRED if not stated.get(name))
+
+
+def _document(folder: Path, facts: Facts, out: Path) -> dict[str, Any]:
     info, terms = facts.info, facts.terms
-    document = {
+    return {
         "@context": CONTEXT,
         "@type": "sc:Dataset",
         "conformsTo": CONFORMS_TO,
@@ -47,20 +61,20 @@ def croissant_text(folder: Path, facts: Facts) -> str:
         "citeAs": terms.citation,
         "url": terms.url,
         "version": info.identity["recipe_hash"],
-        "distribution": _files(folder),
+        "distribution": _files(folder, out),
         "recordSet": [_labels()],
     }
-    known = {name: value for name, value in document.items() if value}
-    return json.dumps(known, indent=1, ensure_ascii=False) + "\n"
 
 
-def _files(folder: Path) -> list[dict[str, Any]]:
+def _files(folder: Path, out: Path) -> list[dict[str, Any]]:
+    """The files of the corpus, where they lie seen from `out`."""
+    root = Path(os.path.relpath(folder.resolve(), out.resolve()))
     index = {
         "@type": "cr:FileObject",
         "@id": INDEX,
         "name": INDEX,
         "description": "All labels, one row a record.",
-        "contentUrl": INDEX,
+        "contentUrl": (root / INDEX).as_posix(),
         "encodingFormat": "text/csv",
         "sha256": file_hash(index_path(folder)),
     }
@@ -70,7 +84,7 @@ def _files(folder: Path) -> list[dict[str, Any]]:
         "name": SHARDS,
         "description": "Signals and labels; manifest.json has the SHA-256 of each file.",
         "encodingFormat": "application/x-netcdf",
-        "includes": "shards/*.nc",
+        "includes": (root / SHARDS / "*.nc").as_posix(),
     }
     return [index, shards]
 

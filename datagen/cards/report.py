@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from datagen.cards.card import OVERVIEW, card_text
-from datagen.cards.croissant import croissant_text
+from datagen.cards.croissant import croissant_text, unstated
 from datagen.cards.facts import Facts, Kind, corpus_facts
 from datagen.cards.origin_text import origin_text
 from datagen.cards.vocabulary_table import vocabulary_table
@@ -21,11 +21,12 @@ MOST_EXAMPLES = 6
 
 @dataclass(frozen=True)
 class Report:
-    """What was written where, and the facts that the card tells."""
+    """What was written where, the facts that the card tells, and what `unstated` terms the metadata lack."""
 
     folder: str
     files: tuple[str, ...]
     facts: Facts
+    unstated: tuple[str, ...]
 
 
 def write_report(folder: Path, out: Path | None = None) -> Report:
@@ -39,12 +40,12 @@ def write_report(folder: Path, out: Path | None = None) -> Report:
     facts = corpus_facts(folder)
     if not facts.info.records:
         raise BadInput("this corpus holds no record yet", str(folder))
-    contents = _contents(folder, facts)
+    contents = _contents(folder, facts, out)
     write_results(out, contents)
-    return Report(str(out), tuple(contents), facts)
+    return Report(str(out), tuple(contents), facts, unstated(facts))
 
 
-def _contents(folder: Path, facts: Facts) -> dict[str, bytes]:
+def _contents(folder: Path, facts: Facts, out: Path) -> dict[str, bytes]:
     """Every file of the report by name."""
     from datagen.drawing.overview import overview_png
     from datagen.drawing.preview import preview_png
@@ -54,7 +55,7 @@ def _contents(folder: Path, facts: Facts) -> dict[str, bytes]:
     try:
         texts = {
             CARD: card_text(facts, origin_text(corpus.manifest), pictures),
-            METADATA: croissant_text(folder, facts),
+            METADATA: croissant_text(folder, facts, out),
             VOCABULARY: vocabulary_table(corpus),
         }
         return (

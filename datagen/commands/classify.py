@@ -104,15 +104,23 @@ def _line(scores: dict[str, Any]) -> str:
     keys = (("faults", "faults_balanced_accuracy"), ("race", "race_accuracy"), ("AUC", "detection_auc"))
     parts = [f"{word} {_interval(scores[key])}" for word, key in keys]
     bearings = f"{scores['alarming_bearings']}/{scores['healthy_bearings']} bearings"
+    share = _bracket(scores["false_alarm_share"])
     counts = (
-        f"false alarms {scores['false_alarms']}/{scores['healthy']} ({bearings})",
+        f"false alarms {scores['false_alarms']}/{scores['healthy']}{share} ({bearings})",
         f"rejected {scores['rejected']}",
     )
+    if "calibration_error" in scores:
+        around = _bracket(scores["calibration_error_interval"])
+        parts.append(f"calibration error {scores['calibration_error']:.3f}{around}")
     return ", ".join([*parts, *counts])
 
 
 def _interval(found: dict[str, float]) -> str:
     if not math.isfinite(found["value"]):
         return "–"
-    bracket = f" [{found['low']:.3f}, {found['high']:.3f}]" if math.isfinite(found["low"]) else ""
-    return f"{found['value']:.3f}{bracket}"
+    return f"{found['value']:.3f}{_bracket(found)}"
+
+
+def _bracket(found: dict[str, float]) -> str:
+    """The interval of a score in brackets; nothing where it has none."""
+    return f" [{found['low']:.3f}, {found['high']:.3f}]" if math.isfinite(found["low"]) else ""

@@ -22,3 +22,5 @@ def report(
     written = write_report(folder, out)
     write_json(json_file, written)
     print(f"{len(written.files)} files are in {written.folder}: {', '.join(written.files[:4])} and pictures")
+    if written.unstated:
+        print(f"nobody stated for croissant.json: {', '.join(written.unstated)}; add them before you publish it")

@@ -13,7 +13,9 @@ from datagen.places import require_folder
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
 
-Estimator = Annotated[str | None, typer.Option("--estimator", metavar="module:Class", help="Another estimator.")]
+Estimator = Annotated[
+    str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator, a class or a function.")
+]
 KnownSizes = Annotated[
     list[str] | None,
     typer.Option("--known-size", metavar="RECORD=MM", help="Measured spall of a record; may be given again."),
@@ -36,7 +38,11 @@ def size(
     out: OutFolder = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Estimate the size of the spall in every record and score lag, arc, abstention and intervals."""
+    """Estimate the size of the spall in every record and score lag, arc, abstention and intervals.
+
+    Recordings are scored by the extents that are stated of them, and such a run is logged in their folder, in
+    scored_runs.jsonl.
+    """
     from datagen.sizing.known_sizes import parse_known_sizes
     from datagen.sizing.report import write_report
     from datagen.sizing.score import score_sizes
@@ -54,11 +60,15 @@ def size(
 
 
 def _tell(scores: SizeScores) -> None:
-    from datagen.sizing.tables import estimates_table, known_size_sentence, summary_table
+    from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 
     told, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)
     silent = "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be asked for one"
     print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {told} with an estimate{silent}")
+    if scores.load_known and not scores.load_told:
+        print("blind: no load or no Hertz factor is known of these records")
+    if scores.stated is not None:
+        print(stated_sentence(scores.stated))
     for known in scores.known_sizes:
         print(known_size_sentence(known))
     if scores.summary is None:

@@ -8,6 +8,7 @@ import socket
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 from datagen.errors import BadInput
 
@@ -17,10 +18,17 @@ NO_SPACE = (errno.ENOSPC, errno.EDQUOT)
 
 def write_atomically(path: Path, data: bytes | memoryview) -> None:
     """Put `data` at `path`, on the disk: a crash leaves the old file or the whole new one; OSError if it cannot be."""
+    with opened_atomically(path) as file:
+        file.write(data)
+
+
+@contextmanager
+def opened_atomically(path: Path) -> Iterator[BinaryIO]:
+    """A file to write into that is at `path` once the block ends well; after anything else the old one is as it was."""
     temporary = path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}{TEMPORARY_SUFFIX}")
     try:
         with temporary.open("wb") as file:
-            file.write(data)
+            yield file
             file.flush()
             os.fsync(file.fileno())
         os.replace(temporary, path)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -181,10 +182,15 @@ class _Check:
         if self.index is None:
             return
         name = shard_entry(sidecar, self.folder).file
-        rows = self.index[self.index["shard"] == name].sort_values("position")
+        rows = self.index.iloc[self._rows_of_shard.get(name, [])].sort_values("position")
         stated = {c: [None if value != value else value for value in rows[c].tolist()] for c in LABEL_COLUMNS}
         if stated != sidecar.labels or rows["position"].tolist() != list(range(len(sidecar.records))):
             yield "index.csv says other things of its records"
+
+    @cached_property
+    def _rows_of_shard(self) -> Mapping[Hashable, NDArray[np.int64]]:
+        """Places of the rows of the index by shard."""
+        return {} if self.index is None else self.index.groupby("shard").indices
 
     def _wrong_scenarios(self, dataset: xarray.Dataset) -> Iterator[str]:
         from datagen.scenarios.sampling import draw_scenario

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.atomic import write_atomically
+from datagen.corpora.atomic import opened_atomically
 from datagen.corpora.manifest import no_corpus
 from datagen.corpora.shard import Sidecar, shard_path
 from datagen.errors import BadInput
@@ -41,14 +41,15 @@ def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
 
     `shard` is the path of the record's file in the folder, `position` its place in that file, from 0.
     """
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow((*LABEL_COLUMNS, *PLACE_COLUMNS))
     count = 0
-    for row in _in_order_of_records(sidecars, folder):
-        table.writerow(row)
-        count += 1
-    write_atomically(index_path(folder), text.getvalue().encode())
+    with opened_atomically(index_path(folder)) as file:
+        text = io.TextIOWrapper(file, encoding="utf-8", newline="")
+        table = csv.writer(text, lineterminator="\n")
+        table.writerow((*LABEL_COLUMNS, *PLACE_COLUMNS))
+        for row in _in_order_of_records(sidecars, folder):
+            table.writerow(row)
+            count += 1
+        text.detach()
     return count
 
 

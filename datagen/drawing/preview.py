@@ -16,7 +16,6 @@ from datagen.places import require_file
 from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable
-from physics.outcome import SimulationFailed
 
 if TYPE_CHECKING:
     import xarray
@@ -31,8 +30,8 @@ Array = NDArray[np.float64]
 def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, Any]:
     """Draw `record` of a recipe (it is simulated) or of a corpus (it is read) into the PNG `out`; gives what was drawn.
 
-    Raises BadInput if the source, the record or the picture's name cannot be used, or if the record cannot be
-    simulated; nothing is written then.
+    Raises BadInput if the source, the record or the picture's name cannot be used, SimulationFailed if the record
+    cannot be simulated; nothing is written then.
     """
     picture = _writable(Path(out))
     content, facts = preview_png(source, record)
@@ -44,7 +43,10 @@ def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, 
 
 
 def preview_png(source: str | Path, record: int) -> tuple[bytes, dict[str, Any]]:
-    """The sheet of `record` of a recipe or a corpus as the bytes of a PNG file, and what it shows; raises BadInput."""
+    """The sheet of `record` of a recipe or a corpus as the bytes of a PNG file, and what it shows.
+
+    Raises BadInput, and SimulationFailed of a recipe's record.
+    """
     from datagen.drawing.sheet import sheet_png
 
     folder = Path(source)
@@ -96,7 +98,7 @@ def _writable(picture: Path) -> Path:
 
 
 def recipe_portrait(source: str | Path, record: int) -> Portrait:
-    """What a sheet shows of a record of a recipe, simulated now; raises BadInput."""
+    """What a sheet shows of a record of a recipe, simulated now; raises BadInput and SimulationFailed."""
     from datagen.drawing.portrait import Portrait
     from datagen.recipes.recipe import load_recipe
     from datagen.records.record import make_record
@@ -109,10 +111,7 @@ def recipe_portrait(source: str | Path, record: int) -> Portrait:
     require_memory(recipe)
     scenario = draw_scenario(recipe, record)
     require_record_memory(recipe, scenario, stored)
-    try:
-        made = make_record(scenario, stored)
-    except SimulationFailed as problem:
-        raise BadInput(str(problem), recipe.source, "record", record) from problem
+    made = make_record(scenario, stored)
     return Portrait(
         corpus=recipe.name,
         scene=scenario.scene,

@@ -14,6 +14,7 @@ from labels.schema import LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
+from physics.hertz import BALL_EXPONENT
 
 UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "", "contact_law": UNKNOWN}
 HEALTHY: dict[str, Any] = dict.fromkeys(
@@ -57,8 +58,17 @@ def stated_bearing(source: Source) -> Bearing | None:
         raise BadInput(str(problem), source.request.place, "bearing") from None
 
 
+def contact_numbers(source: Source) -> dict[str, float]:
+    """Hertz factor K (N/mⁿ) and exponent n of the bearing, as the SPEC states them or the catalogue has them; empty if
+    neither does."""
+    said, bearing = source.setting("bearing"), stated_bearing(source)
+    if bearing is None or (isinstance(said, BearingNumbers) and said.load_deflection_n_per_m_to_n is None):
+        return {}
+    return {"K": bearing.load_deflection, "n": bearing.exponent}
+
+
 def geometry(numbers: BearingNumbers) -> Bearing:
-    """A bearing of this geometry; its contact stiffness is unknown and of no use here. Raises InvalidParameter."""
+    """A bearing of this geometry; without a stated K its contact stiffness means nothing. Raises InvalidParameter."""
     return Bearing(
         name=numbers.name,
         balls=numbers.balls,
@@ -66,7 +76,8 @@ def geometry(numbers: BearingNumbers) -> Bearing:
         pitch_diameter=numbers.pitch_diameter_mm * 1e-3,
         ball_diameter=numbers.ball_diameter_mm * 1e-3,
         contact_angle=math.radians(numbers.contact_angle_deg),
-        load_deflection=1.0,
+        load_deflection=numbers.load_deflection_n_per_m_to_n or 1.0,
+        exponent=numbers.exponent or BALL_EXPONENT,
     )
 
 

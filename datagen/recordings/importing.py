@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
+import socket
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +14,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from datagen.corpora.atomic import TEMPORARY_SUFFIX
 from datagen.corpora.format import IMPORTED, Identity, data_hash, format_hash
 from datagen.corpora.index import write_index
 from datagen.corpora.manifest import Manifest, write_manifest
@@ -202,10 +205,31 @@ def _manifest(spec: Spec, listing: Listing, records: int) -> Manifest:
     )
 
 
+def _sweep(place: Path, beginning: str) -> None:
+    """Delete what imports of the same name left in `place` whose process, on this computer, was killed."""
+    name = re.compile(re.escape(beginning) + r"(\d+)" + re.escape(TEMPORARY_SUFFIX))
+    for path in place.glob(".*") if place.is_dir() else ():
+        found = name.fullmatch(path.name)
+        if found and not _alive(int(found[1])):
+            shutil.rmtree(path, ignore_errors=True)
+
+
+def _alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:
+        pass  # somebody else's
+    return True
+
+
 @contextmanager
 def _staged(folder: Path) -> Iterator[Path]:
     """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong."""
-    staging = folder.with_name(f".{folder.name}.{os.getpid()}.part")
+    beginning = f".{folder.name}.{socket.gethostname()}."
+    staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
+    _sweep(folder.parent, beginning)
     try:
         (staging / "shards").mkdir(parents=True)
         yield staging

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe import FEWEST_SAMPLES
-from datagen.recordings.description import recording_labels
+from datagen.recordings.description import contact_numbers, recording_labels
 from datagen.recordings.formats.reading import file_format
 from datagen.recordings.formats.wav_file import RATE_NAME
 from datagen.recordings.listing import Request
@@ -165,6 +165,7 @@ def _provenance(source: Source, factor: float, start: int, stop: int) -> str:
             "first_sample": start,
             "samples": stop - start,
             "m_s2_per_number": factor,
+            "parameters": contact_numbers(source),
             "notes": request.settings.get("notes", {}),
         },
         allow_nan=False,

@@ -75,6 +75,10 @@ class BearingNumbers(Table):
     """Diameter of a rolling element, mm."""
     contact_angle_deg: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
     """Contact angle, degrees."""
+    load_deflection_n_per_m_to_n: Positive | None = None
+    """K of F = K δⁿ for one rolling element between both races, which tells sizes better where the load is known."""
+    exponent: Annotated[float, Field(ge=1.0, le=2.0)] | None = None
+    """n of that law, 10/9 for rollers; 3/2, that of balls, if not given."""
 
 
 class RecordingSettings(Table):
@@ -153,6 +157,13 @@ class RecordingSettings(Table):
             at_most_one(self, *(name for name in group if name in type(self).model_fields))
         if self.channel is not None and (self.x is not None or self.y is not None):
             raise refuse("x and y are those of the one channel; a list of channels has its own", "channel")
+        return self
+
+    @model_validator(mode="after")
+    def _exponent_of_a_factor(self) -> RecordingSettings:
+        said = self.bearing
+        if isinstance(said, BearingNumbers) and said.exponent and not said.load_deflection_n_per_m_to_n:
+            raise refuse("an exponent needs its factor K", "bearing.load_deflection_n_per_m_to_n", "a number above 0")
         return self
 
     def given(self) -> dict[str, Any]:

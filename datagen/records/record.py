@@ -188,9 +188,7 @@ def _missed(scenario: Scenario, trace: Trace) -> str:
     allowed = max(accuracy, least / size if size > 0.0 else 0.0)
     if trace.chaotic or not trace.error_estimate > allowed:
         return ""
-    return (
-        f"the accuracy asked for, {allowed:.2g}, was not reached: it may be {trace.error_estimate:.2g} off"
-    )
+    return f"the accuracy asked for, {allowed:.2g}, was not reached: it may be {trace.error_estimate:.2g} off"
 
 
 def _unlocated(trace: Trace) -> str:

@@ -19,7 +19,10 @@ from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate
 
 CALIBRATION_FILE = Path(__file__).with_name("calibration.npz")
-SPOKEN = "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate"
+SPOKEN = (
+    "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate, "
+    "or module:function that does the same"
+)
 
 
 class AnyEstimator(Protocol):
@@ -38,10 +41,13 @@ def default_estimator() -> SizeEstimator:
 
 
 def find_estimator(name: str | None) -> AnyEstimator:
-    """The estimator called "module:Class", made without arguments, or the default one; BadInput if there is none."""
+    """The estimator called "module:Class", made without arguments, or "module:function", or the default one.
+
+    Raises BadInput if there is none of that name.
+    """
     if name is None:
         return default_estimator()
     made = load_own(name, SPOKEN)
-    if not callable(getattr(made, "estimate", None)):
-        raise BadInput("it has no method estimate", field=FIELD, value=name, allowed=SPOKEN)
+    if not callable(getattr(made, "estimate", made)):
+        raise BadInput("it has no method estimate, and cannot be called", field=FIELD, value=name, allowed=SPOKEN)
     return OwnEstimator(name, made, SPOKEN)

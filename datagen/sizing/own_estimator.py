@@ -21,7 +21,8 @@ INTERVALS = ("lag_interval", "extent_interval", "extent_mm_interval")
 
 @dataclass(frozen=True)
 class OwnEstimator:
-    """The user's object `made` of "module:Class" `name`, whose method `estimate` returns what is `allowed`."""
+    """The user's `made` of "module:Class" or "module:function" `name`: its method `estimate`, or calling it, returns
+    what is `allowed`."""
 
     name: str
     made: Any
@@ -32,11 +33,13 @@ class OwnEstimator:
 
         Raises BadInput if it raises, or tells something else.
         """
-        with own_code(self.name, "its method estimate fails"):
-            told: SizeEstimate = self.made.estimate(acceleration, rate, situation)
+        method = getattr(self.made, "estimate", None)
+        subject = "it" if method is None else "its method estimate"
+        with own_code(self.name, f"{subject} fails"):
+            told: SizeEstimate = (method or self.made)(acceleration, rate, situation)
         problem = _against(told)
         if problem:
-            raise BadInput(f"its method estimate gave {problem}", field=FIELD, value=self.name, allowed=self.allowed)
+            raise BadInput(f"{subject} gave {problem}", field=FIELD, value=self.name, allowed=self.allowed)
         return told
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,11 @@ from datagen.sizing.estimators import AnyEstimator
 from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, ScoredRecord
 from datagen.sizing.sized_records import SizedRecord, UnsizedRecord, nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
+from labels.features.modulation import RACES
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected
 from labels.spall_size.rules import EnvelopeLagRule
+from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from labels.spall_size.static_release import arc_with_static_release
 
@@ -35,7 +38,7 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.
         told = corrected(told, factor)
     period = nominal_period(labels)
     in_time, in_arc = _events(told, sized.truth, period, situation.bearing().spacing)
-    plain = EnvelopeLagRule().estimate(sized.acceleration, sized.rate, situation)
+    plain = EnvelopeLagRule().estimate(sized.acceleration, sized.rate, _with_race(situation, told, labels))
     static = math.nan
     if told.found and situation.load_known and situation.load is not None:
         static = arc_with_static_release(told.lag_arc, situation.bearing(), told.race, situation.load)
@@ -45,6 +48,12 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.
         static_arc=static, envelope_arc=plain.lag_arc, known_size_factor=factor if told.found else 1.0, seconds=seconds,
         events_in_time=in_time, events_in_arc=in_arc, known_truth=sized.truth is not None,
     )  # fmt: skip
+
+
+def _with_race(situation: Situation, told: SizeEstimate, labels: Mapping[str, Any]) -> Situation:
+    """The situation with the race that was told, or where none was told the true one; unchanged without a spall."""
+    race = told.race if told.race in RACES else str(labels["location"])
+    return replace(situation, race=race) if race in RACES else situation
 
 
 def unsized_row(unsized: UnsizedRecord) -> ScoredRecord:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from datagen.benchmark.score_log import write_line
 from datagen.corpora.index import read_index
 from datagen.errors import BadInput
+from datagen.records.versions import program_versions
 from datagen.sizing.estimators import find_estimator
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
 from datagen.sizing.record_scores import score_record, unsized_row
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.sized_records import SizedRecord, sized_records, unsized_records
+from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 from datagen.sizing.summary import summarise
 from labels.schema import SPLITS
 
@@ -26,7 +30,9 @@ NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class SizeScores:
-    """`summary` is None where no record's ball passes are known, as in imported recordings."""
+    """`summary` is None where no record's ball passes are known, as in imported recordings; `stated` is what is scored
+    of those by what their SPEC states, None if it states nothing. `load_told` counts the records whose load and Hertz
+    factor the estimator was told."""
 
     folder: str
     estimator: str
@@ -35,6 +41,8 @@ class SizeScores:
     records: list[ScoredRecord]
     summary: dict[str, Any] | None
     known_sizes: list[KnownSize]
+    stated: dict[str, Any] | None = None
+    load_told: int = 0
 
 
 def score_sizes(
@@ -48,20 +56,43 @@ def score_sizes(
     """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for).
 
     A record that cannot be sized has a row that says why; BadInput if that holds of all. Known `sizes` (mm) of records
-    correct those of the other records of their machines.
+    correct those of the other records of their machines. A run on recordings of stated extents or health is logged
+    beside them, before and after.
     """
     own = find_estimator(estimator)
     chosen = _split(folder, split)
     splits = None if chosen == ALL else (chosen,)
     unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
+    told_of, logged = estimator or "spallgen", states_sizes(folder)
+    if logged:
+        options = {"split": chosen, "load_known": load_known, "known_sizes": dict(sizes)}
+        write_line(folder, {"began": options, "sizes_by": told_of})
     known = known_sizes(folder, sizes, own, load_known)
-    records = sized_records(folder, load_known=load_known, splits=splits)
-    made = _scored(records, estimator, known, workers)
+    records = _Counted(sized_records(folder, load_known=load_known, splits=splits))
+    made = _scored(iter(records), estimator, known, workers)
     scored = sorted([*made, *unsized], key=lambda one: one.record)
     true = [one for one in scored if one.known_truth]
     summary = summarise(true, load_known) if true else None
-    told_of = estimator or "spallgen"
-    return SizeScores(str(folder), told_of, chosen, load_known, scored, summary, with_effect(known, scored))
+    stated = summarise_stated(scored)
+    if logged:
+        time = datetime.now(UTC).isoformat(timespec="seconds")
+        write_line(folder, {"time": time, "sizes_by": told_of, "versions": program_versions(), "scores": stated})
+    return SizeScores(
+        str(folder), told_of, chosen, load_known, scored, summary, with_effect(known, scored), stated, records.load_told
+    )
+
+
+@dataclass
+class _Counted:
+    """The records, with how many of those handed out tell load and Hertz factor."""
+
+    records: Iterator[SizedRecord]
+    load_told: int = 0
+
+    def __iter__(self) -> Iterator[SizedRecord]:
+        for one in self.records:
+            self.load_told += one.situation.load_known
+            yield one
 
 
 def _scored(

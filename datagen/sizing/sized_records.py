@@ -108,7 +108,7 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
 def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
     position, record = int(labels["position"]), int(labels["record"])
     clean, simulated = file.variables.get("acceleration_clean"), "scenario" in file.variables
-    contact = _stiffness(file, position) if load_known and simulated else None
+    contact = _stiffness(file, position, "scenario" if simulated else "provenance") if load_known else None
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),
@@ -123,10 +123,10 @@ def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> Siz
     )
 
 
-def _stiffness(file: Any, position: int) -> tuple[float, float] | None:
-    """Hertz factor and exponent from the scenario; None if it does not tell them."""
+def _stiffness(file: Any, position: int, variable: str) -> tuple[float, float] | None:
+    """Hertz factor and exponent from the scenario or the provenance; None if it does not tell them."""
     try:
-        parameters = json.loads(str(file.variables["scenario"][position]))["parameters"]
+        parameters = json.loads(str(file.variables[variable][position]))["parameters"]
         return float(parameters["K"]), float(parameters["n"])
     except (KeyError, TypeError, ValueError):
         return None

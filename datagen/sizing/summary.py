@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,12 +43,7 @@ def summarise(records: list[ScoredRecord], load_known: bool) -> dict[str, Any]:
         "load_and_hertz_factor_given": load_known,
         "figures": _figures(records, load_known),
         "by": _tables(records),
-        "events": {
-            "within_100_us": _event_scores(one.events_in_time for one in records),
-            "within_0.5_degrees": _event_scores(one.events_in_arc for one in records),
-            "within_100_us, told records": _event_scores(one.events_in_time for one in records if one.found),
-            "within_0.5_degrees, told records": _event_scores(one.events_in_arc for one in records if one.found),
-        },
+        "events": _events(records),
         "long": _long(records),
         "known_size_of_another_record": _known_size(records),
         "seconds_per_record": {
@@ -137,13 +132,27 @@ def _coverage(what: str, told: list[ScoredRecord], inside: Callable[[ScoredRecor
                   bool(0.85 <= plain.value <= 0.95))  # fmt: skip
 
 
-def _bootstrap(values: Array, bearing: NDArray[np.str_]) -> tuple[float, float]:
-    """Interval of the mean of `values` (N,) over virtual bearings drawn anew, each with all its records."""
+def _bootstrap(values: Array, bearing: NDArray[np.str_], weights: Array | None = None) -> tuple[float, float]:
+    """Interval of the mean of `values` (N,) over virtual bearings drawn anew, each with all its records.
+
+    With `weights` (N,) that of the sum of the values over the sum of the weights; NaN without any weight.
+    """
     _, group = np.unique(bearing, return_inverse=True)
-    total, count = np.bincount(group, values), np.bincount(group)
+    total, count = np.bincount(group, values), np.bincount(group, weights)
     drawn = stream(0, "part", 0, "bootstrap").integers(count.size, size=(RESAMPLES, count.size))
-    low, high = np.quantile(total[drawn].sum(axis=1) / count[drawn].sum(axis=1), [0.05, 0.95])
+    above, below = total[drawn].sum(axis=1), count[drawn].sum(axis=1)
+    if not below.any():
+        return math.nan, math.nan
+    low, high = np.quantile(above[below > 0.0] / below[below > 0.0], [0.05, 0.95])
     return float(low), float(high)
+
+
+def mean_with_interval(name: str, values: list[float], records: list[ScoredRecord]) -> dict[str, float]:
+    """The mean of the `values` of these records under its name, and its interval as name_low and name_high."""
+    if not values:
+        return dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
+    low, high = _bootstrap(np.array(values), np.array([one.bearing_id for one in records]))
+    return {name: float(np.mean(values)), f"{name}_low": low, f"{name}_high": high}
 
 
 Bin = tuple[float, str]
@@ -182,18 +191,20 @@ def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], Bin]) -> l
     groups: dict[Bin, list[ScoredRecord]] = {}
     for one in records:
         groups.setdefault(key(one), []).append(one)
-    return [
-        {
-            "value": name,
-            "records": len(own),
-            "no_estimate": float(np.mean([not one.found for one in own])),
-            "lag_error": _mean([lag_error(one) for one in own if one.found]),
-            "lag_error_median": _median([lag_error(one) for one in own if one.found]),
-            "arc_error": _mean([extent_error(one) for one in own if one.found]),
-            "arc_error_median": _median([extent_error(one) for one in own if one.found]),
-        }
-        for (_, name), own in sorted(groups.items())
-    ]
+    return [{"value": name} | _row(own) for (_, name), own in sorted(groups.items())]
+
+
+def _row(records: list[ScoredRecord]) -> dict[str, Any]:
+    told = [one for one in records if one.found]
+    lag, arc = [lag_error(one) for one in told], [extent_error(one) for one in told]
+    return {
+        "records": len(records),
+        **mean_with_interval("no_estimate", [_silent(one) for one in records], records),
+        **mean_with_interval("lag_error", lag, told),
+        "lag_error_median": _median(lag),
+        **mean_with_interval("arc_error", arc, told),
+        "arc_error_median": _median(arc),
+    }
 
 
 def _mean(values: list[float]) -> float:
@@ -208,19 +219,23 @@ def _long(records: list[ScoredRecord]) -> dict[str, Any]:
     """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was told."""
     own = [one for one in records if one.has_events and not one.scorable]
     told = [one for one in own if one.found]
-    errors = [min(abs(c - one.true_extent) for c in one.candidates) / one.true_extent for one in told if one.candidates]
-    return {"records": len(own), "told": len(told), "error_of_nearest_candidate": _mean(errors),
+    near = [one for one in told if one.candidates]
+    errors = [min(abs(c - one.true_extent) for c in one.candidates) / one.true_extent for one in near]
+    return {"records": len(own), "told": len(told), **mean_with_interval("error_of_nearest_candidate", errors, near),
             "median": _median(errors)}  # fmt: skip
 
 
 def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
     """Arc error of told records before and after correction by one other told record of the same virtual bearing."""
     told = [one for one in records if one.scorable and one.found]
+    of_bearing: dict[str, list[ScoredRecord]] = {}
+    for one in told:
+        of_bearing.setdefault(one.bearing_id, []).append(one)
+    known_for = {bearing: _two_surest(own) for bearing, own in of_bearing.items()}
     before, after = [], []
     for one in told:
-        others = [other for other in told if other.bearing_id == one.bearing_id and other.record != one.record]
-        if others:
-            known = max(others, key=lambda other: (noise_level(other), other.trust))
+        known = next((other for other in known_for[one.bearing_id] if other.record != one.record), None)
+        if known is not None:
             factor = known_size_factor(known.extent, known.true_extent)
             before.append(extent_error(one))
             after.append(abs(one.extent * factor - one.true_extent) / one.true_extent)
@@ -228,7 +243,38 @@ def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
             "median_without": _median(before), "median_with": _median(after)}  # fmt: skip
 
 
-def _event_scores(scores: Iterable[EventScores]) -> dict[str, float]:
-    total = sum(scores, NO_SCORES)
-    return {"precision": total.precision, "recall": total.recall, "f1": total.f1,
-            "true": total.true, "found": total.found}  # fmt: skip
+def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
+    """The record of least noise and most trust, and the next one after it: what is known to any of its bearing."""
+
+    def sure(one: ScoredRecord) -> tuple[float, float]:
+        return noise_level(one), one.trust
+
+    first = max(records, key=sure)
+    return [first, *sorted((one for one in records if one.record != first.record), key=sure, reverse=True)[:1]]
+
+
+def _events(records: list[ScoredRecord]) -> dict[str, dict[str, float]]:
+    """Scores of the events of all records and of those told a size, within a time and within an arc."""
+    told = [one for one in records if one.found]
+    return {
+        "within_100_us": _event_scores(records, lambda one: one.events_in_time),
+        "within_0.5_degrees": _event_scores(records, lambda one: one.events_in_arc),
+        "within_100_us, told records": _event_scores(told, lambda one: one.events_in_time),
+        "within_0.5_degrees, told records": _event_scores(told, lambda one: one.events_in_arc),
+    }
+
+
+def _event_scores(records: list[ScoredRecord], scores: Callable[[ScoredRecord], EventScores]) -> dict[str, float]:
+    """Precision, recall and F1 of all events together, each with its interval."""
+    own = [scores(one) for one in records]
+    total = sum(own, NO_SCORES)
+    bearing = np.array([one.bearing_id for one in records])
+    counts = np.array([(one.matched, one.found, one.true) for one in own], dtype=np.float64)
+    matched, found, true = counts.reshape(-1, 3).T
+    parts = {"precision": (total.precision, matched, found), "recall": (total.recall, matched, true),
+             "f1": (total.f1, 2.0 * matched, found + true)}  # fmt: skip
+    said: dict[str, float] = {"true": total.true, "found": total.found}
+    for name, (value, above, below) in parts.items():
+        low, high = _bootstrap(above, bearing, below) if records else (math.nan, math.nan)
+        said |= {name: value, f"{name}_low": low, f"{name}_high": high}
+    return said

@@ -23,7 +23,8 @@ def summary_table(summary: dict[str, Any]) -> Table:
             interval = f"{figure.low:.3f} to {figure.high:.3f}"
             table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
     for name, events in summary["events"].items():
-        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", "", str(events["true"]), "", "")
+        interval = f"{events['f1_low']:.3f} to {events['f1_high']:.3f}" if events["true"] else ""
+        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", interval, str(events["true"]))
     return table
 
 
@@ -57,6 +58,20 @@ def _spall(one: ScoredRecord) -> tuple[str, str, str]:
 
 def _with_interval(value: float, low: float, high: float) -> str:
     return f"{value:.3g} [{low:.3g}, {high:.3g}]"
+
+
+def stated_sentence(stated: dict[str, Any]) -> str:
+    """What the extents and the health that recordings are stated to have say of the estimates."""
+    parts = []
+    if stated["records"]:
+        parts.append(f"of {stated['records']} records of a stated extent {stated['told']} were told a size")
+    if stated["told"]:
+        interval = f"[{stated['arc_error_low']:.3f}, {stated['arc_error_high']:.3f}]"
+        parts.append(f"mean error of their arc {stated['arc_error']:.3f} {interval} of it")
+        parts.append(f"{stated['told_on_the_stated_race']} on the stated race")
+    if stated["healthy"]:
+        parts.append(f"{stated['healthy_told']} of {stated['healthy']} stated healthy were told a size")
+    return ", ".join(parts)
 
 
 def known_size_sentence(known: KnownSize) -> str:

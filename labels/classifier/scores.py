@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import betaincinv
 
 from labels.features.conditioning import Array
 
@@ -139,6 +140,17 @@ def unseen_share(counts: Sequence[int]) -> float:
         if seen.max() <= 1.0:
             found = max(found, float(np.sum(1.0 - seen)) / numbers.size)
     return found
+
+
+def exact_interval(count: float, total: int) -> Interval:
+    """Share of `count` in `total` (1 or more) with the exact binomial interval [Clopper & Pearson 1934].
+
+    A `count` between whole numbers, as of a mean over repeats, has an interval between theirs.
+    """
+    tail = (1.0 - LEVEL) / 2.0
+    low = betaincinv(count, total - count + 1.0, tail) if count > 0.0 else 0.0
+    high = betaincinv(count + 1.0, total - count, 1.0 - tail) if count < total else 1.0
+    return Interval(count / total, float(low), float(high))
 
 
 def _reach(score: Score, columns: tuple[Names, ...], members: list[Stratum], limits: tuple[float, float]) -> float:

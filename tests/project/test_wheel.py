@@ -36,6 +36,7 @@ def test_the_wheel_holds_the_packages_and_the_recipes_and_no_test(wheel):
         "labels/schema.py",
         "datagen/cli.py",
         "datagen/datasets/quickstart/recipe.toml",
+        "datagen/datasets/quickstart/expected.json",
         "datagen/datasets/recordings/cwru.toml",
         "datagen/datasets/recordings/cwru_normal.csv",
         "datagen/datasets/recordings/mfpt.toml",

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sys
 
 import numpy as np
 import pandas
@@ -63,6 +64,8 @@ def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
         "    return np.full(len(table), 'line outer')\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
+    for module in ("own_estimators", "own_curves"):
+        monkeypatch.delitem(sys.modules, module, raising=False)
 
     def run(*options):
         file = tmp_path / "results.json"
@@ -195,6 +198,40 @@ def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
     assert json.loads((tmp_path / "report" / "report.json").read_text())["training_records"] == 14
 
 
+@pytest.mark.parametrize(("inputs", "columns"), [("features", len(FEATURE_NAMES)), ("windows", WINDOW_SAMPLES)])
+def test_the_learning_curve_is_that_of_ones_own_estimator(classify, tmp_path, inputs, columns):
+    # It names what it saw most of, remembers what it was fitted to, and must be given fresh copies.
+    (tmp_path / "own_curves.py").write_text(
+        "import numpy as np\n"
+        "FITTED = []\n"
+        "class Common:\n"
+        "    def __init__(self):\n"
+        "        self.times = 0\n"
+        "    def fit(self, X, y):\n"
+        "        self.times += 1\n"
+        "        FITTED.append((self.times, X.shape[1], len(X)))\n"
+        "        names, counts = np.unique(y, return_counts=True)\n"
+        "        self.name = names[counts.argmax()]\n"
+        "    def predict(self, X):\n"
+        "        return np.full(len(X), self.name)\n"
+    )
+    done, results = classify("--estimator", "own_curves:Common", "--learning-curve", "--input", inputs)
+    assert done.exit_code == 0
+    ((name, points),) = results["learning_curve"].items()
+    assert name == "Common"
+    assert [point["bearings"] for point in points] == [8]  # of ten, two are held out
+    fitted = sys.modules["own_curves"].FITTED
+    assert [(times, width) for times, width, _ in fitted] == [(1, columns)] * 2
+    assert fitted[0][2] < fitted[1][2]
+
+
+def test_that_no_noise_is_added_to_simulated_records_is_said(classify):
+    done, results = classify("--estimator", "own_estimators:always_outer", "--noise-db=-10")
+    assert done.exit_code == 0
+    assert results["tests"][0]["noise"] == []
+    assert done.output.count("no noise is added to") == 1
+
+
 @pytest.mark.parametrize("inputs", ["features", "windows"])
 def test_a_function_that_names_classes_is_scored_too(classify, inputs):
     done, results = classify("--estimator", "own_estimators:always_outer", "--input", inputs)
@@ -212,6 +249,8 @@ def test_a_function_that_names_classes_is_scored_too(classify, inputs):
         ("--estimator", "nowhere:Thing"),
         ("--input", "windows"),
         ("--noise-db", "loud"),
+        ("--noise-db=-10", "--input", "windows", "--estimator", "own_estimators:always_outer"),
+        ("--learning-curve", "--estimator", "own_estimators:always_outer"),
         ("--noise-db", "nan"),
         ("--noise-db=-10,-101",),
         ("--noise-db", "inf"),

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+from scipy.stats import binomtest
 
 from datagen.benchmark.predictions import prediction_table
 from datagen.benchmark.rows import Rows
@@ -82,6 +83,29 @@ def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
     assert found["models"]["said"]["calibration_error"] == pytest.approx(
         0.0, abs=1e-5
     )  # votes keep 1e-6 for every class
+
+
+def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interval():
+    locations, spall = ["none"] * 20 + ["inner"] * 20, np.repeat([0.3, 0.8], 20)
+    labels, rows = corpus(locations)
+    labels.loc[20:, "condition"] = "unknown"
+    model = Model("said", Said(np.column_stack([1 - spall, np.zeros((40, 1)), spall, np.zeros((40, 2))])), 0.5)
+    said = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
+    assert said["reliability"]["observed"] == [0.0, 1.0]
+    assert said["calibration_error"] == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
+    # Every draw is the same: what 0 of 20 in either half leaves room for.
+    assert 0.0 < said["calibration_error_interval"]["low"] < 0.25 < said["calibration_error_interval"]["high"] < 1.0
+    assert "condition_balanced_accuracy" not in said
+
+
+def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_drawn():
+    spall = np.where(np.arange(12) < 1, 0.9, 0.1)
+    one = judged(["none"] * 10 + ["outer"] * 2, np.column_stack([1 - spall, spall, *np.zeros((3, 12))]))
+    once, pooled = (summarise(found, False)["models"]["said"] for found in (one, pooled_draws([one] * 4)))
+    share = binomtest(1, 10).proportion_ci()
+    assert (once["false_alarms"], pooled["false_alarms"]) == (1, 4)
+    for found in (once, pooled):
+        assert list(found["false_alarm_share"].values()) == pytest.approx([0.1, share.low, share.high], rel=1e-9)
 
 
 def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():

@@ -102,7 +102,7 @@ def test_toml_text_is_read_back_as_the_same_data() -> None:
 
 
 def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Path) -> None:
-    document = json.loads(croissant_text(tiny_corpus, corpus_facts(tiny_corpus)))
+    document = json.loads(croissant_text(tiny_corpus, corpus_facts(tiny_corpus), tiny_corpus))
     assert document["@type"] == "sc:Dataset"
     index = next(entry for entry in document["distribution"] if entry["@type"] == "cr:FileObject")
     content = (tiny_corpus / index["contentUrl"]).read_bytes()
@@ -111,6 +111,31 @@ def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Pat
     assert fields == content.decode().splitlines()[0].split(",")
     assert set(LABEL_COLUMNS) < set(fields)
     assert "license" not in document
+
+
+def files_of(folder: Path) -> tuple[Path, set[Path]]:
+    """Index and shards that the metadata in `folder` point to."""
+    index, shards = json.loads((folder / METADATA).read_text())["distribution"]
+    return (folder / index["contentUrl"]).resolve(), {path.resolve() for path in folder.glob(shards["includes"])}
+
+
+def test_metadata_point_to_the_files_of_the_corpus_from_wherever_they_lie(
+    report: Report, measured: Path, tiny_corpus: Path
+) -> None:
+    inside = write_report(measured)
+    for written, corpus in ((inside, measured), (report, tiny_corpus)):
+        index, shards = files_of(Path(written.folder))
+        assert index == (corpus / "index.csv").resolve()
+        assert shards == {path.resolve() for path in (corpus / "shards").glob("*.nc")} != set()
+
+
+def test_what_nobody_stated_for_the_metadata_is_said(measured: Path, tiny_corpus: Path, tmp_path: Path) -> None:
+    for corpus, missing in (
+        (measured, "creator, datePublished"),
+        (tiny_corpus, "license, url, creator, datePublished"),
+    ):
+        done = CliRunner().invoke(app, ["report", str(corpus), "--out", str(tmp_path / corpus.name)])
+        assert f"nobody stated for croissant.json: {missing}; add" in done.stdout
 
 
 def test_labels_in_the_common_vocabulary_have_a_row_a_signal(tiny_corpus: Path) -> None:

@@ -1,8 +1,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import tracemalloc
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas
@@ -69,3 +72,19 @@ def test_an_index_with_a_lost_column_is_refused(folder: Path) -> None:
     read.to_csv(index_path(folder), index=False)
     with pytest.raises(BadInput, match="not the index of a corpus"):
         read_index(folder)
+
+
+def test_an_index_is_written_row_by_row_whatever_its_length(tmp_path: Path) -> None:
+    def sidecars() -> Iterator[Any]:
+        for shard in range(100):
+            records = list(range(50 * shard, 50 * shard + 50))
+            yield SimpleNamespace(shard=shard, records=records, labels=dict.fromkeys(LABEL_COLUMNS, records))
+
+    tracemalloc.start()
+    try:
+        assert write_index(tmp_path, sidecars()) == 5000
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert index_path(tmp_path).stat().st_size > 1_000_000
+    assert peak < 500_000  # the shard at hand, and buffers

@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from datagen.cli import app
 from datagen.drawing.frequency_panels import cursors, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
@@ -17,6 +19,7 @@ from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from labels.truth import ball_passes
+from physics.outcome import Outcome, SimulationFailed
 
 KINDS = ("healthy", "line, outer", "extended, outer", "line, inner, deep gap", "healthy but wavy")
 
@@ -279,3 +282,16 @@ def test_what_cannot_be_drawn_is_refused_and_nothing_is_written(recipe_file, tmp
     with pytest.raises(BadInput, match=message):
         draw_preview(tmp_path / source, record, tmp_path / out)
     assert [path.name for path in tmp_path.iterdir()] == ["recipe.toml"]
+
+
+def test_a_record_that_cannot_be_simulated_ends_with_1_and_leaves_no_picture(recipe_file, tmp_path, monkeypatch):
+    def fails(scenario, stored):
+        raise SimulationFailed(Outcome.NOT_FINITE, "the response grows without end")
+
+    monkeypatch.setattr("datagen.records.record.make_record", fails)
+    picture = tmp_path / "x.png"
+    done = CliRunner().invoke(app, ["preview", str(recipe_file), "--record", "1", "--out", str(picture)])
+    assert done.exit_code == 1
+    assert done.stderr.startswith("record 1 could not be made: the response grows without end; ")
+    assert done.stderr.count("\n") == 1
+    assert not picture.exists()

@@ -1,6 +1,10 @@
 from __future__ import annotations
 
 import json
+import os
+import socket
+import subprocess
+import sys
 import wave
 from collections.abc import Callable
 from pathlib import Path
@@ -229,3 +233,23 @@ def test_a_table_may_name_a_file_outside_the_root(bring: Bring, mat: Mat, tmp_pa
     )
     assert corpus.labels["source_file"][0] == f"{tmp_path}/elsewhere/a.mat"
     assert np.array_equal(corpus.signal(0), as_stored(samples, 1.0))
+
+
+def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    host = socket.gethostname()
+    dead = tmp_path / f".corpus.{host}.{gone.pid}.part"
+    others = [
+        tmp_path / f".corpus.{host}.{os.getppid()}.part",  # of a process that lives
+        tmp_path / f".corpus.elsewhere{host}.{gone.pid}.part",  # of another computer, whose processes are unknown
+        tmp_path / f".other.{host}.{gone.pid}.part",
+        tmp_path / f".corpus.{host}.mine.part",
+    ]
+    for path in (dead, *others):
+        (path / "shards").mkdir(parents=True)
+    mat("a.mat")
+    bring('[[recording]]\nname = "a"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 1000\n')
+    assert not dead.exists()
+    assert all(path.is_dir() for path in others)
+    assert sorted(tmp_path.glob(".*")) == sorted(others)

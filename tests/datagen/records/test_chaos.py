@@ -43,6 +43,18 @@ def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
     assert trace.error_estimate == 1.0
 
 
+def test_an_accuracy_that_was_not_reached_is_told(scenario, monkeypatch):
+    tame = draw_scenario(load_recipe("gearbox_rig"), 0)
+
+    def missed(*scene, **choices):
+        return replace(simulate(*scene, **choices), error_estimate=0.02)
+
+    monkeypatch.setattr("datagen.records.record.simulate", missed)
+    validity = make_record(tame).labels["validity"]
+    assert "the accuracy asked for, 0.001, was not reached: it may be 0.02 off" in validity
+    assert "chaotic" not in validity
+
+
 def test_a_tame_record_is_not(scenario):
     tame = draw_scenario(load_recipe("gearbox_rig"), 0)
     assert "chaotic" not in make_record(tame).labels["validity"]

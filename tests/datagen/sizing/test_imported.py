@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
+from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.score import score_sizes
@@ -19,6 +20,7 @@ from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import reason_against
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from physics import catalog
 
 SPEC = """
 name = "mine"
@@ -149,3 +151,85 @@ def test_the_table_of_recordings_tells_race_size_intervals_and_trust(
     assert row["event_times"] == [[0.1, 0.101], [0.2, 0.201]]
     assert (row["method"], row["lag_low"], row["lag_high"]) == ("constant", 9e-4, 2e-3)
     assert row["candidates_mm"] == pytest.approx([2.0, 12.0])
+
+
+STATED = """
+name = "mine"
+[defaults]
+unit = "m/s2"
+rate_hz = 20000
+speed_rpm = 1200
+bearing = {balls = 12, rows = 2, pitch_diameter_mm = 38.75, ball_diameter_mm = 7.12%s}
+load_n = 346
+[[recording]]
+name = "all"
+files = "*.npy"
+y = "data"
+table = "states.csv"
+"""
+STATES = "file,location,extent_deg\nnone.npy,none,\nwide.npy,inner,7.16197\nlong.npy,outer,11.45916\nsilent.npy,,\n"
+
+
+@pytest.fixture
+def stated(tmp_path: Path) -> Path:
+    """Four recordings: a healthy one, spalls of 0.125 rad (inner) and 0.2 rad (outer), one of which nothing is said."""
+    (tmp_path / "states.csv").write_text(STATES)
+    return imported(tmp_path, STATED % "", none=noise(2), wide=noise(3), long=noise(4), silent=noise(5))
+
+
+def test_recordings_are_scored_by_the_extents_that_are_stated_and_the_run_is_logged(
+    stated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    code, said, _ = size(stated, "--json", tmp_path / "s.json")
+    assert code == 0
+    found = json.loads((tmp_path / "s.json").read_text())
+    assert found["summary"] is None
+    scores = found["stated"]
+    # 0.1 rad on the inner race are told of each: 20 % and 50 % wrong.
+    assert scores["arc_error"] == pytest.approx(0.35, abs=1e-6)
+    counts = ("records", "told", "told_on_the_stated_race", "healthy", "healthy_told")
+    assert [scores[name] for name in counts] == [2, 2, 1, 1, 1]
+    assert "of 2 records of a stated extent 2 were told a size, mean error of their arc 0.350" in said
+    began, ended = (json.loads(line) for line in (stated / "scored_runs.jsonl").read_text().splitlines())
+    assert began["began"]["load_known"]
+    assert ended["scores"] == scores
+
+
+def test_recordings_of_which_nothing_is_stated_are_neither_scored_nor_logged(tmp_path: Path) -> None:
+    corpus = imported(tmp_path, noise=noise(2))
+    assert score_sizes(corpus, None, True, None).stated is None
+    assert not (corpus / "scored_runs.jsonl").exists()
+
+
+def test_without_a_hertz_factor_the_command_says_that_it_is_blind(stated: Path) -> None:
+    assert "blind: no load or no Hertz factor is known" in size(stated)[1]
+    assert "blind: no load" not in size(stated, "--blind")[1]  # as was asked
+
+
+@pytest.mark.parametrize(
+    ("bearing", "factor"),
+    [
+        (", load_deflection_n_per_m_to_n = 6e9, exponent = 1.4", (6e9, 1.4)),
+        (", load_deflection_n_per_m_to_n = 6e9", (6e9, 1.5)),
+    ],
+)
+def test_a_stated_hertz_factor_is_told_with_the_load(tmp_path: Path, bearing: str, factor: tuple[float, float]) -> None:
+    (tmp_path / "states.csv").write_text(STATES)
+    corpus = imported(tmp_path, STATED % bearing, none=noise(1), wide=noise(2), long=noise(3), silent=noise(4))
+    told = [one.situation for one in sized_records(corpus, load_known=True)]
+    assert {(one.load, one.load_deflection, one.exponent) for one in told} == {(346.0, *factor)}
+    assert {one.situation.load for one in sized_records(corpus, load_known=False)} == {None}
+    assert "blind" not in size(corpus)[1]
+
+
+def test_a_bearing_of_the_catalogue_has_its_hertz_factor(tmp_path: Path) -> None:
+    corpus = imported(tmp_path, SPEC.replace("speed_rpm", "load_n = 200\nspeed_rpm"), noise=noise(2))
+    (one,) = sized_records(corpus, load_known=True)
+    assert one.situation.load_deflection == catalog.bearing("koyo_1205").load_deflection
+
+
+def test_an_exponent_without_its_factor_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "states.csv").write_text(STATES)
+    with pytest.raises(BadInput, match="an exponent needs its factor K"):
+        imported(tmp_path, STATED % ", exponent = 1.4", none=noise(1))

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.errors import BadInput
+from datagen.sizing.estimators import find_estimator
 from datagen.sizing.own_estimator import OwnEstimator
 from datagen.sizing.score import score_sizes
 from datagen.sizing.sized_records import SizedRecord, sized_records
@@ -23,6 +24,7 @@ from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
 GOOD = SizeEstimate(SizeOutcome.ESTIMATED, "constant", "outer", lag=1e-3, lag_arc=0.1, extent=0.1, extent_mm=1.0)
+MACHINE = Situation(12, 2, 38.75e-3, 7.12e-3, 100.0)
 WRONG = {
     "None and no SizeEstimate": None,
     "float 3.0 and no SizeEstimate": 3.0,
@@ -75,6 +77,21 @@ def test_estimates_and_refusals_of_one_pass() -> None:
 def test_what_it_raises_is_told_with_its_line() -> None:
     with pytest.raises(BadInput, match=r"its method estimate fails: ZeroDivisionError: no load \(.*, line \d+\)"):
         asked(ZeroDivisionError("no load"))
+
+
+def test_a_function_is_asked_like_a_method(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "own_functions.py").write_text(
+        "from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome\n"
+        "def one_degree(acceleration, rate, situation):\n"
+        "    return SizeEstimate(SizeOutcome.ESTIMATED, f'{acceleration.shape[1]} axes', 'outer', extent=0.017)\n"
+        "def seven(acceleration, rate, situation):\n"
+        "    return 7\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    told = find_estimator("own_functions:one_degree").estimate(np.zeros((4, 2)), 1000.0, MACHINE)
+    assert (told.extent, told.method) == (0.017, "2 axes")
+    with pytest.raises(BadInput, match='"own_functions:seven": it gave int 7 and no SizeEstimate; allowed: module:Cl'):
+        find_estimator("own_functions:seven").estimate(np.zeros((4, 2)), 1000.0, MACHINE)
 
 
 @pytest.mark.parametrize("workers", [1, 2])

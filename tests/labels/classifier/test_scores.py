@@ -14,6 +14,7 @@ from labels.classifier.scores import (
     balanced_accuracy,
     bootstrap,
     confusion,
+    exact_interval,
     paired_difference,
 )
 
@@ -133,3 +134,10 @@ def test_accuracy_against_a_quantity_leaves_unknown_values_out():
     table = accuracy_against(quantity, np.array([True, True, False, False, False]), bins=2)
     assert [point["accuracy"] for point in table] == [1.0, 0.0]
     assert sum(point["records"] for point in table) == 4
+
+
+@pytest.mark.parametrize(("count", "total"), [(0, 1), (0, 96), (3, 7), (7, 7), (50, 100)])
+def test_the_exact_interval_of_a_count_is_that_of_the_binomial_test(count, total):
+    found, share = exact_interval(count, total), binomtest(count, total).proportion_ci()
+    assert (found.low, found.high) == pytest.approx((share.low, share.high), rel=1e-9)
+    assert found.value == count / total

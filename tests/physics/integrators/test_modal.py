@@ -286,6 +286,19 @@ def test_the_accuracy_asked_for_is_kept_and_the_error_known(name, accuracy, refe
     assert error < 4.0 * trace.error_estimate  # pushes are counted as if they were noise
 
 
+def test_an_exact_response_is_as_exact_where_a_ball_is_lost_right_behind_an_edge(reference_scene):
+    scene = reference_scene("F1", 0.12)
+    speed = 3.0 * scene.operation.shaft_speed
+    fast = dataclasses.replace(
+        scene,
+        operation=dataclasses.replace(scene.operation, shaft_speed=speed),
+        cage=dataclasses.replace(scene.cage, nominal_speed=scene.rig.bearing.cage_speed(speed)),
+    )
+    fine = simulate(fast, RATE, substeps=32, estimate_error=False).acceleration
+    trace = simulate(fast, RATE, accuracy=1e-5)
+    assert rms(trace.acceleration - fine) < 1e-5 * rms(fine)  # 2e-5 or more if such steps are not judged
+
+
 def variants(reference_scene):
     scene = reference_scene("F1", 0.08)
     bearing = scene.rig.bearing

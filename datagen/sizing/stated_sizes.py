@@ -1,0 +1,40 @@
+"""Recordings scored by what their publishers state: ball passes are unknown, but the extent or the health is told."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from datagen.corpora.index import read_index
+from datagen.corpora.manifest import read_manifest
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.summary import extent_error, mean_with_interval
+
+
+def summarise_stated(records: list[ScoredRecord]) -> dict[str, Any] | None:
+    """Mean relative error of the arc, with its interval over bearings, of the told records of a stated extent whose
+    passes are unknown, and how many stated healthy were told a size; None if there is nothing of either."""
+    asked = [one for one in records if one.asked and not one.known_truth]
+    spalled = [one for one in asked if math.isfinite(one.true_extent) and one.true_extent > 0.0]
+    healthy = [one for one in asked if one.race == "none"]
+    if not spalled and not healthy:
+        return None
+    told = [one for one in spalled if one.found]
+    errors = [extent_error(one) for one in told]
+    return {
+        "records": len(spalled),
+        "told": len(told),
+        "told_on_the_stated_race": sum(one.found_race == one.race for one in told),
+        **mean_with_interval("arc_error", errors, told),
+        "healthy": len(healthy),
+        "healthy_told": sum(one.found for one in healthy),
+    }
+
+
+def states_sizes(folder: Path) -> bool:
+    """True of recordings of which some extent or that they are healthy is stated."""
+    if not read_manifest(folder).imported:
+        return False
+    table = read_index(folder)
+    return bool((table["extent"] > 0.0).any() or (table["location"] == "none").any())

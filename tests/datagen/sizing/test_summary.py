@@ -1,0 +1,64 @@
+"""Intervals of tables and events over virtual bearings, and known sizes, against counts by hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.summary import summarise
+from labels.event_scores import EventScores
+
+BAD, GOOD = EventScores(0, 10, 10), EventScores(10, 10, 10)
+
+
+def two_kinds(scored: Callable[..., ScoredRecord]) -> list[ScoredRecord]:
+    """Forty records of one bearing, 10 % and 50 % wrong and all events missed, and forty exact ones of ten bearings."""
+    wrong = {"lag": 0.0044, "extent": 0.15, "events_in_time": BAD, "events_in_arc": BAD}
+    bad = [scored(bearing_id="bad", **wrong) for _ in range(40)]
+    return [*bad, *(scored(bearing_id=f"good {k // 4}", events_in_time=GOOD, events_in_arc=GOOD) for k in range(40))]
+
+
+def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
+    summary = summarise(two_kinds(scored), True)
+    for table in summary["by"].values():
+        (row,) = table
+        # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad one makes 0, 50, 69 or 79 % of all.
+        assert (row["lag_error"], row["lag_error_low"]) == (pytest.approx(0.05), 0.0)
+        assert row["lag_error_high"] == pytest.approx(0.1 * 120 / 152)
+        assert row["arc_error_high"] == pytest.approx(0.5 * 120 / 152)
+        assert row["no_estimate_low"] == row["no_estimate"] == row["no_estimate_high"] == 0.0
+
+
+def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
+    for events in summarise(two_kinds(scored), True)["events"].values():
+        for name in ("precision", "recall", "f1"):  # all are the share of the events of good bearings
+            assert events[name] == pytest.approx(0.5)
+            assert (events[f"{name}_low"], events[f"{name}_high"]) == (pytest.approx(32 / 152), 1.0)
+
+
+def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
+    summary = summarise([scored(lag=math.nan, extent=math.nan, candidates=())], True)
+    (row,) = summary["by"]["race"]
+    assert (row["no_estimate"], row["no_estimate_low"]) == (1.0, 1.0)
+    assert math.isnan(row["lag_error"])
+    assert math.isnan(row["lag_error_low"])
+    assert math.isnan(summary["events"]["within_100_us, told records"]["f1_low"])
+    assert math.isnan(summary["events"]["within_100_us"]["recall_high"])
+    assert math.isnan(summary["long"]["error_of_nearest_candidate_high"])
+
+
+def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored: Callable[..., ScoredRecord]) -> None:
+    clean, sure, unsure = (
+        scored(record=k, extent=extent, snr_db=snr, trust=trust)
+        for k, (extent, snr, trust) in enumerate([(0.102, 99.0, 0.2), (0.097, 10.0, 0.9), (0.104, 10.0, 0.8)])
+    )
+    found = summarise([unsure, sure, clean, scored(record=9, bearing_id="alone")], True)["known_size_of_another_record"]
+    assert found["records"] == 3
+    assert found["arc_error_without"] == pytest.approx((0.02 + 0.03 + 0.04) / 3)
+    # A twentieth of the logarithm of what the known one was wrong by: the clean record's for both others, and the surer
+    # other one's for the clean record.
+    after = [1.04 * (1 / 1.02) ** 0.05 - 1.0, 1.0 - 0.97 * (1 / 1.02) ** 0.05, 1.02 * (1 / 0.97) ** 0.05 - 1.0]
+    assert found["arc_error_with"] == pytest.approx(sum(after) / 3)

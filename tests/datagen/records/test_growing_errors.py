@@ -43,7 +43,7 @@ def test_errors_of_rings_that_part_are_found_however_calm_the_beginning_was():
     trace = simulate(drawn.scene, drawn.rate)
     exact = simulate(drawn.scene, drawn.rate, substeps=32, estimate_error=False)
     assert _apart(trace, exact) <= 1e-3
-    assert trace.error_estimate <= 2e-3  # an estimate may be above the accuracy that is kept; the record says so
+    assert _apart(trace, exact) <= trace.error_estimate <= 1e-2  # no further response is made to confirm this one
 
 
 def test_errors_that_grow_while_the_record_is_quiet_are_not_hidden_by_those_of_its_loud_part():

@@ -21,7 +21,7 @@ from physics.integrators.output import LOGGED, STEPS, Grid, Output
 from physics.response.march import trace_of
 from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March, case_of
 from physics.scene import Scene
-from physics.trace import CHAOTIC, Trace
+from physics.trace import Trace
 
 Array = NDArray[np.float64]
 GoOn = Callable[[March, Stride], Output]
@@ -36,6 +36,8 @@ AIM, MARGIN = 0.1, 0.75
 # make errors grow, or where the rings part: it is made again with this share of the tolerance, and what both are apart
 # tells.
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
+# A response of more than this sensitivity may be chaotic, and is to be confirmed.
+CHAOTIC = 50.0
 # Of a response that is farther than this share of its size from a coarser one no point is known: the next is much
 # finer. No more than so many are made to confirm it; measured, more would double the cost of a wide corpus for one
 # record in a hundred.

@@ -6,8 +6,8 @@ import numpy as np
 
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
+from physics.response.adaptive import CHAOTIC
 from physics.simulate import simulate
-from physics.trace import CHAOTIC
 
 
 def _drawn(seed, record):

@@ -31,6 +31,8 @@ FINENESS = 4
 FEWEST_PERIODS, FEWEST_ROUGH_PERIODS = 20, 12
 # Of the accuracy asked for: what the march may be wrong by, and how far its last period may be from all later ones.
 MARCHED, REPEATED = 0.9, 0.3
+# A spall that a ball passes in fewer samples than this leaves spikes that lie between the samples that are read.
+FEWEST_SAMPLES_A_PASS = 2.0
 # Corners of the acceleration, where contacts change, are not read to a finer accuracy than this.
 FINEST_ACCURACY = 3e-4
 
@@ -68,6 +70,8 @@ def respond_until_repeated(
     Step and share of tension are those of the march. Where repeating would not keep the accuracy, it is marched to the
     end.
     """
+    if any(spall.extent * rate < FEWEST_SAMPLES_A_PASS * scene.cage.mean_speed for spall in scene.spalls):
+        return respond_accurately(scene, start, rate, samples, accuracy, least)
     period = period_of(scene)
     cells = math.ceil(FINENESS * rate * period)
     duration = samples / rate

@@ -65,6 +65,11 @@ CORNERS = {
     "ten times the rated speed": lambda scene: scene("F1", 0.03, speed_factor=10.0),
     "a soft resonator": lambda scene: changed(scene("F1", 0.03), rig={"resonator_stiffness": 3.7e4}),
 }
+RATTLING = {"rig": {"film_damping": 0.0}, "operation": {"load": 0.5, "unbalance_force": 5.0}}
+DEFAULT_CORNERS = CORNERS | {
+    "a stiff resonator": lambda scene: changed(scene("F1", 0.03), rig={"resonator_stiffness": 3.7e9}),
+    "balls that rattle": lambda scene: changed(scene("F1", 0.03), **RATTLING),
+}
 
 
 @pytest.mark.parametrize("corner", CORNERS)
@@ -78,6 +83,15 @@ def test_in_every_corner_every_method_agrees_with_a_finer_run(method, corner, re
     assert rms(trace.acceleration - exact) < TOLERANCE[method] * rms(exact)
 
 
+@pytest.mark.parametrize("corner", DEFAULT_CORNERS)
+def test_in_every_corner_the_default_keeps_the_accuracy_asked_for(corner, reference_scene):
+    scene = DEFAULT_CORNERS[corner](reference_scene)
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=32, estimate_error=False).acceleration
+    trace = simulate(scene, RATE)
+    assert not trace.chaotic
+    assert rms(trace.acceleration - exact) < 1e-3 * rms(exact)
+
+
 @pytest.mark.parametrize("method", MARCHES)
 def test_without_load_nothing_moves_by_any_method(method, reference_scene):
     scene = changed(reference_scene("F1", 0.02), operation={"load": 0.0})
@@ -88,9 +102,7 @@ def test_without_load_nothing_moves_by_any_method(method, reference_scene):
 @pytest.mark.parametrize("method", MARCHES)
 def test_balls_that_rattle_in_a_bearing_without_damping_stay_finite_and_bounded(method, reference_scene):
     """A shaft thrown about by an unbalance of ten times its load touches and leaves most balls."""
-    scene = changed(
-        reference_scene("F1", 0.05), rig={"film_damping": 0.0}, operation={"load": 0.5, "unbalance_force": 5.0}
-    )
+    scene = changed(reference_scene("F1", 0.05), **RATTLING)
     trace = simulate(scene, RATE, method=method, substeps=2, estimate_error=False, keep_state=True)
     assert np.all(np.isfinite(trace.state))
     assert trace.changes.time.size > 20

@@ -216,11 +216,12 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
 def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
     tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(path: Path, data: bytes | memoryview) -> None:
+    def full(path: Path, data: bytes | memoryview = b"") -> None:
         raise OSError(errno.ENOSPC, "no space left on device")
 
-    for module in (datagen.corpora.shard, datagen.corpora.manifest, datagen.corpora.index):
+    for module in (datagen.corpora.shard, datagen.corpora.manifest):
         monkeypatch.setattr(module, "write_atomically", full)
+    monkeypatch.setattr(datagen.corpora.index, "opened_atomically", full)
     run = generate(tiny, tmp_path / "out", engine=ALONE)
     assert (run.made, run.asked) == (0, 14)
     assert "the disk is full" in run.problem

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from physics.integrators.methods import MODAL
 from physics.integrators.modal.memory import STRIDES, Stride
 from physics.integrators.output import LOGGED, STEPS, Grid, Output
+from physics.outcome import SimulationFailed
 from physics.response.march import trace_of
 from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March, case_of
 from physics.scene import Scene
@@ -38,10 +39,10 @@ AIM, MARGIN = 0.1, 0.75
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
-# Of a response that is farther than this share of its size from a coarser one no point is known: the next is much
-# finer. No more than so many are made to confirm it; measured, more would double the cost of a wide corpus for one
-# record in a hundred.
-LOST, MUCH_FINER, MOST_CONFIRMATIONS = 0.1, 1.0 / 64.0, 3
+# To confirm a response, up to so many are made, each with the share of the tolerance that the distance to the one before
+# asks for, this at least. Of one that is farther from it than LOST of its size no point is known; and if it is LOST in
+# this share of the samples already, no tolerance above round-off would follow it to the end.
+LOST, MUCH_FINER, MOST_CONFIRMATIONS, SOON = 0.1, 1.0 / 1024.0, 3, 0.1
 # The finer of two responses may be this many times as wrong as both are apart: some errors of impacts shrink late.
 CONFIRMED = 4.0
 PILOT_SAMPLES = 2048
@@ -134,43 +135,46 @@ def _made_sure(
     """The response made again by a fresh `march` on a finer grid than the `output`'s; its estimated error and its own
     RMS (m/s²), and the sensitivity that both tell.
 
-    Once more, to that sensitivity, if that is not within the accuracy; and where that is CHAOTIC or the rings part,
-    until another one confirms it.
+    Where that is CHAOTIC or the rings part, until another one confirms it; else once more, to that sensitivity, if that
+    is not within the accuracy.
     """
-    case = march.case
-    finer = go_on(march, _finer(grid))
+    case, grid = march.case, _finer(grid, FINER)
+    finer = go_on(march, grid)
     sensitivity = max(sensitivity, _shown(case, output, finer))
+    if sensitivity > CHAOTIC or _flies_free(finer):
+        return *_confirmed(march, go_on, accuracy, least, output, finer, grid), sensitivity
     error, size = SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
-    flighty = sensitivity > CHAOTIC or _flies_free(finer)
-    if not flighty and error <= max(accuracy * size, least):
-        return finer, error, size, sensitivity
-    fresh = March(case, march.samples, march.kept)
-    exact, grid, error, size = _to_accuracy(fresh, go_on, accuracy, least, size**2, _tame(sensitivity))
-    if flighty:
-        exact, error, size = _confirmed(fresh, go_on, accuracy, least, exact, grid)
-    return exact, error, size, sensitivity
+    if error > max(accuracy * size, least):
+        again = March(case, march.samples, march.kept)
+        finer, _, error, size = _to_accuracy(again, go_on, accuracy, least, size**2, _tame(sensitivity))
+    return finer, error, size, sensitivity
 
 
 def _confirmed(
-    march: March, go_on: GoOn, accuracy: float, least: float, output: Output, grid: Stride
+    march: March, go_on: GoOn, accuracy: float, least: float, coarse: Output, fine: Output, grid: Stride
 ) -> tuple[Output, float, float]:
-    """A response finer than the `output` of a `march`, that is well within the accuracy of the one before; the error
-    that this tells, and its RMS (m/s²).
+    """The `fine` response of a `march` on `grid`, or the first finer one, that is well within the accuracy of the one
+    before, at first the `coarse` one; the error that this tells, and its RMS (m/s²).
 
-    Where even the finest is LOST, its error is its size.
+    Errors of impacts shrink late, so tolerances shrink by the square of what is to be gained. Where all are LOST, or
+    the first are LOST SOON, the error is the size.
     """
-    share = FINER
+    apart, size = _apart(coarse, fine), rms(fine.acceleration)
     for _ in range(MOST_CONFIRMATIONS):
-        grid = _finer(grid, share)
-        finer = go_on(March(march.case, march.samples, march.kept), grid)
-        apart, size = _apart(output, finer), rms(finer.acceleration)
-        if CONFIRMED * apart <= max(accuracy * size, least):
+        allowed = max(accuracy * size, least)
+        if CONFIRMED * apart <= allowed or _apart(coarse, fine, SOON) > LOST * size:
             break
-        output, share = finer, MUCH_FINER if apart > LOST * size else FINER
-    return finer, size if apart > LOST * size else CONFIRMED * apart, size
+        share = 0.0 if apart > LOST * size else (allowed / (CONFIRMED * apart)) ** 2
+        grid = _finer(grid, min(max(share, MUCH_FINER), FINER))
+        try:
+            coarse, fine = fine, go_on(March(march.case, march.samples, march.kept), grid)
+        except SimulationFailed:
+            break  # no finer one can be made
+        apart, size = _apart(coarse, fine), rms(fine.acceleration)
+    return fine, size if apart > LOST * size else CONFIRMED * apart, size
 
 
-def _finer(grid: Stride, share: float = FINER) -> Stride:
+def _finer(grid: Stride, share: float) -> Stride:
     """A grid with this share of the tolerance."""
     return grid._replace(share=share * grid.share, least=share * grid.least)
 
@@ -181,9 +185,9 @@ def _shown(case: Case, coarse: Output, fine: Output) -> float:
     return _apart(coarse, fine) / pushed if pushed > 0.0 else 0.0
 
 
-def _apart(one: Output, other: Output) -> float:
-    """How far two responses are apart (m/s², RMS), as long as both last."""
-    both = min(one.acceleration.shape[0], other.acceleration.shape[0])
+def _apart(one: Output, other: Output, share: float = 1.0) -> float:
+    """How far two responses are apart (m/s², RMS) in this share of the samples, as long as both last."""
+    both = math.ceil(share * min(one.acceleration.shape[0], other.acceleration.shape[0]))
     return rms(one.acceleration[:both] - other.acceleration[:both])
 
 

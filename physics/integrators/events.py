@@ -24,6 +24,8 @@ SMALLEST_SHARE = 1e-9
 # Newton's method squares the error of a share this small away with its next correction.
 SURE_SHARE = 1e-5
 MOST_ITERATIONS, GUESS_ITERATIONS = 60, 3
+# A condition is zero to round-off below this share of what it is where it is contradicted; how far behind one looks.
+AT_ZERO, BEHIND = 1e-6, 1e-4
 
 
 class Way(NamedTuple):
@@ -124,15 +126,15 @@ def _root(contacts: Contacts, way: Way, ball: int, upper: float) -> tuple[float,
     at_high = sign * value
     if at_high > 0.0:
         return 2.0, 0.0
-    value, slope_low, rate_low = contact_condition(contacts, way, ball, low)
+    value, slope_low, _ = contact_condition(contacts, way, ball, low)
     at_low = sign * value
-    if at_low <= 0.0:
-        # A ball toggled at the start of the step sits at zero to round-off: look just behind it.
-        low = 1e-4 * upper
-        value, slope_low, rate_low = contact_condition(contacts, way, ball, low)
-        at_low = sign * value
-        if at_low <= 0.0:
-            return 0.0, rate_low
+    if at_low <= AT_ZERO * -at_high:
+        # A ball toggled at the start of the step sits at zero to round-off, on either side: look just behind it.
+        value, slope, rate_behind = contact_condition(contacts, way, ball, BEHIND * upper)
+        if sign * value > 0.0:
+            low, at_low, slope_low = BEHIND * upper, sign * value, slope
+        elif at_low <= 0.0:
+            return 0.0, rate_behind
     guess, side = hermite_root(low, high, at_low, at_high, sign * slope_low, sign * slope_high), 0
     for _ in range(MOST_ITERATIONS):
         if not low < guess < high:

@@ -84,7 +84,12 @@ def respond_accurately(
     seen, sensitivity = _beginning(march, pilot, accuracy, least)
     tame = 1.0 if sensitivity > CHAOTIC else _tame(sensitivity)
     output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, tame)
-    if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) or _flies_free(output):
+    fewest = _fewest_touching(output)
+    if case.memory == 0.0 and 0 < fewest <= scene.rig.bearing.rows:
+        # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
+        coarse = go_on(March(case, samples), _grid(case, samples, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
+        sensitivity = max(sensitivity, _shown(case, coarse, output))
+    if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) or fewest == 0:
         again = March(case, samples, kept)
         output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, sensitivity)
     marched = output.acceleration.shape[0]
@@ -93,10 +98,11 @@ def respond_accurately(
     return replace(trace, step=step, error_estimate=error / size if size > 0.0 else 0.0, sensitivity=sensitivity)
 
 
-def _flies_free(output: Output) -> bool:
-    """Whether there was an instant at which no ball touched: a ring that falls back multiplies errors, at any time."""
+def _fewest_touching(output: Output) -> int:
+    """The smallest number of balls that touched at the same time."""
     made = output.change_made[: output.tally[LOGGED]]
-    return bool((output.initial.sum() + np.cumsum(np.where(made, 1, -1)) < 0.5).any())
+    touching = output.initial.sum() + np.cumsum(np.where(made, 1, -1))
+    return int(touching.min(initial=output.initial.sum()))
 
 
 def _tame(sensitivity: float) -> float:
@@ -141,7 +147,7 @@ def _made_sure(
     case, grid = march.case, _finer(grid, FINER)
     finer = go_on(march, grid)
     sensitivity = max(sensitivity, _shown(case, output, finer))
-    if sensitivity > CHAOTIC or _flies_free(finer):
+    if sensitivity > CHAOTIC or _fewest_touching(finer) == 0:
         return *_confirmed(march, go_on, accuracy, least, output, finer, grid), sensitivity
     error, size = SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
     if error > max(accuracy * size, least):

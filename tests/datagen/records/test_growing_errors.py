@@ -60,3 +60,11 @@ def test_errors_that_begin_to_grow_late_in_a_mode_that_decays_soon_are_found():
     exact = simulate(scene, drawn.rate, substeps=128, estimate_error=False)
     assert trace.sensitivity > CHAOTIC
     assert _apart(trace, exact) <= trace.error_estimate
+
+
+def test_errors_that_grow_late_where_a_single_ball_holds_the_ring_are_found():
+    drawn = _drawn(20261225, 1900)  # calm for half a second, and a thousandfold after that
+    trace = simulate(drawn.scene, drawn.rate)
+    exact = simulate(drawn.scene, drawn.rate, substeps=64, estimate_error=False)
+    assert _apart(trace, exact) <= 1e-3
+    assert trace.error_estimate <= 1e-3

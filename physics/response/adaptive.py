@@ -39,10 +39,13 @@ AIM, MARGIN = 0.1, 0.75
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
-# To confirm a response, up to so many are made, each with the share of the tolerance that the distance to the one before
-# asks for, this at least. Of one that is farther from it than LOST of its size no point is known; and if it is LOST in
-# this share of the samples already, no tolerance above round-off would follow it to the end.
-LOST, MUCH_FINER, MOST_CONFIRMATIONS, SOON = 0.1, 1.0 / 1024.0, 3, 0.1
+# Of a response that is farther than LOST of its size from a coarser one no point is known. To confirm one, up to so many
+# are made, as long as it is LOST, and in all; with between MUCH_FINER and SURE of the tolerance of the one before. If two
+# are LOST this SOON, as a share of all samples, no tolerance above round-off would follow them to the end.
+LOST, MOST_LOST, MOST_CONFIRMATIONS, SOON = 0.1, 2, 4, 0.1
+MUCH_FINER, SURE = 1.0 / 256.0, 1.0 / 16.0
+# Distances shrink with tolerances to this power, unless the responses show that it is more: impacts' errors shrink late.
+LATE = 0.5
 # The finer of two responses may be this many times as wrong as both are apart: some errors of impacts shrink late.
 CONFIRMED = 4.0
 PILOT_SAMPLES = 2048
@@ -162,21 +165,23 @@ def _confirmed(
     """The `fine` response of a `march` on `grid`, or the first finer one, that is well within the accuracy of the one
     before, at first the `coarse` one; the error that this tells, and its RMS (m/s²).
 
-    Errors of impacts shrink late, so tolerances shrink by the square of what is to be gained. Where all are LOST, or
-    the first are LOST SOON, the error is the size.
+    Where all are LOST, or the first are LOST SOON, the error is the size.
     """
+    share, power = FINER, LATE
     apart, size = _apart(coarse, fine), rms(fine.acceleration)
-    for _ in range(MOST_CONFIRMATIONS):
-        allowed = max(accuracy * size, least)
-        if CONFIRMED * apart <= allowed or _apart(coarse, fine, SOON) > LOST * size:
+    for attempt in range(MOST_CONFIRMATIONS):
+        lost, allowed = apart > LOST * size, max(accuracy * size, least) / CONFIRMED
+        if apart <= allowed or (lost and (attempt >= MOST_LOST or _apart(coarse, fine, SOON) > LOST * size)):
             break
-        share = 0.0 if apart > LOST * size else (allowed / (CONFIRMED * apart)) ** 2
-        grid = _finer(grid, min(max(share, MUCH_FINER), FINER))
+        hoped, earlier = apart * share**power, share
+        share = MUCH_FINER if lost else min(max((allowed / hoped) ** (1.0 / power), MUCH_FINER), SURE)
+        grid = _finer(grid, share)
         try:
             coarse, fine = fine, go_on(March(march.case, march.samples, march.kept), grid)
         except SimulationFailed:
             break  # no finer one can be made
-        apart, size = _apart(coarse, fine), rms(fine.acceleration)
+        before, apart, size = apart, _apart(coarse, fine), rms(fine.acceleration)
+        power = min(max(math.log(max(apart, ROUND_OFF * size) / before) / math.log(earlier), LATE), 1.0)
     return fine, size if apart > LOST * size else CONFIRMED * apart, size
 
 

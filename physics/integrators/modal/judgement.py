@@ -143,14 +143,18 @@ def carried_error(memory: Memory, step: float) -> float:
     return step * FOURTH_POWER_ERROR * (abs(memory.course[0, 4]) + abs(memory.course[1, 4]))
 
 
+@njit_pasted
+def error_of(contacts: Contacts, memory: Memory, step: float) -> float:
+    """Momentum (N s) by which the step that was just made is wrong."""
+    if is_carried(memory, step):
+        return carried_error(memory, step)
+    return resolution_error(contacts, memory.noted, memory.midway, step)
+
+
 @njit_inner
 def too_coarse(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
-    """Whether a step on the way to a change of contact, which no earlier one foretold, has to be taken back for one
-    half as long."""
-    if is_carried(memory, step) or not may_shrink(grid, step):
-        return False
-    error = resolution_error(contacts, memory.noted, memory.midway, step)
-    if error <= REJECTED * memory.clock[TOLERANCE]:
+    """Whether a step on the way to a change of contact has to be taken back for one half as long."""
+    if error_of(contacts, memory, step) <= REJECTED * memory.clock[TOLERANCE] or not may_shrink(grid, step):
         return False
     memory.clock[ON_WAY] = 0.5 * step
     return True
@@ -160,10 +164,7 @@ def too_coarse(contacts: Contacts, grid: Stride, memory: Memory, step: float) ->
 def judge(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
     """Set the pace by the error of the step; False to take it back."""
     clock, tolerance = memory.clock, memory.clock[TOLERANCE]
-    if is_carried(memory, step):
-        error = carried_error(memory, step)
-    else:
-        error = resolution_error(contacts, memory.noted, memory.midway, step)
+    error = error_of(contacts, memory, step)
     if error > REJECTED * tolerance and may_shrink(grid, step):
         clock[PACE] = 0.5 * step
         return False

@@ -1,0 +1,33 @@
+"""Records of rough spalls: a ball that leaps from bump to bump, and one that drops off an edge."""
+
+import dataclasses
+
+import numpy as np
+
+from datagen.recipes.recipe import load_recipe
+from datagen.scenarios.sampling import draw_scenario
+from physics.simulate import simulate
+
+
+def _drawn(seed, record):
+    return draw_scenario(load_recipe("corpus").model_copy(update={"seed": seed}), record)
+
+
+def test_a_ball_that_meets_a_bump_is_not_told_to_leave_it_at_the_same_instant():
+    drawn = _drawn(20261226, 154)  # changes sides 42 000 times a second
+    trace = simulate(drawn.scene, drawn.rate)
+    changes = trace.changes
+    order = np.lexsort((changes.time, changes.ball, changes.row))
+    time, place = changes.time[order], np.stack([changes.row[order], changes.ball[order]])
+    at_once = (np.diff(time) < 1e-12) & (np.diff(place) == 0).all(axis=0)
+    assert not (at_once[1:] & at_once[:-1]).any()
+    assert trace.unlocated_changes == 0
+
+
+def test_steps_to_the_end_of_a_contact_follow_the_bumps_behind_an_edge():
+    drawn = _drawn(20261229, 4033)  # the film's force changes sides thrice between the edge and the loss of contact
+    scene = dataclasses.replace(drawn.scene, cage=dataclasses.replace(drawn.scene.cage, duration=0.1))
+    trace = simulate(scene, drawn.rate)
+    exact = simulate(scene, drawn.rate, substeps=32, estimate_error=False)
+    error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
+    assert error <= trace.error_estimate <= 1e-3

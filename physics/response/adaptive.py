@@ -46,8 +46,8 @@ LOST, MOST_LOST, MOST_CONFIRMATIONS, SOON = 0.1, 2, 4, 0.1
 MUCH_FINER, SURE = 1.0 / 256.0, 1.0 / 16.0
 # Distances shrink with tolerances to this power, unless the responses show that it is more: impacts' errors shrink late.
 LATE = 0.5
-# The finer of two responses may be this many times as wrong as both are apart: some errors of impacts shrink late.
-CONFIRMED = 4.0
+# The finer of two responses may be this many times as wrong as their distance leaves to hope for.
+CONFIRMED = 12.0
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -147,11 +147,12 @@ def _made_sure(
     Where that is CHAOTIC or the rings part, until another one confirms it; else once more, to that sensitivity, if that
     is not within the accuracy.
     """
-    case, grid = march.case, _finer(grid, FINER)
+    case, share = march.case, SURE if sensitivity > CHAOTIC or _fewest_touching(output) == 0 else FINER
+    grid = _finer(grid, share)
     finer = go_on(march, grid)
     sensitivity = max(sensitivity, _shown(case, output, finer))
     if sensitivity > CHAOTIC or _fewest_touching(finer) == 0:
-        return *_confirmed(march, go_on, accuracy, least, output, finer, grid), sensitivity
+        return *_confirmed(march, go_on, accuracy, least, output, finer, grid, share), sensitivity
     error, size = SENSITIVE * sensitivity * case.pushed(finer), rms(finer.acceleration)
     if error > max(accuracy * size, least):
         again = March(case, march.samples, march.kept)
@@ -160,21 +161,29 @@ def _made_sure(
 
 
 def _confirmed(
-    march: March, go_on: GoOn, accuracy: float, least: float, coarse: Output, fine: Output, grid: Stride
+    march: March,
+    go_on: GoOn,
+    accuracy: float,
+    least: float,
+    coarse: Output,
+    fine: Output,
+    grid: Stride,
+    share: float,
 ) -> tuple[Output, float, float]:
     """The `fine` response of a `march` on `grid`, or the first finer one, that is well within the accuracy of the one
-    before, at first the `coarse` one; the error that this tells, and its RMS (m/s²).
+    before, at first the `coarse` one with a `share` less tolerance; the error that this tells, and its RMS (m/s²).
 
     Where all are LOST, or the first are LOST SOON, the error is the size.
     """
-    share, power = FINER, LATE
-    apart, size = _apart(coarse, fine), rms(fine.acceleration)
+    power, apart, size = LATE, _apart(coarse, fine), rms(fine.acceleration)
     for attempt in range(MOST_CONFIRMATIONS):
-        lost, allowed = apart > LOST * size, max(accuracy * size, least) / CONFIRMED
-        if apart <= allowed or (lost and (attempt >= MOST_LOST or _apart(coarse, fine, SOON) > LOST * size)):
+        lost, allowed = apart > LOST * size, max(accuracy * size, least)
+        if CONFIRMED * apart * share**LATE <= allowed:
             break
-        hoped, earlier = apart * share**power, share
-        share = MUCH_FINER if lost else min(max((allowed / hoped) ** (1.0 / power), MUCH_FINER), SURE)
+        if lost and (attempt >= MOST_LOST or _apart(coarse, fine, SOON) > LOST * size):
+            break
+        earlier, wanted = share, allowed / (CONFIRMED * apart * share**power)
+        share = MUCH_FINER if lost else min(max(wanted ** (1.0 / power), MUCH_FINER), SURE)
         grid = _finer(grid, share)
         try:
             coarse, fine = fine, go_on(March(march.case, march.samples, march.kept), grid)
@@ -182,7 +191,7 @@ def _confirmed(
             break  # no finer one can be made
         before, apart, size = apart, _apart(coarse, fine), rms(fine.acceleration)
         power = min(max(math.log(max(apart, ROUND_OFF * size) / before) / math.log(earlier), LATE), 1.0)
-    return fine, size if apart > LOST * size else CONFIRMED * apart, size
+    return fine, size if apart > LOST * size else CONFIRMED * apart * share**LATE, size
 
 
 def _finer(grid: Stride, share: float) -> Stride:

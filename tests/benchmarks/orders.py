@@ -1,0 +1,108 @@
+"""Order, error constant and floor of every method with fixed steps: python tests/benchmarks/orders.py.
+
+Writes docs/orders.json and the table of docs/accuracy.md. Errors of the acceleration (relative RMS) are taken at 1 to 128
+steps a sample against exponential_rk4 at 256. Order and constant are those of the straight line through log error over
+log step where errors fall: below a hundredth of the signal and above eight times the floor, the least error of all.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.records.versions import in_words, measured_on
+from physics.integrators.methods import MARCHES, METHODS
+from physics.outcome import SimulationFailed
+from physics.reference_scenes import reference_scene
+from physics.scene import Scene
+from physics.simulate import simulate
+
+ROOT = Path(__file__).resolve().parents[2]
+BEGIN, END = "<!-- orders: begin (written by tests/benchmarks/orders.py) -->", "<!-- orders: end -->"
+RATE, DURATION = 65536.0, 0.1
+SUBSTEPS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
+EXACT, FINEST, CHECKED_BY, CHECKED_AT = "exponential_rk4", 256, "runge_kutta4", 192
+LARGEST, ABOVE_FLOOR, FEWEST = 1e-2, 8.0, 3
+Array = NDArray[np.float64]
+
+
+def always_in_contact() -> Scene:
+    """G1 with preload, which keeps every ball in contact over a shallow spall."""
+    scene = reference_scene("G1", DURATION)
+    bearing = dataclasses.replace(scene.rig.bearing, clearance=-15e-6)
+    shallow = dataclasses.replace(scene.spalls[0], depth=4e-6)
+    return dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(shallow,))
+
+
+SCENES = {
+    "smooth": always_in_contact(),
+    "G1": reference_scene("G1", DURATION),
+    "F1s": reference_scene("F1s", DURATION),
+}
+
+
+def response(scene: Scene, method: str, substeps: int) -> Array:
+    """Acceleration (T, 2) with fixed steps."""
+    return simulate(scene, RATE, method=method, substeps=substeps, estimate_error=False).acceleration
+
+
+def relative(found: Array, exact: Array) -> float:
+    """RMS of the difference over the RMS of the exact one."""
+    return float(np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2)))
+
+
+def measure(scene: Scene, method: str, exact: Array) -> dict[str, object]:
+    """Errors by steps a sample; order, constant (error of one step a sample, were it on the line) and floor."""
+    errors: dict[int, float] = {}
+    for substeps in SUBSTEPS:
+        try:
+            errors[substeps] = relative(response(scene, method, substeps), exact)
+        except SimulationFailed:
+            continue  # a step that is not stable is refused
+    floor = min(errors.values())
+    first_at_floor = min(count for count, error in errors.items() if error <= ABOVE_FLOOR * floor)
+    used = [count for count, error in errors.items() if error < LARGEST and count < first_at_floor]
+    used = used if len(used) >= FEWEST else [count for count, error in errors.items() if error < LARGEST]
+    slope, height = np.polyfit(np.log(used), np.log([errors[count] for count in used]), 1)
+    return {"errors": errors, "order": -float(slope), "constant": float(np.exp(height)), "floor": floor}
+
+
+def table(rows: dict[str, dict[str, dict[str, object]]], checked: dict[str, float]) -> list[str]:
+    """One row a method."""
+    lines = [
+        "| method | order stated | " + " | ".join(f"{name}: order, constant, floor" for name in SCENES) + " |",
+        "|---" * (2 + len(SCENES)) + "|",
+    ]
+    for method, found in rows.items():
+        cells = [
+            f"{found[name]['order']:.2f}, {found[name]['constant']:.1e}, {found[name]['floor']:.0e}" for name in SCENES
+        ]
+        lines.append(f"| {method} | {METHODS[method].order:g} | " + " | ".join(cells) + " |")
+    apart = ", ".join(f"{value:.0e} ({name})" for name, value in checked.items())
+    return [*lines, "", f"{EXACT} at {FINEST} and {CHECKED_BY} at {CHECKED_AT} steps a sample are apart by {apart}."]
+
+
+def main() -> None:
+    """Measure every method on every scene and write both files."""
+    exact = {name: response(scene, EXACT, FINEST) for name, scene in SCENES.items()}
+    checked = {
+        name: relative(response(scene, CHECKED_BY, CHECKED_AT), exact[name]) for name, scene in SCENES.items()
+    }
+    rows = {
+        method: {name: measure(scene, method, exact[name]) for name, scene in SCENES.items()} for method in MARCHES
+    }
+    made_with = measured_on("numpy", "scipy", "numba")
+    report = {"made_with": made_with, "exact_apart": checked, "methods": rows}
+    (ROOT / "docs" / "orders.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    page = ROOT / "docs" / "accuracy.md"
+    text = page.read_text(encoding="utf-8")
+    written = "\n".join([*table(rows, checked), "", f"Measured on {in_words(made_with)}."])
+    page.write_text(f"{text[: text.index(BEGIN)]}{BEGIN}\n{written}\n{text[text.index(END) :]}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -182,15 +182,16 @@ def _confirmed(
             break
         if lost and (attempt >= MOST_LOST or _apart(coarse, fine, SOON) > LOST * size):
             break
-        earlier, wanted = share, allowed / (CONFIRMED * apart * share**power)
-        share = MUCH_FINER if lost else min(max(wanted ** (1.0 / power), MUCH_FINER), SURE)
-        grid = _finer(grid, share)
+        wanted = allowed / (CONFIRMED * apart * share**power)
+        finer = MUCH_FINER if lost else min(max(wanted ** (1.0 / power), MUCH_FINER), SURE)
+        grid = _finer(grid, finer)
         try:
             coarse, fine = fine, go_on(March(march.case, march.samples, march.kept), grid)
         except SimulationFailed:
             break  # no finer one can be made
         before, apart, size = apart, _apart(coarse, fine), rms(fine.acceleration)
-        power = min(max(math.log(max(apart, ROUND_OFF * size) / before) / math.log(earlier), LATE), 1.0)
+        power = min(max(math.log(max(apart, ROUND_OFF * size) / before) / math.log(share), LATE), 1.0)
+        share = finer
     return fine, size if apart > LOST * size else CONFIRMED * apart * share**LATE, size
 
 

@@ -39,12 +39,13 @@ AIM, MARGIN = 0.1, 0.75
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
-# Of a response that is farther than LOST of its size from a coarser one no point is known. To confirm one, up to so many
-# are made, as long as it is LOST, and in all; with between MUCH_FINER and SURE of the tolerance of the one before. If two
-# are LOST this SOON, as a share of all samples, no tolerance above round-off would follow them to the end.
+# Of a response that is farther than LOST of its size from a coarser one no point is known. To confirm one, up to so
+# many are made, as long as it is LOST, and in all; with between MUCH_FINER and SURE of the tolerance of the one before.
+# If two are LOST this SOON, as a share of all samples, no tolerance above round-off would follow them to the end.
 LOST, MOST_LOST, MOST_CONFIRMATIONS, SOON = 0.1, 2, 4, 0.1
 MUCH_FINER, SURE = 1.0 / 256.0, 1.0 / 16.0
-# Distances shrink with tolerances to this power, unless the responses show that it is more: impacts' errors shrink late.
+# Distances shrink with tolerances to this power, or to a higher one if the responses show it: impacts' errors shrink
+# late.
 LATE = 0.5
 # The finer of two responses may be this many times as wrong as their distance leaves to hope for.
 CONFIRMED = 12.0

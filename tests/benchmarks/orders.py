@@ -1,8 +1,8 @@
 """Order, error constant and floor of every method with fixed steps: python tests/benchmarks/orders.py.
 
-Writes docs/orders.json and the table of docs/accuracy.md. Errors of the acceleration (relative RMS) are taken at 1 to 128
-steps a sample against exponential_rk4 at 256. Order and constant are those of the straight line through log error over
-log step where errors fall: below a hundredth of the signal and above eight times the floor, the least error of all.
+Writes docs/orders.json and the table of docs/accuracy.md. Errors of the acceleration (relative RMS) are taken at 1 to
+128 steps a sample against exponential_rk4 at 256. Order and constant are those of the straight line through log error
+over log step where errors fall: below a hundredth of the signal, and eight times above the floor, the least of all.
 """
 
 from __future__ import annotations
@@ -89,12 +89,8 @@ def table(rows: dict[str, dict[str, dict[str, object]]], checked: dict[str, floa
 def main() -> None:
     """Measure every method on every scene and write both files."""
     exact = {name: response(scene, EXACT, FINEST) for name, scene in SCENES.items()}
-    checked = {
-        name: relative(response(scene, CHECKED_BY, CHECKED_AT), exact[name]) for name, scene in SCENES.items()
-    }
-    rows = {
-        method: {name: measure(scene, method, exact[name]) for name, scene in SCENES.items()} for method in MARCHES
-    }
+    checked = {name: relative(response(scene, CHECKED_BY, CHECKED_AT), exact[name]) for name, scene in SCENES.items()}
+    rows = {method: {name: measure(scene, method, exact[name]) for name, scene in SCENES.items()} for method in MARCHES}
     made_with = measured_on("numpy", "scipy", "numba")
     report = {"made_with": made_with, "exact_apart": checked, "methods": rows}
     (ROOT / "docs" / "orders.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")

@@ -1,0 +1,120 @@
+"""What a run costs beside its records: compiling, starting; how time goes with length and balls, memory with records.
+
+python tests/benchmarks/costs.py writes docs/costs.json and the tables of docs/pipeline.md. Compiling and starting are
+wall clock of a fresh process, with an empty and with a filled cache of kernels; times of responses are processor time,
+medians of rounds; memory is the largest resident size of a process that makes so many records of `gearbox_rig`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from datagen.records.versions import in_words, measured_on
+from physics.reference_scenes import reference_scene
+from physics.scene import Scene
+from physics.simulate import simulate
+from physics.warming import warm_up
+
+ROOT = Path(__file__).resolve().parents[2]
+BEGIN, END = "<!-- costs: begin (written by tests/benchmarks/costs.py) -->", "<!-- costs: end -->"
+RATE, ROUNDS, SLIP_SEED = 65536.0, 5, 1
+LENGTHS, BALLS, RECORDS = (0.5, 1.0, 2.0, 4.0, 8.0), (8, 12, 16, 24, 32), (16, 64, 192)
+STARTING = "from physics.warming import warm_up; warm_up()"
+MAKING = """
+import resource, sys
+from datagen.cli import main
+sys.argv = ["spallgen", "generate", "gearbox_rig", "--workers", "1", "--limit", sys.argv[1], "--out", sys.argv[2]]
+try:
+    main()
+except SystemExit as end:
+    assert not end.code
+print(max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
+"""
+
+
+def starts() -> tuple[float, float]:
+    """Seconds of a process that makes every kernel ready, the first and the second time."""
+    seconds = []
+    with tempfile.TemporaryDirectory() as cache:
+        for _ in range(2):
+            begin = time.perf_counter()
+            environment = {**os.environ, "SPALLGEN_CACHE": cache}
+            subprocess.run([sys.executable, "-c", STARTING], check=True, cwd=ROOT, env=environment)
+            seconds.append(time.perf_counter() - begin)
+    return seconds[0], seconds[1]
+
+
+def seconds_of(scene: Scene) -> float:
+    """Processor time (s) of a response marched to its end."""
+    simulate(scene, RATE, repeat=False)
+    seconds = []
+    for _ in range(ROUNDS):
+        begin = time.process_time()
+        simulate(scene, RATE, repeat=False)
+        seconds.append(time.process_time() - begin)
+    return statistics.median(seconds)
+
+
+def with_balls(balls: int) -> Scene:
+    """G0 for 1 s, slipping, with so many balls in both rows together."""
+    scene = reference_scene("G0", 1.0, slip_seed=SLIP_SEED)
+    bearing = dataclasses.replace(scene.rig.bearing, balls=balls // scene.rig.bearing.rows)
+    return dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing))
+
+
+def resident(records: int) -> float:
+    """Largest resident size (MB) of a process that makes so many records by itself."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-c", MAKING, str(records), str(Path(folder) / "corpus")]
+        done = subprocess.run(command, check=True, cwd=ROOT, capture_output=True, text=True)
+    return float(done.stdout.split()[-1]) / 1024.0
+
+
+def main() -> None:
+    """Measure and write both files."""
+    warm_up()
+    first, again = starts()
+    lengths = {seconds: seconds_of(reference_scene("G1", seconds, slip_seed=SLIP_SEED)) for seconds in LENGTHS}
+    balls = {count: seconds_of(with_balls(count)) for count in BALLS}
+    memory = {records: resident(records) for records in RECORDS}
+    made_with = measured_on("numpy", "scipy", "numba")
+    report = {
+        "made_with": made_with,
+        "first_start_s": first,
+        "warm_start_s": again,
+        "seconds_by_length": lengths,
+        "seconds_by_balls": balls,
+        "resident_mb_by_records": memory,
+    }
+    (ROOT / "docs" / "costs.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    lines = [
+        f"- A first start, which compiles every kernel that records need, takes {first:.0f} s, "
+        f"a later one {again:.1f} s.",
+        "- Milliseconds a second of record, G1 slipping, by length: "
+        + ", ".join(f"{1e3 * used / length:.1f} ({length:g} s)" for length, used in lengths.items())
+        + ".",
+        "- Milliseconds a second of record, G0 slipping, by balls of both rows: "
+        + ", ".join(f"{1e3 * used:.1f} ({count})" for count, used in balls.items())
+        + ".",
+        "- Largest resident size of a process, by records made: "
+        + ", ".join(f"{size:.0f} MB ({records})" for records, size in memory.items())
+        + ".",
+        "",
+        f"Measured on {in_words(made_with)}.",
+    ]
+    page = ROOT / "docs" / "pipeline.md"
+    text = page.read_text(encoding="utf-8")
+    written = "\n".join(lines)
+    page.write_text(f"{text[: text.index(BEGIN)]}{BEGIN}\n{written}\n{text[text.index(END) :]}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -9,9 +9,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, house_style
+from datagen.marked_tables import write_marked
 
 DOCS = Path(__file__).parent
-BEGIN, END = "<!-- own choice: begin (written by docs/make_accuracy.py) -->", "<!-- own choice: end -->"
 SETS = {"0.1 s": "own_choice.json", "1 s": "own_choice_1s.json"}
 
 
@@ -57,9 +57,7 @@ def picture() -> None:
 
 def main() -> None:
     """Write both."""
-    page = DOCS / "accuracy.md"
-    text = page.read_text(encoding="utf-8")
-    page.write_text(f"{text[: text.index(BEGIN)]}{BEGIN}\n{table()}\n{text[text.index(END) :]}", encoding="utf-8")
+    write_marked(DOCS / "accuracy.md", "own choice", __file__, table())
     picture()
 
 

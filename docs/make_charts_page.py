@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from datagen.marked_tables import write_marked
+
 CHARTS = Path(__file__).with_name("charts")
 PAGE = CHARTS / "README.md"
-BEGIN, END = "<!-- {}: begin (written by docs/make_charts_page.py) -->", "<!-- {}: end -->"
 SCENES = ("G1", "F1", "G2", "F2", "G1_3x", "F1_3x", "G2_3x", "F2_3x")
 MARCHED, REPEATED, DEFAULT = "modal", "modal, repeated", 1e-3
 PACKAGES = ("numpy", "scipy", "numba", "numbalsoda")
+RIVALS = (("compiled solver", "ball by ball"), ("compiled solver", "contact kernel"), ("SciPy solver", ""))
 MODELS = ("impulse train", "quasi-static", "linear time-varying")
 Facts = dict[str, Any]
 
@@ -57,21 +60,21 @@ def rival(found: tuple[str, float] | None, speed: float) -> str:
 
 def speeds(charts: dict[str, Facts]) -> list[str]:
     """One row a scene: the default, its fastest accurate run, and the fastest rival of each kind."""
-    lines = [
-        "| scene | `modal`, 1e-3 asked: times real time (error) | its fastest run below 0.1 % | `modal, repeated`, "
-        "1e-3 asked | compiled solver, ball by ball | compiled solver, contact kernel | SciPy solver |",
-        "|---" * 7 + "|",
-    ]
+    heads = (
+        "`modal`, 1e-3 asked: times real time (error)",
+        "its fastest run below 0.1 %",
+        "`modal, repeated`, 1e-3 asked",
+        *(f"{group}, {equations}" if equations else group for group, equations in RIVALS),
+    )
+    rows = {}
     for name, chart in charts.items():
         default = at_accuracy(chart, MARCHED, DEFAULT)
         assert default is not None
-        kinds = (("compiled solver", "ball by ball"), ("compiled solver", "contact kernel"), ("SciPy solver", ""))
         cells = [told(default), told(fastest_run(chart)), told(at_accuracy(chart, REPEATED, DEFAULT))]
-        cells += [rival(fastest(chart, *kind), default["real_time"]) for kind in kinds]
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+        rows[name] = cells + [rival(fastest(chart, *kind), default["real_time"]) for kind in RIVALS]
     made = charts[SCENES[0]]["made_with"]
     versions = ", ".join(f"{package} {made[package]}" for package in PACKAGES)
-    return [*lines, "", f"Measured on {made['machine']}, Python {made['python']}, {versions}."]
+    return [*by_scene(heads, rows), "", f"Measured on {made['machine']}, Python {made['python']}, {versions}."]
 
 
 def fastest_run(chart: Facts) -> Facts:
@@ -81,18 +84,20 @@ def fastest_run(chart: Facts) -> Facts:
 
 def accuracies(charts: dict[str, Facts]) -> list[str]:
     """One row a scene: what a tenth of the error costs, what was missed, and how near any run is to the reference."""
-    lines = [
-        "| scene | speed lost from 1e-3 to 1e-4 asked | from 1e-4 to 1e-5 | accuracy missed | nearest run to the "
-        "reference |",
-        "|---" * 5 + "|",
-    ]
+    heads = (
+        "speed lost from 1e-3 to 1e-4 asked",
+        "from 1e-4 to 1e-5",
+        "accuracy missed",
+        "nearest run to the reference",
+    )
+    rows = {}
     for name, chart in charts.items():
         speed = {asked(run): run["real_time"] for run in runs_of(chart, MARCHED)}
         lost = [f"{100.0 * (1.0 - speed[fine] / speed[coarse]):.0f} %" for coarse, fine in ((1e-3, 1e-4), (1e-4, 1e-5))]
         nearest = min((run for run in chart["runs"] if run["score"] is not None), key=error)
         near = f"{error(nearest):.1e} ({nearest['name']}, {nearest['setting']})"
-        lines.append(f"| {name} | {lost[0]} | {lost[1]} | {missed(chart)} | {near} |")
-    return lines
+        rows[name] = [*lost, missed(chart), near]
+    return by_scene(heads, rows)
 
 
 def missed(chart: Facts) -> str:
@@ -103,27 +108,24 @@ def missed(chart: Facts) -> str:
 
 def simpler(charts: dict[str, Facts]) -> list[str]:
     """One row a scene: speed and error of the simpler models beside the default."""
-    lines = [f"| scene | `modal`, 1e-3 asked | {' | '.join(MODELS)} |", "|---" * (2 + len(MODELS)) + "|"]
-    for name, chart in charts.items():
-        cells = [told(at_accuracy(chart, MARCHED, DEFAULT)), *(told(runs_of(chart, model)[0]) for model in MODELS)]
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
-    return lines
+    rows = {
+        name: [told(at_accuracy(chart, MARCHED, DEFAULT)), *(told(runs_of(chart, model)[0]) for model in MODELS)]
+        for name, chart in charts.items()
+    }
+    return by_scene(("`modal`, 1e-3 asked", *MODELS), rows)
 
 
-def replaced(page: str, name: str, lines: list[str]) -> str:
-    """The page with new lines between the marks of one table."""
-    begin, end = BEGIN.format(name), END.format(name)
-    head, rest = page.split(begin)
-    return f"{head}{begin}\n" + "\n".join(lines) + f"\n{end}" + rest.split(end)[1]
+def by_scene(heads: Sequence[str], rows: Mapping[str, Sequence[str]]) -> list[str]:
+    """The lines of a table with a row of cells a scene."""
+    lines = [f"| scene | {' | '.join(heads)} |", "|---" * (1 + len(heads)) + "|"]
+    return [*lines, *(f"| {name} | {' | '.join(cells)} |" for name, cells in rows.items())]
 
 
 def main() -> None:
     """Write the tables."""
     charts = {name: json.loads((CHARTS / f"{name}.json").read_text(encoding="utf-8")) for name in SCENES}
-    page = PAGE.read_text(encoding="utf-8")
-    for name, table in (("speeds", speeds), ("accuracies", accuracies), ("simpler models", simpler)):
-        page = replaced(page, name, table(charts))
-    PAGE.write_text(page, encoding="utf-8")
+    for name, lines in (("speeds", speeds), ("accuracies", accuracies), ("simpler models", simpler)):
+        write_marked(PAGE, name, __file__, "\n".join(lines(charts)))
 
 
 if __name__ == "__main__":

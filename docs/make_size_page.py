@@ -12,8 +12,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from datagen.marked_tables import write_marked
+
 PAGE = Path(__file__).with_name("size.md")
-BEGIN, END = "<!-- size ladder: begin (written by docs/make_size_page.py) -->", "<!-- size ladder: end -->"
 LEVELS = ("clean", "20 dB", "10 dB", "5 dB", "0 dB")
 RULES = ("full size, own lag", "half size, own lag", "plain envelope lag", "own lag and static release")
 
@@ -133,9 +134,7 @@ def main(folders: list[str]) -> None:
         "The fresh ladder by what errors depend on, with load and Hertz factor, in per cent:", "",
         *dependences(fresh),
     ]  # fmt: skip
-    page = PAGE.read_text()
-    before, after = page.split(BEGIN)[0], page.split(END)[1]
-    PAGE.write_text(f"{before}{BEGIN}\n" + "\n".join(text) + f"\n{END}{after}")
+    write_marked(PAGE, "size ladder", __file__, "\n".join(text))
 
 
 if __name__ == "__main__":

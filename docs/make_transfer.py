@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from scipy.stats import binomtest
 
+from datagen.marked_tables import write_marked
 from labels.classifier.scores import FEWEST_A_SIDE
 
 PAGE = Path(__file__).with_name("transfer.md")
-BEGIN, END = "<!-- {}: begin (written by docs/make_transfer.py) -->", "<!-- {}: end -->"
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
 ODD = {"197", "198", "199", "174", "201"}
 
@@ -170,31 +170,23 @@ def simulated(report: dict[str, Any], model: str) -> str:
     return interval(own[0]["faults_balanced_accuracy"]) if own else "–"
 
 
-def replaced(page: str, name: str, lines: list[str]) -> str:
-    """The page with new lines between the marks of one table."""
-    begin, end = BEGIN.format(name), END.format(name)
-    head, rest = page.split(begin)
-    return f"{head}{begin}\n" + "\n".join(lines) + f"\n{end}" + rest.split(end)[1]
-
-
 def main(paths: list[str]) -> None:
     """Write the tables."""
     draws = [path for path in paths if Path(path).name == "draws.json"]
     others = [path for path in paths if path not in draws]
     reports = {Path(path).absolute().parent.name: json.loads(Path(path).read_text()) for path in others}
     first = next(iter(reports.values()))
-    page = PAGE.read_text(encoding="utf-8")
     learned = f"Learned from {first['training_records']} simulated records; no real one."
-    page = replaced(page, "scores", [learned, "", *main_table(first)])
-    page = replaced(page, "noise", noise_table(first))
+    tables = {"scores": [learned, "", *main_table(first)], "noise": noise_table(first)}
     for path in draws:
-        page = replaced(page, "draws", draws_table(json.loads(Path(path).read_text())))
+        tables["draws"] = draws_table(json.loads(Path(path).read_text()))
     ablations = dict(list(reports.items())[1:])
     backgrounds = {name: ablations.pop(name) for name in BACKGROUNDS if name in ablations}
     for name, found in (("ablation", ablations), ("background", backgrounds)):
         if found:
-            page = replaced(page, name, ablation_table(found))
-    PAGE.write_text(page, encoding="utf-8")
+            tables[name] = ablation_table(found)
+    for name, lines in tables.items():
+        write_marked(PAGE, name, __file__, "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -34,8 +34,8 @@ ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
 # A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where contacts may
-# make errors grow, or where the rings part: it is made again with this share of the tolerance, and what both are apart
-# tells.
+# make errors grow: it is made again with this share of the tolerance, and what both are apart tells. So is one in which
+# the rings part, with a smaller share.
 DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
@@ -94,8 +94,8 @@ def respond_accurately(
         coarse = go_on(March(case, samples), _grid(case, samples, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
         sensitivity = max(sensitivity, _shown(case, coarse, output))
     if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) or fewest == 0:
-        again = March(case, samples, kept)
-        output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, sensitivity)
+        again, share = March(case, samples, kept), SURE if sensitivity > CHAOTIC or fewest == 0 else FINER
+        output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, share, sensitivity)
     marched = output.acceleration.shape[0]
     trace = trace_of(scene, Grid(marched, 1, grid.interval), output, MODAL)
     step = (marched - 1) * grid.interval / max(1, int(output.tally[STEPS]))
@@ -140,16 +140,22 @@ def _to_accuracy(
 
 
 def _made_sure(
-    march: March, go_on: GoOn, accuracy: float, least: float, output: Output, grid: Stride, sensitivity: float
+    march: March,
+    go_on: GoOn,
+    accuracy: float,
+    least: float,
+    output: Output,
+    grid: Stride,
+    share: float,
+    sensitivity: float,
 ) -> tuple[Output, float, float, float]:
-    """The response made again by a fresh `march` on a finer grid than the `output`'s; its estimated error and its own
-    RMS (m/s²), and the sensitivity that both tell.
+    """The response made again by a fresh `march` with this `share` of the tolerance of the `output`'s grid; its
+    estimated error and its own RMS (m/s²), and the sensitivity that both tell.
 
     Where that is CHAOTIC or the rings part, until another one confirms it; else once more, to that sensitivity, if that
     is not within the accuracy.
     """
-    case, share = march.case, SURE if sensitivity > CHAOTIC or _fewest_touching(output) == 0 else FINER
-    grid = _finer(grid, share)
+    case, grid = march.case, _finer(grid, share)
     finer = go_on(march, grid)
     sensitivity = max(sensitivity, _shown(case, output, finer))
     if sensitivity > CHAOTIC or _fewest_touching(finer) == 0:

@@ -17,6 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from datagen.marked_tables import write_marked
 from datagen.records.versions import in_words, measured_on
 from physics.reference_scenes import reference_scene
 from physics.scene import Scene
@@ -24,7 +25,6 @@ from physics.simulate import simulate
 from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
-BEGIN, END = "<!-- costs: begin (written by tests/benchmarks/costs.py) -->", "<!-- costs: end -->"
 RATE, ROUNDS, SLIP_SEED = 65536.0, 5, 1
 LENGTHS, BALLS, RECORDS = (0.5, 1.0, 2.0, 4.0, 8.0), (8, 12, 16, 24, 32), (16, 64, 192)
 STARTING = "from physics.warming import warm_up; warm_up()"
@@ -110,10 +110,7 @@ def main() -> None:
         "",
         f"Measured on {in_words(made_with)}.",
     ]
-    page = ROOT / "docs" / "pipeline.md"
-    text = page.read_text(encoding="utf-8")
-    written = "\n".join(lines)
-    page.write_text(f"{text[: text.index(BEGIN)]}{BEGIN}\n{written}\n{text[text.index(END) :]}", encoding="utf-8")
+    write_marked(ROOT / "docs" / "pipeline.md", "costs", __file__, "\n".join(lines))
 
 
 if __name__ == "__main__":

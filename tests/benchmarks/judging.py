@@ -20,6 +20,7 @@ from datagen.benchmark.rows import Reading, read_rows
 from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, SPEED_ERROR, train_models, train_rule, training_set
 from datagen.benchmark.verdicts import judge
 from datagen.corpus import Corpus
+from datagen.marked_tables import write_marked
 from datagen.recipes.recipe import load_recipe
 from datagen.records.versions import in_words, measured_on
 from datagen.runs.generate import generate
@@ -27,7 +28,6 @@ from datagen.sizing.estimators import default_estimator
 from datagen.sizing.sized_records import sized_records
 
 ROOT = Path(__file__).resolve().parents[2]
-BEGIN, END = "<!-- judging: begin (written by tests/benchmarks/judging.py) -->", "<!-- judging: end -->"
 LEARNED_FROM = 160
 TRAINING = Reading(speed_error=SPEED_ERROR, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB)
 
@@ -114,11 +114,8 @@ def main() -> None:
     made = measured_on("numpy", "scipy", "scikit-learn", "numba")
     facts = {"records": options.records, "workers": options.workers, "made_with": made, **found}
     (ROOT / "docs" / "judging.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    target = ROOT / "docs" / "pipeline.md"
-    text = target.read_text(encoding="utf-8")
-    head, tail = text[: text.index(BEGIN)], text[text.index(END) :]
     table = page(found, options.records, options.workers, in_words(made))
-    target.write_text(f"{head}{BEGIN}\n{table}\n{tail}", encoding="utf-8")
+    write_marked(ROOT / "docs" / "pipeline.md", "judging", __file__, table)
     print(table)
 
 

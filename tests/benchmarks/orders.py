@@ -1,4 +1,4 @@
-"""Order, error constant and floor of every method with fixed steps: python tests/benchmarks/orders.py.
+"""Order, error constant and floor of every method with fixed steps: PYTHONPATH=. python tests/benchmarks/orders.py.
 
 Writes docs/orders.json and the table of docs/accuracy.md. Errors of the acceleration (relative RMS) are taken at 1 to
 128 steps a sample against exponential_rk4 at 256. Order and constant are those of the straight line through log error
@@ -7,39 +7,30 @@ over log step where errors fall: below a hundredth of the signal, and eight time
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.marked_tables import write_marked
 from datagen.records.versions import in_words, measured_on
 from physics.integrators.methods import MARCHES, METHODS
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.scene import Scene
 from physics.simulate import simulate
+from tests.physics.smooth import always_in_contact
 
 ROOT = Path(__file__).resolve().parents[2]
-BEGIN, END = "<!-- orders: begin (written by tests/benchmarks/orders.py) -->", "<!-- orders: end -->"
 RATE, DURATION = 65536.0, 0.1
 SUBSTEPS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
 EXACT, FINEST, CHECKED_BY, CHECKED_AT = "exponential_rk4", 256, "runge_kutta4", 192
 LARGEST, ABOVE_FLOOR, FEWEST = 1e-2, 8.0, 3
 Array = NDArray[np.float64]
 
-
-def always_in_contact() -> Scene:
-    """G1 with preload, which keeps every ball in contact over a shallow spall."""
-    scene = reference_scene("G1", DURATION)
-    bearing = dataclasses.replace(scene.rig.bearing, clearance=-15e-6)
-    shallow = dataclasses.replace(scene.spalls[0], depth=4e-6)
-    return dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(shallow,))
-
-
 SCENES = {
-    "smooth": always_in_contact(),
+    "smooth": always_in_contact(reference_scene, DURATION),
     "G1": reference_scene("G1", DURATION),
     "F1s": reference_scene("F1s", DURATION),
 }
@@ -94,10 +85,8 @@ def main() -> None:
     made_with = measured_on("numpy", "scipy", "numba")
     report = {"made_with": made_with, "exact_apart": checked, "methods": rows}
     (ROOT / "docs" / "orders.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-    page = ROOT / "docs" / "accuracy.md"
-    text = page.read_text(encoding="utf-8")
-    written = "\n".join([*table(rows, checked), "", f"Measured on {in_words(made_with)}."])
-    page.write_text(f"{text[: text.index(BEGIN)]}{BEGIN}\n{written}\n{text[text.index(END) :]}", encoding="utf-8")
+    lines = [*table(rows, checked), "", f"Measured on {in_words(made_with)}."]
+    write_marked(ROOT / "docs" / "accuracy.md", "orders", __file__, "\n".join(lines))
 
 
 if __name__ == "__main__":

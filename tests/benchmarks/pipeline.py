@@ -21,6 +21,7 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
+from datagen.marked_tables import write_marked
 from datagen.recipes.recipe import Recipe, Store, load_recipe
 from datagen.records.versions import in_words, measured_on
 from datagen.runs.generate import corpus_identity, generate
@@ -35,7 +36,6 @@ COMPRESSIONS = ("zlib", "none")
 FEWEST_RECORDS = 4
 # A run of seconds, in which the start of the processes counts, and one long enough that it does not.
 WORKER_RECORDS = {"gearbox_rig": 96, "corpus": 480}
-BEGIN, END = "<!-- pipeline: begin (written by tests/benchmarks/pipeline.py) -->", "<!-- pipeline: end -->"
 # Functions that the profile adds up, by the step that they are; each does nothing that another one counts.
 STAGES = {
     "draw the scenario": ("draw_scenario",),
@@ -175,10 +175,7 @@ def main() -> None:
     warm_up()
     found = measure(options.records, options.rounds)
     (ROOT / "docs" / "pipeline.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    target = ROOT / "docs" / "pipeline.md"
-    text = target.read_text(encoding="utf-8")
-    head, tail = text[: text.index(BEGIN)], text[text.index(END) :]
-    target.write_text(f"{head}{BEGIN}\n{page(found)}\n{tail}", encoding="utf-8")
+    write_marked(ROOT / "docs" / "pipeline.md", "pipeline", __file__, page(found))
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from datagen.marked_tables import write_marked
 from datagen.records.versions import in_words, measured_on
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.response.periodic import METHOD as REPEATED
@@ -27,8 +28,6 @@ RIVAL_SCENES = ("G1", "F1")
 RIVAL_DURATION = 0.05
 DURATION, LONG_DURATION = 0.5, 5.0
 SLIP_SEED = 1
-BEGIN = "<!-- reference scenes: begin (written by tests/benchmarks/reference_scenes.py) -->"
-END = "<!-- reference scenes: end -->"
 
 
 def rms(values: np.ndarray) -> float:
@@ -130,11 +129,8 @@ def main() -> None:
     made = measured_on("numpy", "scipy", "numba")
     facts = {"made_with": made, "rounds": rounds, "scenes": results, "rival_real_time_factor": rivals}
     (ROOT / "docs" / "reference_scenes.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    readme = ROOT / "README.md"
-    text = readme.read_text(encoding="utf-8")
-    before, after = text.split(BEGIN)[0], text.split(END)[1]
     new = table(results, rivals, f"Measured on {in_words(made)}.")
-    readme.write_text(f"{before}{BEGIN}\n{new}\n{END}{after}", encoding="utf-8")
+    write_marked(ROOT / "README.md", "reference scenes", __file__, new)
     print(new)
 
 

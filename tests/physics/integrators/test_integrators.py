@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from smooth import always_in_contact
 
 from physics.simulate import simulate
 
@@ -38,7 +39,7 @@ def with_bearing(scene, **changes):
 
 
 def test_the_order_is_4_where_every_ball_keeps_contact(reference_scene):
-    scene = with_bearing(with_spall(reference_scene("G1", 0.1), depth=4e-6), clearance=-15e-6)
+    scene = always_in_contact(reference_scene, 0.1)
     substeps = (2, 3, 4, 6, 8)
     error = errors(scene, substeps)
     slopes = -np.diff(np.log(error)) / np.diff(np.log(substeps))

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from smooth import always_in_contact
 
 from physics.integrators.generalised_alpha import ALPHA_F, ALPHA_M, BETA, GAMMA, RADIUS_AT_INFINITY
 from physics.integrators.methods import MARCHES, METHODS, MODAL, REFERENCE
@@ -45,14 +46,6 @@ def order(scene, method, substeps, finest):
     exact = response(scene, "exponential_rk4", finest)
     error = [rms(response(scene, method, count) - exact) for count in substeps]
     return -np.polyfit(np.log(substeps), np.log(error), 1)[0]
-
-
-def always_in_contact(reference_scene, duration):
-    """G1 with preload, which keeps every ball in contact over a shallow spall."""
-    scene = reference_scene("G1", duration)
-    bearing = dataclasses.replace(scene.rig.bearing, clearance=-15e-6)
-    shallow = dataclasses.replace(scene.spalls[0], depth=4e-6)
-    return dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(shallow,))
 
 
 def test_every_march_and_the_reference_state_their_contract():

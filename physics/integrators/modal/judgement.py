@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.contact_set import count_dips
-from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, Law, law_power
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, Law, law_power, of_ball
+from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
@@ -22,6 +23,7 @@ from physics.integrators.modal.memory import (
     SHORTEST,
     SQUARES,
     TOLERANCE,
+    TRIED,
     UNITS,
     Memory,
     Stride,
@@ -42,8 +44,10 @@ HERMITE_ERROR = 2.0 / 15.0
 LEAST_SPENT, MOST_SPENT, BUDGET_SAMPLES = 0.25, 8.0, 512
 # Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
 UNIT_ERROR = 0.29
-# A contact change may be wrong by this share of the tolerance, and counts, with the steps next to it, as this many.
-CHANGE_SHARE, CHANGE_FACTOR = 0.3, 3.0
+# A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
+# as this many; it is planned anew if the film's force at its ball turns out to be wrong by more than the tolerance, and
+# the time by no more than this share of the last step.
+CHANGE_SHARE, CHANGE_FACTOR, MOST_MISSED = 0.3, 3.0, 0.5
 # A step is taken back if its error exceeds the tolerance this many times. The next may be twice or half as long again
 # if it stays below these shares of it, since the error grows by the fifth power of the length, and has to be shorter
 # by LESS if it exceeds the tolerance.
@@ -158,6 +162,28 @@ def too_coarse(contacts: Contacts, grid: Stride, memory: Memory, step: float) ->
         return False
     memory.clock[ON_WAY] = 0.5 * step
     return True
+
+
+@njit_inner
+def overshot(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
+    """Plan the contact change at the end of the `step` (s) anew if its ball is not near zero compression; True if the
+    step went past the change and is to be taken back.
+
+    The change was located in a trial step through it, whose force was not smooth. Without tension a loss is no jump.
+    """
+    clock, marks, balls, law = memory.clock, memory.marks, contacts.balls, contacts.law
+    if clock[LEFT] - step > SMALLEST_STEP_SHARE * grid.interval or marks[TRIED] >= MOST_CHANGES_PER_STEP:
+        return False
+    compression, rate = of_ball(balls, COMPRESSION, marks[BALL]), of_ball(balls, CLOSING, marks[BALL])
+    losing = of_ball(balls, ACTIVE, marks[BALL]) > 0.5
+    if law.damping * abs(compression) <= clock[TOLERANCE] or (losing and law.no_tension):
+        return False
+    late = compression / rate if (rate < 0.0) == losing and rate != 0.0 else math.inf
+    if abs(late) > MOST_MISSED * step:
+        return False
+    marks[TRIED] += 1
+    clock[LEFT] = step - late
+    return late > 0.0
 
 
 @njit_pasted

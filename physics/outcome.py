@@ -21,6 +21,7 @@ class Outcome(Enum):
     NOT_FINITE = "use a shorter step (more substeps), or check masses, stiffness and damping for extreme values"
     TOO_MANY_CHANGES = "use the no-tension contact law, more film damping or a shorter step"
     UNSTABLE_STEP = "use a shorter step (more substeps), or a method that this mode does not limit"
+    INACCURATE = "ask for less accuracy, or let the modal method choose its own steps"
     UNRESOLVED = "raise the sampling rate, or give the resonator more mass or less stiffness"
     TOO_MANY_STEPS = (
         "ask for less accuracy, or use an implicit or exponential method, whose step stiffness does not limit"

@@ -51,8 +51,8 @@ def simulate(
     where nothing slips, it stops when the response repeats itself from ball to ball (unless more is to be kept, or not
     with `repeat` False).
     Other methods take `substeps` fixed steps a sample (and are meant if they are given); None starts from the fewest
-    that resolve the fastest mode and doubles them until a pilot of a few ball passes differs from one at half the step
-    by no more than `accuracy`, or 32 are reached; without `estimate_error` there is no pilot and no doubling. A rate
+    that resolve the fastest mode and doubles them, up to 32, until a pilot of a few ball passes differs from one at
+    half the step by no more than `accuracy`; without `estimate_error` there is no pilot and no doubling. A rate
     too low to hold the resonator is simulated at a multiple of it and decimated without aliasing (states and forces
     stay samples). The outer ring's motion kept by `keep_outer` stays at that multiple, which is also large enough for
     what is to follow that motion at up to `fastest_path` (Hz). The reference method has no estimate. A simpler `model`

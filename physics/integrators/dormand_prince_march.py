@@ -1,8 +1,9 @@
 """Marching the embedded pair at steps of its own choosing; samples come from its dense output.
 
 As in `physics.integrators.march`, a step is tried with the contact set frozen, the first change of contact inside it is
-located, and the step is repeated up to it; known kinks of a path are step ends. `substeps` s asks for a local error of
-LOOSEST_TOLERANCE / s⁵ of the motion seen so far, so that doubling it halves the steps.
+located, and the step is repeated up to it; known kinks of a path are step ends. `substeps` s asks for s steps a
+sample or more, and for a local error of LOOSEST_TOLERANCE / s⁵ of the motion seen so far, so that doubling it halves
+the steps.
 """
 
 from __future__ import annotations
@@ -184,7 +185,7 @@ def march_dormand_prince(
         if ball >= 0:
             tried, meets = tried + 1, False
         elif not meets:
-            step = min(period, length * _control(error, tolerance, rejected))
+            step = min(grid.step, length * _control(error, tolerance, rejected))
         if trial.step > 0.0:
             next_sample = _sample(contacts, motion, period, sample, trial, work, output)
             if next_sample < 0:

@@ -12,6 +12,7 @@ from physics.integrators.methods import METHODS
 from physics.integrators.output import Grid
 from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
+from physics.outcome import Outcome, SimulationFailed
 from physics.response.march import respond
 from physics.response.modal_case import Kept
 from physics.response.stability import require_stable, stable_substeps
@@ -44,8 +45,8 @@ def respond_by_fixed_steps(
     """Trace of `scene` at k / rate from its `rest` at t = 0 by `substeps` steps a sample of `method`.
 
     None starts from the fewest that are stable and resolve the fastest mode, and doubles them until a pilot of a few
-    ball passes keeps the `accuracy`, or MOST_SUBSTEPS are reached. Without an accuracy there is no pilot, and no
-    estimate of the error. Raises SimulationFailed for steps that are not stable.
+    ball passes keeps the `accuracy`. Without an accuracy there is no pilot, and no estimate of the error. Raises
+    SimulationFailed for steps that are not stable, and where MOST_SUBSTEPS do not keep the accuracy.
     """
     start = starting_state(motion_model(scene), rest.displacement[0])
     least = stable_substeps(scene, METHODS[method], rest, rate)
@@ -55,6 +56,12 @@ def respond_by_fixed_steps(
     if accuracy is not None:
         most = steps if substeps else max(MOST_SUBSTEPS, steps)
         steps, error = _pilot(scene, start, rate, method, steps, most, accuracy)
+        if substeps is None and error > accuracy:
+            raise SimulationFailed(
+                Outcome.INACCURATE,
+                f"{method} with {steps} steps a sample of {rate:.6g} Hz is off by {error:.2g} of the acceleration's "
+                f"RMS, and {accuracy:g} is asked for",
+            )
     grid = Grid(samples, steps, 1.0 / (rate * steps))
     trace = respond(scene, start, grid, method, keep_state=kept.state, keep_force=kept.force, keep_outer=kept.outer)
     return replace(trace, error_estimate=error)

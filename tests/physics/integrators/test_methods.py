@@ -16,7 +16,7 @@ RATE = 65536.0
 SMOOTH = {
     "exponential_rk4": (2, 3, 4, 6, 8),
     "runge_kutta4": (3, 4, 6, 8, 12),
-    "dormand_prince": (8, 10, 12, 16),
+    "dormand_prince": (4, 6, 8, 10),
     "generalised_alpha": (16, 24, 32, 48),
     "exponential_adams2": (8, 12, 16, 24),
     "exponential_adams3": (6, 8, 12, 16),

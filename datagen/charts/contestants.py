@@ -16,6 +16,7 @@ from physics.integrators.general_purpose import (
     PAIRS,
     absolute_tolerance,
     c_right_hand_side,
+    integrate_by_fixed_steps,
     integrate_compiled,
     right_hand_side,
 )
@@ -42,6 +43,7 @@ SUBSTEPS: Mapping[str, tuple[int, ...]] = {
     "dormand_prince": (1, 2, 3, 4, 6),
 }
 USUAL_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8)
+UNLOCATED_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8, 16)
 ACCURACIES: tuple[float, ...] = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 TOLERANCES: tuple[float, ...] = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SCIPY_TOLERANCES: tuple[float, ...] = (1e-5, 1e-7)
@@ -91,6 +93,7 @@ def contestants(scene: Scene, quick: bool) -> list[Contestant]:
     found += [_model(name) for name in SIMPLER_MODELS]
     for kind in (BALL_BY_BALL, CONTACT_KERNEL):
         found += [_compiled(pair, kind, tolerance) for pair in PAIRS for tolerance in TOLERANCES[kept]]
+        found += [_unlocated(kind, steps) for steps in UNLOCATED_SUBSTEPS[kept]]
         if find_spec("numbalsoda"):
             found += [_numbalsoda(name, kind, tolerance) for name in NUMBALSODA for tolerance in TOLERANCES[kept]]
         solvers = SCIPY_SOLVERS[:2] if quick else SCIPY_SOLVERS
@@ -138,6 +141,14 @@ def _compiled(pair: str, kind: str, tolerance: float) -> Contestant:
         return integrate_compiled(scene, pair, kind, start_of(scene), rate, samples, tolerance)[0]
 
     return Contestant(COMPILED, f"compiled {pair}, {kind}", f"tolerance {tolerance:g}", run, _of_states)
+
+
+def _unlocated(kind: str, substeps: int) -> Contestant:
+    def run(scene: Scene, rate: float) -> Raw:
+        samples = round(scene.duration * rate)
+        return integrate_by_fixed_steps(scene, kind, start_of(scene), rate, samples, substeps)
+
+    return Contestant(COMPILED, f"compiled RK4, {kind}", f"{substeps} steps a sample", run, _of_states)
 
 
 def _numbalsoda(solver: str, kind: str, tolerance: float) -> Contestant:

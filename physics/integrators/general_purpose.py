@@ -1,7 +1,8 @@
 """General-purpose solvers compiled throughout, as a user would pick one: no contact change or kink is located.
 
-DOP853 and RK45 with SciPy's tables and step control, on the equations written ball by ball and on this package's
-contact kernel. They are here to be measured beside the methods of this folder, not to be used.
+DOP853 and RK45 with SciPy's tables and step control, and the classical Runge-Kutta method with fixed steps, on the
+equations written ball by ball and on this package's contact kernel. They are here to be measured beside the methods of
+this folder, not to be used.
 """
 
 from __future__ import annotations
@@ -161,9 +162,40 @@ def _integrate(
     return states, -1
 
 
+def _integrate_fixed(model: Any, start: Array, period: float, samples: int, substeps: int) -> Array:
+    """States (T, 12) at multiples of `period` (s) by the classical Runge-Kutta method, `substeps` steps a period."""
+    states, state, trial = np.empty((samples, 12)), start.copy(), np.empty(12)
+    states[0] = start
+    step = period / substeps
+    for sample in range(1, samples):
+        for part in range(substeps):
+            time = (sample - 1) * period + part * step
+            first = slope(model, time, state)
+            _move(state, first, 0.5 * step, trial)
+            second = slope(model, time + 0.5 * step, trial)
+            _move(state, second, 0.5 * step, trial)
+            third = slope(model, time + 0.5 * step, trial)
+            _move(state, third, step, trial)
+            fourth = slope(model, time + step, trial)
+            for i in range(12):
+                state[i] += step / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i])
+        states[sample] = state
+    return states
+
+
+@njit
+def _move(state: Array, rate: Array, step: float, moved: Array) -> None:
+    for i in range(12):
+        moved[i] = state[i] + step * rate[i]
+
+
 _SOLVERS: Mapping[str, Callable[..., tuple[Array, int]]] = {
     BALL_BY_BALL: specialise(_integrate, "general_purpose_ball_by_ball", slope=ball_by_ball_slopes),
     CONTACT_KERNEL: specialise(_integrate, "general_purpose_contact_kernel", slope=kernel_slopes),
+}
+_FIXED: Mapping[str, Callable[..., Array]] = {
+    BALL_BY_BALL: specialise(_integrate_fixed, "fixed_steps_ball_by_ball", slope=ball_by_ball_slopes),
+    CONTACT_KERNEL: specialise(_integrate_fixed, "fixed_steps_contact_kernel", slope=kernel_slopes),
 }
 _SLOPES: Mapping[str, Callable[..., Array]] = {BALL_BY_BALL: ball_by_ball_slopes, CONTACT_KERNEL: kernel_slopes}
 
@@ -197,3 +229,15 @@ def integrate_compiled(
     _, model = right_hand_side(scene, kind)
     small = np.append(tolerance, absolute_tolerance(scene, tolerance))
     return _SOLVERS[kind](_tableau(pair), model, start, 1.0 / rate, samples, small)
+
+
+def integrate_by_fixed_steps(
+    scene: Scene, kind: str, start: Array, rate: float, samples: int, substeps: int
+) -> Array:
+    """States (T, 12) of `scene` at the instants k / rate by the classical Runge-Kutta method, `substeps` a sample.
+
+    Steps run through changes of contact and kinks as if there were none, as a first script does; what is unstable ends
+    in values that are not finite.
+    """
+    _, model = right_hand_side(scene, kind)
+    return _FIXED[kind](model, start, 1.0 / rate, samples, substeps)

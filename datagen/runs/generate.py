@@ -44,9 +44,10 @@ def generate(
     check_folder(folder, identity)
     require_memory(recipe)
     require_possible_rates(recipe, asked)
-    begun = manifest_path(folder).exists()
-    with engaged(engine or Engine()), nullcontext(nobody) if begun else kernels_loading_in_workers() as are_ready:
-        planned = plan_shards(recipe, asked[-1][1])
+    earlier = read_manifest(folder).asked if manifest_path(folder).exists() else ()
+    with engaged(engine or Engine()), nullcontext(nobody) if earlier else kernels_loading_in_workers() as are_ready:
+        # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
+        planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)))
         require_room(recipe, planned, folder)
         _make_folder(folder)
         with locked(folder):

@@ -72,6 +72,14 @@ def test_a_backend_set_by_the_caller_is_used(
     assert threading.main_thread().name not in threads
 
 
+def test_a_smaller_limit_later_keeps_the_records_that_were_asked_for_before(tiny: Recipe, tmp_path: Path) -> None:
+    last = plan_shards(tiny, tiny.count)[0].records[-1]  # goes into one shard with record 0
+    generate(tiny, tmp_path / "some", records=(last,), engine=ALONE)
+    run = generate(tiny, tmp_path / "some", limit=1, engine=ALONE)
+    assert (run.asked, run.made, run.new) == (1, 1, 1)
+    assert sorted(read_index(tmp_path / "some")["record"]) == [0, last]
+
+
 def test_a_limit_makes_the_first_records_and_a_later_run_completes_the_rest(
     tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:

@@ -37,6 +37,7 @@ class Trace:
     along x and y, at `outer_rate` (Hz), a whole multiple of `rate`, or None if not asked for.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
+    `chaotic`: errors grow faster than shorter steps could reduce them, so compare spectra, not samples.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
     `unlocated_changes` counts changes of contact that were taken at a step's end because one step held too many.
     """
@@ -58,8 +59,4 @@ class Trace:
     outer_velocity: Array | None = None
     outer_acceleration: Array | None = None
     sensitivity: float = math.nan
-
-    @property
-    def chaotic(self) -> bool:
-        """Whether bouncing balls make more of any error than shorter steps could mend: judge spectra, not points."""
-        return not math.isnan(self.sensitivity) and self.error_estimate >= 1.0
+    chaotic: bool = False

@@ -99,7 +99,9 @@ def respond_accurately(
     marched = output.acceleration.shape[0]
     trace = trace_of(scene, Grid(marched, 1, grid.interval), output, MODAL)
     step = (marched - 1) * grid.interval / max(1, int(output.tally[STEPS]))
-    return replace(trace, step=step, error_estimate=error / size if size > 0.0 else 0.0, sensitivity=sensitivity)
+    chaotic = math.isinf(error)
+    estimate = 1.0 if chaotic else error / size if size > 0.0 else 0.0
+    return replace(trace, step=step, error_estimate=estimate, sensitivity=sensitivity, chaotic=chaotic)
 
 
 def _fewest_touching(output: Output) -> int:
@@ -180,13 +182,13 @@ def _confirmed(
     """The `fine` response of a `march` on `grid`, or the first finer one, that is well within the accuracy of the one
     before, at first the `coarse` one with a `share` less tolerance; the error that this tells, and its RMS (m/s²).
 
-    Where all are LOST, or the first are LOST SOON, the error is the size.
+    Where all are LOST, or the first are LOST SOON, the error is infinite.
     """
     power, apart, size = LATE, _apart(coarse, fine), rms(fine.acceleration)
     for attempt in range(MOST_CONFIRMATIONS):
         lost, allowed = apart > LOST * size, max(accuracy * size, least)
         if CONFIRMED * apart * share**LATE <= allowed:
-            break
+            return fine, CONFIRMED * apart * share**LATE, size
         if lost and (attempt >= MOST_LOST or _apart(coarse, fine, SOON) > LOST * size):
             break
         wanted = allowed / (CONFIRMED * apart * share**power)
@@ -199,7 +201,7 @@ def _confirmed(
         before, apart, size = apart, _apart(coarse, fine), rms(fine.acceleration)
         power = min(max(math.log(max(apart, ROUND_OFF * size) / before) / math.log(share), LATE), 1.0)
         share = finer
-    return fine, size if apart > LOST * size else CONFIRMED * apart * share**LATE, size
+    return fine, math.inf if apart > LOST * size else CONFIRMED * apart * share**LATE, size
 
 
 def _finer(grid: Stride, share: float) -> Stride:

@@ -57,6 +57,16 @@ def test_an_accuracy_that_was_not_reached_is_told(scenario, monkeypatch):
     assert "chaotic" not in validity
 
 
+QUIET_RECORDS = (8, 52)  # of the wide corpus: healthy, noise far above the vibration, so that large errors are allowed
+
+
+@pytest.mark.parametrize("record", QUIET_RECORDS)
+def test_a_quiet_record_whose_noise_allows_a_large_error_is_not_called_chaotic(record):
+    made = make_record(draw_scenario(load_recipe("corpus"), record))
+    assert made.labels["error_estimate"] > 1.0
+    assert "chaotic" not in made.labels["validity"]
+
+
 def test_a_tame_record_is_not(scenario):
     tame = draw_scenario(load_recipe("gearbox_rig"), 0)
     assert "chaotic" not in make_record(tame).labels["validity"]

@@ -13,6 +13,7 @@ import numpy as np
 
 from physics.cage import CagePath, draw_slip_knots
 from physics.catalog import rig
+from physics.checks import require
 from physics.hertz import contact_width
 from physics.operation import Operation
 from physics.paths.roughness import draw_roughness
@@ -38,10 +39,11 @@ def reference_scene(
     roughness_seed: int = 0,
     speed_factor: float = 1.0,
 ) -> Scene:
-    """The scene of that name over `duration` (s); KeyError for an unknown one.
+    """The scene of that name over `duration` (s); InvalidParameter for an unknown one.
 
     With a `slip_seed` the cage slips by 1 %, with one ball pass of correlation time.
     """
+    require(name in REFERENCE_SCENES, f'name = "{name}"; allowed: {", ".join(REFERENCE_SCENES)}', "name")
     machine = rig(RIGS[name[:1]])
     spalls = _spalls(machine, name[1:], roughness_seed)
     speed = machine.rated_speed * speed_factor

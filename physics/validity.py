@@ -9,6 +9,7 @@ import numpy as np
 from physics.bearing import Bearing
 from physics.hertz import is_roller, roller_length
 from physics.paths.profile import build_path, is_rough
+from physics.rating import static_load_rating
 from physics.scene import Scene
 from physics.spall import Spall
 
@@ -120,6 +121,12 @@ def _load(scene: Scene) -> str:
     load = scene.operation.load
     if load == 0.0:
         return "There is no static load (0 N): balls touch only by chance and no quasi-static position is defined."
+    rating = static_load_rating(scene.rig.bearing)
+    if abs(load) > rating:
+        return (
+            f"The static load ({load:.4g} N) exceeds the static rating of the bearing ({rating:.4g} N), where elements "
+            "and races are dented."
+        )
     if load < 0.0:
         return f"The static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270."
     return ""

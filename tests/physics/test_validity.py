@@ -137,6 +137,12 @@ def test_no_load_and_reversed_load_are_noted_with_their_numbers(gearbox):
     assert reversed_load.startswith("The static load is reversed (-346 N): the load zone is centred at 90 degrees")
 
 
+def test_a_load_above_the_static_rating_is_noted_with_both(gearbox):
+    [note] = assess(scene_of(gearbox, load=22e3))
+    # ISO 76 with one factor: 14.7 N/mm² · 2 rows · 12 balls · (7.12 mm)² = 17.9 kN
+    assert note.startswith("The static load (2.2e+04 N) exceeds the static rating of the bearing (1.788e+04 N)")
+
+
 def test_a_contact_angle_is_noted_with_its_cosine():
     (note,) = assess(scene_of(rig("ims")))
     assert note.startswith("The contact angle of 15.17 degrees enters only as a factor 0.9652 on deflection and force")

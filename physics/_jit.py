@@ -6,6 +6,7 @@ old physics. A cache folder per content hash cannot.
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import os
 import shutil
@@ -45,7 +46,10 @@ def _cache_folder() -> Path:
         with tempfile.NamedTemporaryFile(dir=folder):
             return folder
     except OSError:
-        return Path(tempfile.mkdtemp(prefix="spallgen-cache-"))
+        made = tempfile.mkdtemp(prefix="spallgen-cache-")
+        atexit.register(shutil.rmtree, made, ignore_errors=True)
+        os.environ["SPALLGEN_CACHE"] = made  # for the workers that this process starts
+        return _cache_folder()
 
 
 class CCallback(NamedTuple):
@@ -187,6 +191,11 @@ def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
     """The Python function behind a compiled one, to be specialised anew."""
     compiled: Any = kernel
     return cast(Callable[..., Any], compiled.py_func)
+
+
+def nothing_cached() -> bool:
+    """Whether no kernel has been compiled yet; the folders of kernels are there as soon as they are defined."""
+    return not any(CACHE_FOLDER.rglob("*.nbi"))
 
 
 def discard_cache() -> None:

@@ -3,27 +3,52 @@
 from __future__ import annotations
 
 import math
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 
-from physics._jit import discard_cache
+from physics._jit import discard_cache, nothing_cached
+from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
 from physics.catalog import rig
+from physics.contact.forces import Contacts
+from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
+from physics.integrators.modal.march import begin, march_modal
+from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
+from physics.integrators.modal.tables import empty_tables, tables_for
+from physics.integrators.output import Output
+from physics.motion import motion_model
 from physics.operation import Operation
+from physics.paths.kinks import known_kinks
 from physics.paths.profile import race_depth
+from physics.response.march import empty_output
 from physics.response.resampling import decimate, read_at
 from physics.scene import Scene
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.ball_load import ball_load
+from physics.statics.load_distribution import carried
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
 
+RATE, SAMPLES = 65536.0, 128
+MARCHING = "from physics.warming import compile_march; compile_march()"
+
 
 def warm_up() -> None:
-    """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again."""
+    """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again.
+
+    With an empty cache and two processors, a second process compiles the march, which takes as long as all else.
+    """
+    if nothing_cached() and len(os.sched_getaffinity(0)) > 1:
+        with _march_compiled_beside():
+            _use_kernels_beside_the_march(_scene())
     try:
         _use_every_kernel()
     except Exception:
@@ -31,17 +56,52 @@ def warm_up() -> None:
         _use_every_kernel()
 
 
-def _use_every_kernel() -> None:
-    machine, rate, samples = rig("gearbox"), 65536.0, 128
-    cage = CagePath(machine.bearing.cage_speed(machine.rated_speed), samples / rate)
+def compile_march() -> None:
+    """Compile the modal march, and nothing that is only called before or after it."""
+    scene = _scene()
+    contacts, flow, grid, memory, output = _before_a_march(scene)
+    march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output)
+
+
+def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory, Output]:
+    """What a march of a single sample is given, made without a kernel that the march does not need."""
+    contacts, flow = assemble(scene), linear_flow(motion_model(scene), (1e8, 1e8), (1.0, 1.0))
+    grid = Stride(1, 1.0 / RATE, len(STRIDES), 1.0, 1.0, 1.0, 1.0, 1.0)
+    memory = memory_for(flow, np.zeros(AMPLITUDES), empty_tables(), contacts.balls.shape)
+    return contacts, flow, grid, memory, empty_output(contacts, 1, 1, False, False, False)
+
+
+@contextmanager
+def _march_compiled_beside() -> Iterator[None]:
+    """Another process compiles the march while the block runs; should it fail, the march is compiled on first use."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    with subprocess.Popen([sys.executable, "-c", MARCHING], env=environment, stderr=subprocess.DEVNULL):
+        yield
+
+
+def _scene() -> Scene:
+    machine = rig("gearbox")
+    cage = CagePath(machine.bearing.cage_speed(machine.rated_speed), SAMPLES / RATE)
     spall = Spall("outer", 1, math.radians(270.0), 0.02, 1e-5, 0.005, 0.005, profile="ball_path")
-    scene = Scene(machine, Operation(machine.rated_speed, machine.rated_load), cage, (spall,))
-    trace = simulate(scene, rate)
-    read_at(trace.acceleration, trace.time)
-    still = np.zeros((2, 2))
-    decimate(mode_accelerations([SensorMode(rate / 8.0, 0.1)], still, still, still, rate), 2)
-    stiffness_series(scene, 1.0 / rate, samples)
-    stiffness_trace(scene, trace.time[:1])
-    ball_load(scene, trace.time[:1], 1, np.ones(1, np.int16))
-    race_depth(scene, 1, np.zeros(1))
-    tones(np.ones(1), np.ones(1), np.zeros((1, 2)), 1, rate)
+    return Scene(machine, Operation(machine.rated_speed, machine.rated_load), cage, (spall,))
+
+
+def _use_every_kernel() -> None:
+    scene = _scene()
+    simulate(scene, RATE)
+    _use_kernels_beside_the_march(scene)
+
+
+def _use_kernels_beside_the_march(scene: Scene) -> None:
+    still, time = np.zeros((SAMPLES, 2)), np.zeros(1)
+    contacts, flow, grid, memory, output = _before_a_march(scene)
+    begin(contacts, flow, grid, memory, output)
+    tables_for(flow, 1.0 / RATE)
+    carried(scene, time)
+    read_at(still, time)
+    decimate(mode_accelerations([SensorMode(RATE / 8.0, 0.1)], still, still, still, RATE), 2)
+    stiffness_series(scene, 1.0 / RATE, SAMPLES)
+    stiffness_trace(scene, time)
+    ball_load(scene, time, 1, np.ones(1, np.int16))
+    race_depth(scene, 1, time)
+    tones(np.ones(1), np.ones(1), np.zeros((1, 2)), 1, RATE)

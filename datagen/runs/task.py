@@ -36,10 +36,10 @@ class ShardRow:
 
 def warm_kernels(reporter: Reporter) -> None:
     """Compile every kernel before workers start, so that they find it in the cache."""
-    from physics._jit import CACHE_FOLDER
+    from physics._jit import nothing_cached
     from physics.warming import warm_up
 
-    if not any(CACHE_FOLDER.iterdir()):
+    if nothing_cached():
         reporter.say("compiling the physics, once for each version of it")
     warm_up()
 
@@ -47,10 +47,10 @@ def warm_kernels(reporter: Reporter) -> None:
 @contextmanager
 def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
     """Local workers start and load compiled kernels, if there are any, while the block goes on; see `woken_workers`."""
-    from physics._jit import CACHE_FOLDER
+    from physics._jit import nothing_cached
     from physics.warming import warm_up
 
-    with woken_workers(warm_up) if any(CACHE_FOLDER.iterdir()) else nullcontext(nobody) as are_ready:
+    with nullcontext(nobody) if nothing_cached() else woken_workers(warm_up) as are_ready:
         yield are_ready
 
 

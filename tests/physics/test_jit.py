@@ -157,6 +157,28 @@ def run_kernel(folder, home):
     return done.stdout.splitlines()
 
 
+EMPTY_OR_NOT = """
+import sys
+sys.path.insert(0, "")
+from physics._jit import nothing_cached
+from physics.statics.rest import solve_at
+from physics.response.resampling import read_at
+import numpy as np
+
+before = nothing_cached()
+read_at(np.zeros((16, 2)), np.zeros(1))
+print(before, nothing_cached())
+"""
+
+
+def test_a_cache_is_empty_until_a_kernel_is_compiled_not_until_one_is_defined(tmp_path):
+    environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", EMPTY_OR_NOT], capture_output=True, text=True, check=True, env=environment
+    )
+    assert done.stdout == "True False\n"
+
+
 def test_a_cut_cache_file_is_cured_by_discarding_the_cache(tmp_path):
     home = tmp_path / "cache"
     answer, folder = run_kernel(tmp_path, home)
@@ -173,10 +195,10 @@ def test_a_cut_cache_file_is_cured_by_discarding_the_cache(tmp_path):
     assert run_kernel(tmp_path, home)[0] == "9.0 1"
 
 
-def test_without_a_writable_place_the_cache_goes_to_a_temporary_folder(tmp_path):
+def test_without_a_writable_place_the_cache_goes_to_a_temporary_folder_for_as_long_as_it_is_used(tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("not a folder", encoding="utf-8")
     answer, folder = run_kernel(tmp_path, blocked)
     assert answer == "9.0 0"
     assert "spallgen-cache-" in folder
-    shutil.rmtree(folder)
+    assert not Path(folder).exists()

@@ -28,3 +28,20 @@ for late in sorted(compiled() - before):
 def test_no_kernel_is_compiled_after_the_warm_up() -> None:
     done = subprocess.run([sys.executable, "-c", MAKE_RECORDS], capture_output=True, text=True, check=True)
     assert done.stdout == ""
+
+
+ONE_MARCH = """
+from physics.integrators.modal.march import march_modal
+from physics.reference_scenes import reference_scene
+from physics.simulate import simulate
+from physics.warming import compile_march
+
+compile_march()
+simulate(reference_scene("G1", 0.01), 65536.0, keep_state=True)
+print(len(march_modal.signatures))
+"""
+
+
+def test_the_march_that_is_compiled_on_its_own_is_the_one_that_records_need() -> None:
+    done = subprocess.run([sys.executable, "-c", ONE_MARCH], capture_output=True, text=True, check=True)
+    assert done.stdout == "1\n"

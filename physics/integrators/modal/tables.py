@@ -28,6 +28,11 @@ def _fill(flow: LinearFlow, interval: float, weights: Array, inside: Array, phi:
 def tables_for(flow: LinearFlow, interval: float) -> tuple[Array, Array]:
     """Weights (25, 168) of steps of 0 (scratch) to 16 units and of the strides, on a grid of `interval` (s), and
     weights (67, 172) of the samples inside strides."""
-    weights, inside = np.zeros((UNITS + 1 + len(STRIDES), STEP_WEIGHTS)), np.zeros((INSIDE_ROWS, INSIDE_WEIGHTS))
+    weights, inside = empty_tables()
     _fill(flow, interval, weights, inside, np.zeros((2, POWERS + 1, AMPLITUDES)))
     return weights, inside
+
+
+def empty_tables() -> tuple[Array, Array]:
+    """Arrays for what `tables_for` gives, all zero."""
+    return np.zeros((UNITS + 1 + len(STRIDES), STEP_WEIGHTS)), np.zeros((INSIDE_ROWS, INSIDE_WEIGHTS))

@@ -98,6 +98,18 @@ class Scene:
         return self.operation.shaft_speed if race == "inner" else 0.0
 
     @property
+    def turns_with_the_shaft(self) -> bool:
+        """Whether something turns with the shaft that the balls feel: a load, a spall or waves of the inner race."""
+        run, waves = self.operation, self.imperfections.waviness
+        loads = run.unbalance_force > 0.0 or run.load_fluctuation > 0.0
+        return loads or self.defective_race == "inner" or any(wave.race == "inner" for wave in waves)
+
+    @property
+    def balls_are_alike(self) -> bool:
+        """Whether all balls of a row have the same diameter."""
+        return all(len(set(row)) == 1 for row in self.imperfections.ball_deviation)
+
+    @property
     def defective_race(self) -> str:
         """The race that holds the spalls: "none", "outer" or "inner"."""
         return self.spalls[0].race if self.spalls else "none"

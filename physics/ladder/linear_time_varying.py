@@ -55,15 +55,7 @@ class Place(NamedTuple):
 
 def repeats_with_the_balls(scene: Scene) -> bool:
     """Whether every quantity is a function of the cage angle that returns after one ball spacing."""
-    run, flaws = scene.operation, scene.imperfections
-    return (
-        scene.defective_race != "inner"
-        and run.unbalance_force == 0.0
-        and run.load_fluctuation == 0.0
-        and not flaws.ball_deviation
-        and not any(wave.race == "inner" for wave in flaws.waviness)
-        and scene.second_cage is None
-    )
+    return not scene.turns_with_the_shaft and scene.balls_are_alike and scene.second_cage is None
 
 
 @njit

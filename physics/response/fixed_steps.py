@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 STEPS_PER_FAST_PERIOD = 6.2
 PILOT_PASSES = 3.0
-# A pilot of a scene that turns with the shaft has to see it come round twice.
+# A pilot has to see twice what comes round with the shaft, or with the cage where balls differ.
 PILOT_TURNS = 2.2
 SHORTEST_PILOT = 2048
 MOST_SUBSTEPS = 32
@@ -92,11 +92,10 @@ def _pilot(
 
 
 def _pilot_duration(scene: Scene) -> float:
-    passes = PILOT_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
+    passes = PILOT_PASSES if scene.balls_are_alike else PILOT_TURNS * scene.rig.bearing.balls
+    duration = passes * scene.rig.bearing.spacing / scene.cage.mean_speed
     turns = PILOT_TURNS * 2.0 * math.pi / scene.operation.shaft_speed
-    run = scene.operation
-    turning = scene.defective_race == "inner" or run.unbalance_force > 0.0 or run.load_fluctuation > 0.0
-    return max(passes, turns) if turning else passes
+    return max(duration, turns) if scene.turns_with_the_shaft else duration
 
 
 def _relative_error(coarse: Array, fine: Array) -> float:

@@ -39,14 +39,10 @@ FINEST_ACCURACY = 3e-4
 
 def balls_a_period(scene: Scene) -> int:
     """How many balls have to pass until `scene` is as it was, but for their numbers; 0 if it never is."""
-    run, bearing, imperfections = scene.operation, scene.rig.bearing, scene.imperfections
     even = len({cage.mean_speed for cage in scene.cages}) == 1 and not any(cage.knot_values for cage in scene.cages)
-    steady = run.unbalance_force == 0.0 and run.load_fluctuation == 0.0
-    fixed = scene.defective_race != "inner" and all(wave.race == "outer" for wave in imperfections.waviness)
-    if not (even and steady and fixed):
+    if not even or scene.turns_with_the_shaft:
         return 0
-    alike = all(len(set(row)) == 1 for row in imperfections.ball_deviation)
-    return 1 if alike else bearing.balls
+    return 1 if scene.balls_are_alike else scene.rig.bearing.balls
 
 
 def period_of(scene: Scene) -> float:
@@ -91,9 +87,10 @@ def respond_until_repeated(
     place = np.where(time < end, time, end - period + (time - end) % period) * (cells / period)
     # Points beyond the last sample are those of the period's beginning.
     following = marched.acceleration[marched.time.size - cells :][:POINTS]
-    left = marching.left if end < duration else 0.0
+    last = marched.acceleration[-cells:]
+    left = marching.away(marched.acceleration) / rms(last) if end < duration and last.any() else 0.0
     acceleration = read_at(np.concatenate([marched.acceleration, following]), place)
-    error = math.hypot(marched.error_estimate, left, _reading_error(marched.acceleration[-cells:]))
+    error = math.hypot(marched.error_estimate, left, _reading_error(last))
     if error > accuracy and error * rms(acceleration) > least:
         return respond_accurately(scene, start, rate, samples, accuracy, least)
     return replace(
@@ -120,31 +117,37 @@ def _reading_error(signal: Array) -> float:
 
 class _Repeating:
     """Goes on with a march of `cells` samples a period until its periods are alike: to the `share` of their RMS, or to
-    `least` (m/s², RMS). `left` is the share that the last period is estimated to be away from all later ones."""
+    `least` (m/s², RMS)."""
 
     def __init__(self, cells: int, share: float, least: float) -> None:
-        self.cells, self.share, self.least, self.left = cells, share, least, math.inf
+        self.cells, self.share, self.least, self._decay = cells, share, least, 0.0
 
     def go_on(self, march: March, grid: Stride) -> Output:
         """The output, up to the last period that was needed."""
-        slowest, apart = slowest_decay(march.case.flow), {1: math.inf}
+        self._decay = slowest_decay(march.case.flow) * self.cells / march.case.rate
         for count in range(2, grid.samples // self.cells + 1):
             marched = count * self.cells
             output = march.go_on(grid._replace(samples=marched))
             output = output._replace(acceleration=output.acceleration[:marched])
-            periods = output.acceleration.reshape(count, self.cells, 2)
-            apart[count] = rms(periods[-1] - periods[count // 2 - 1])
-            if count % 2 == 1:
-                continue
-            # What is left of the transient, were it to fall from now on as it did since half the time ago.
-            half = 0.5 * marched / march.case.rate
-            fallen = max(apart[count] / apart[count // 2], math.exp(-slowest * half)) if apart[count] > 0.0 else 0.0
-            away = apart[count] * fallen / (1.0 - fallen) if fallen < 1.0 else math.inf
-            size = rms(periods[-1])
-            self.left = away / size if size > 0.0 else 0.0
-            if away <= max(self.share * size, self.least):
+            size = rms(output.acceleration[-self.cells :])
+            if count % 2 == 0 and self.away(output.acceleration) <= max(self.share * size, self.least):
                 break
         return output
+
+    def away(self, acceleration: Array) -> float:
+        """How far (m/s², RMS) the last of an even number of periods is estimated to be from all later ones.
+
+        What is left of the transient, were it to fall from now on as it did in the last half of the `acceleration`
+        (T, 2), or no faster than the slowest mode decays.
+        """
+        periods = acceleration.reshape(-1, self.cells, 2)
+        half = periods.shape[0] // 2
+        apart = rms(periods[-1] - periods[half - 1])
+        before = rms(periods[half - 1] - periods[half // 2 - 1]) if half > 1 else math.inf
+        if apart == 0.0 or apart >= before:
+            return math.inf if apart > 0.0 else 0.0
+        fallen = max(apart / before, math.exp(-self._decay * half))
+        return apart * fallen / (1.0 - fallen) if fallen < 1.0 else math.inf
 
 
 def _repeated_changes(scene: Scene, changes: ContactChanges, end: float, duration: float) -> ContactChanges:

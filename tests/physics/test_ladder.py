@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 
-from physics.imperfections import Imperfections
 from physics.ladder.impulse_train import _edges, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.models import SIMPLER_MODELS
@@ -92,8 +91,7 @@ def test_the_linear_model_is_near_the_nonlinear_one_where_forces_stay_near_the_s
 
 def test_the_linear_model_in_time_is_the_one_over_cage_angle(reference_scene):
     scene = reference_scene("G1s", 0.06)
-    equal = Imperfections(ball_deviation=((0.0,) * 12, (0.0,) * 12))
-    in_time = dataclasses.replace(scene, imperfections=equal)
+    in_time = dataclasses.replace(scene, second_cage=scene.cage)  # two cages that turn as one
     assert repeats_with_the_balls(scene)
     assert not repeats_with_the_balls(in_time)
     one, other = (simulate(each, RATE, model="linear time-varying") for each in (scene, in_time))

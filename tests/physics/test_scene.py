@@ -5,7 +5,7 @@ import pytest
 
 from physics.cage import CagePath
 from physics.checks import InvalidParameter
-from physics.imperfections import Imperfections
+from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
 from physics.scene import Scene
 from physics.spall import Spall
@@ -30,6 +30,34 @@ def test_a_scene_lasts_as_long_as_its_cage_path_and_names_its_defective_race(hea
     assert dataclasses.replace(healthy, spalls=(SPALL,)).defective_race == "outer"
     inner = dataclasses.replace(SPALL, race="inner")
     assert dataclasses.replace(healthy, spalls=(inner,)).defective_race == "inner"
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"operation": Operation(shaft_speed=80.0, load=346.0, unbalance_force=1.0)},
+        {"operation": Operation(shaft_speed=80.0, load=346.0, load_fluctuation=0.1)},
+        {"imperfections": Imperfections(waviness=(Waviness("inner", 3, 1e-7),))},
+        {"spalls": (dataclasses.replace(SPALL, race="inner"),)},
+    ],
+)
+def test_a_scene_knows_what_turns_with_the_shaft(healthy, changes):
+    assert dataclasses.replace(healthy, **changes).turns_with_the_shaft
+
+
+def test_a_still_load_and_an_outer_race_do_not_turn_with_the_shaft(healthy):
+    waves = Imperfections(waviness=(Waviness("outer", 3, 1e-7),))
+    assert not healthy.turns_with_the_shaft
+    assert not dataclasses.replace(healthy, spalls=(SPALL,), imperfections=waves).turns_with_the_shaft
+
+
+def test_balls_are_alike_if_those_of_each_row_are(healthy):
+    rows = {"as drawn": (), "by rows": ((1e-7,) * 12, (2e-7,) * 12), "not": ((1e-7,) * 12, (0.0,) * 11 + (1e-7,))}
+    alike = {
+        name: dataclasses.replace(healthy, imperfections=Imperfections(ball_deviation=row)).balls_are_alike
+        for name, row in rows.items()
+    }
+    assert alike == {"as drawn": True, "by rows": True, "not": False}
 
 
 def test_spalls_on_both_races_are_refused(healthy):

@@ -88,6 +88,11 @@ class Spall:
                 f'profile = "table" needs at least 2 table points; there are {len(angle)}',
                 "table_angle",
             )
+            require(
+                not self.roughness_values,
+                f"the measured surface has its roughness; {len(self.roughness_values)} roughness_values are given",
+                "roughness_values",
+            )
         require(
             all(math.isfinite(value) for value in angle) and all(a < b for a, b in pairwise(angle)),
             "table_angle must be finite and rise from one value to the next",

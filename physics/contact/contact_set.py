@@ -13,6 +13,9 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts
 
 Array = NDArray[np.float64]
 
+# Sums of different powers of two up to this one are whole numbers that a float holds.
+LARGEST_WEIGHT = 2.0**51
+
 
 @njit_inline
 def touches(contacts: Contacts, cage: int, place: int) -> bool:
@@ -34,6 +37,17 @@ def count_changes(contacts: Contacts) -> int:
             for j in range(balls.shape[2]):
                 changed += (balls[cage, COMPRESSION, j] > 0.0) != (balls[cage, ACTIVE, j] > 0.5)
     return changed
+
+
+@njit_inline
+def mark_of(balls: Array, quantity: int) -> float:
+    """A number that tells apart which balls have this `quantity` above zero, for sets of up to 52 columns."""
+    mark, weight = 0.0, 1.0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            mark += weight if balls[cage, quantity, j] > 0.0 else 0.0
+            weight = 2.0 * weight if weight < LARGEST_WEIGHT else 1.0
+    return mark
 
 
 @njit_inline

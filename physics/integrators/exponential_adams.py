@@ -13,14 +13,13 @@ forces are known, and the last three of them, two numbers each.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline
-from physics.contact.contact_set import count_changes
+from physics.contact.contact_set import count_changes, mark_of
 from physics.contact.forces import ACTIVE, Contacts, set_time
 from physics.integrators.exponential_rk4 import OUTER_STATE, flow_component, step_exponential_rk4
 from physics.integrators.march import Workspace, bind_method, carrying, press_state
@@ -36,16 +35,6 @@ CARRIED = PAST + 6
 # Shares of the step below which lengths and times are the same.
 SAME = 1e-9
 Cubic = tuple[float, float, float, float]
-
-
-@njit
-def contact_mark(balls: Array) -> float:
-    """A number that differs between any two contact sets that follow one another."""
-    mark = 0.0
-    for cage in range(balls.shape[0]):
-        for j in range(balls.shape[2]):
-            mark += balls[cage, ACTIVE, j] * (1.0 + math.sqrt(1.0 + j + cage * balls.shape[2]))
-    return mark
 
 
 @njit
@@ -140,7 +129,7 @@ def step_exponential_adams(
     The contact set stays frozen. Leaves `contacts` at the end time; returns how many balls contradict the set at the
     predicted end, or halfway in a restarting step.
     """
-    mark, known = contact_mark(contacts.balls), int(start[KNOWN])
+    mark, known = mark_of(contacts.balls, ACTIVE), int(start[KNOWN])
     if abs(start[LENGTH] - step) > SAME * step or abs(start[END] - time) > SAME * step or start[CONTACTS] != mark:
         known = 0
     if known >= int(start[ORDER]):

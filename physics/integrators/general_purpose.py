@@ -231,9 +231,7 @@ def integrate_compiled(
     return _SOLVERS[kind](_tableau(pair), model, start, 1.0 / rate, samples, small)
 
 
-def integrate_by_fixed_steps(
-    scene: Scene, kind: str, start: Array, rate: float, samples: int, substeps: int
-) -> Array:
+def integrate_by_fixed_steps(scene: Scene, kind: str, start: Array, rate: float, samples: int, substeps: int) -> Array:
     """States (T, 12) of `scene` at the instants k / rate by the classical Runge-Kutta method, `substeps` a sample.
 
     Steps run through changes of contact and kinks as if there were none, as a first script does; what is unstable ends

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
+from physics.contact.contact_set import mark_of
 from physics.contact.forces import FORCE, Contacts
 from physics.contact.track import ANGLE, CAGE, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, cage_at
 from physics.motion import MotionModel, motion_model
@@ -42,6 +43,8 @@ MISS_NEAR, MISS_MIDDLE, MISS_FAR = 6.0 / 256.0, -9.0 / 256.0, 3.0 / 256.0
 # Columns of a series: the shaft's place (m), stiffness (N/m), and a number that changes when something happens.
 PLACE_X, PLACE_Y, XX, YY, XY, MARK = range(6)
 COLUMNS = 6
+# What an edge that was crossed adds to the mark of the pressed balls: no sum or difference of a few powers of two.
+CROSSING_MARK = 100003.0
 
 
 class StiffnessSeries(NamedTuple):
@@ -157,11 +160,7 @@ def _mark(contacts: Contacts, time: float) -> float:
 
     Not a number, and so equal to none, while a ball runs over a rough surface.
     """
-    balls, track, mark = contacts.balls, contacts.track, 0.0
-    for cage in range(balls.shape[0]):
-        for j in range(balls.shape[2]):
-            weight = float((cage * balls.shape[2] + j + 1) ** 2)
-            mark += weight if balls[cage, FORCE, j] > 0.0 else 0.0
+    track, mark = contacts.track, mark_of(contacts.balls, FORCE)
     per_spacing = 1.0 / track.spacing
     for spall in range(track.spalls.shape[0]):
         angle, _ = cage_at(track, int(track.spalls[spall, CAGE]), time)
@@ -176,5 +175,5 @@ def _mark(contacts: Contacts, time: float) -> float:
         else:
             for edge in range(first + 1, first + pieces):
                 crossed += math.floor((ahead - track.breaks[edge]) * per_spacing)
-        mark += 100003.0 * (spall + 1) * crossed
+        mark += CROSSING_MARK * (spall + 1) * crossed
     return mark

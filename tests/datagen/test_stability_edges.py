@@ -23,7 +23,7 @@ EDGES = (
     ("exponential_rk4", "spall length", 1e-5, 0.1, 0.01),
     ("generalised_alpha", "spall depth", 5e-3, 12.0, 30.0),
 )
-EDGE = pytest.mark.parametrize("method, quantity, accuracy, inside, outside", EDGES)
+EDGE = pytest.mark.parametrize(("method", "quantity", "accuracy", "inside", "outside"), EDGES)
 FINE_STEPS = 256
 
 
@@ -65,9 +65,9 @@ def test_where_own_steps_become_too_short_they_are_given_up_with_a_typed_outcome
     assert failure.value.outcome is Outcome.TOO_MANY_STEPS
 
 
-@pytest.mark.parametrize("quantity, value", [("resonator stiffness", 0.3), ("film damping", 3e4)])
+@pytest.mark.parametrize(("quantity", "value"), [("resonator stiffness", 0.3), ("film damping", 3e4)])
 def test_own_steps_bounded_by_the_samples_are_told_as_wrong_as_they_are(quantity, value):
-    """Where nothing but the sampling limits steps, halving the tolerance alone would change nothing, and tell no error."""
+    """Where only the sampling limits steps, a smaller tolerance would change nothing, and tell no error."""
     scene = scene_with(quantity, value)
     trace = simulate(scene, RATE, method="dormand_prince", substeps=1)
     assert error(trace, scene) <= 2.0 * trace.error_estimate

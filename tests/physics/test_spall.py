@@ -77,6 +77,7 @@ def test_an_impossible_spall_is_refused_by_field_and_value(change, field, messag
         ({"table_angle": (-0.05, 0.0, math.inf)}, "table_angle must be finite and rise"),
         ({"table_angle": (-0.06, 0.0, 0.05)}, "table_angle = -0.06 rad; allowed: -0.05 to 0.05 rad"),
         ({"table_depth": (0.0, 0.02, 0.0)}, "table_depth = 0.02 m; allowed: -0.01 to 0.01 m"),
+        ({"roughness_values": (0.0, 1e-6, 1e-6, 0.0)}, "the measured surface has its roughness; 4 roughness_values"),
     ],
 )
 def test_a_measured_profile_must_be_a_rising_table_of_sane_depths(change, message):

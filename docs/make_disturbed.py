@@ -1,0 +1,153 @@
+"""What shorter, resampled, clipped or otherwise worse recordings change: python docs/make_disturbed.py TRAIN TEST…
+
+Learns once from all of TRAIN, disturbs the recordings of every TEST in memory, scores them as `spallgen classify` does,
+and writes the table of docs/transfer.md.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from joblib import Parallel, delayed
+from make_draws import ODD
+from numpy.typing import NDArray
+from scipy.signal import resample_poly
+
+from datagen.benchmark.classify import Benchmark
+from datagen.benchmark.rows import Reading, RecordRows, Rows, record_rows
+from datagen.benchmark.score_log import write_line
+from datagen.benchmark.summary import RACES, race_balance
+from datagen.benchmark.training import train_models, train_rule, training_records, training_set
+from datagen.benchmark.verdicts import Tested, judge
+from datagen.corpus import Corpus
+from datagen.marked_tables import write_marked
+
+if TYPE_CHECKING:
+    import pandas
+
+PAGE = Path(__file__).with_name("transfer.md")
+SEED, WORKERS = 20261122, 2
+Signal = NDArray[np.float64]
+Recorded = tuple[Signal, float, float]
+"""Samples (T, A), their rate (Hz), and what the stated speed is multiplied by."""
+
+
+def cut(signal: Signal, rate: float, random: np.random.Generator, seconds: float) -> Recorded:
+    """A stretch of so many seconds, anywhere in the record."""
+    size = min(round(seconds * rate), len(signal))
+    start = int(random.integers(0, len(signal) - size, endpoint=True))
+    return signal[start : start + size], rate, 1.0
+
+
+def resampled(signal: Signal, rate: float, _: np.random.Generator, to: float) -> Recorded:
+    """The record at another rate (Hz)."""
+    ratio = Fraction(round(to), round(rate))
+    return resample_poly(signal, ratio.numerator, ratio.denominator, axis=0), to, 1.0
+
+
+def misstated(signal: Signal, rate: float, _: np.random.Generator, by: float) -> Recorded:
+    """The record with a wrong speed."""
+    return signal, rate, by
+
+
+def clipped(signal: Signal, rate: float, _: np.random.Generator, at: float) -> Recorded:
+    """The record cut off at so many times its RMS."""
+    level = at * signal.std(axis=0)
+    return np.clip(signal, -level, level), rate, 1.0
+
+
+def coarse(signal: Signal, rate: float, _: np.random.Generator, steps: float) -> Recorded:
+    """The record in whole steps, so many up to its largest value."""
+    step = np.abs(signal).max(axis=0) / steps
+    return np.round(signal / step) * step, rate, 1.0
+
+
+def humming(signal: Signal, rate: float, _: np.random.Generator, hertz: float) -> Recorded:
+    """The record with hum of its own RMS at a mains frequency and a third of that at its third harmonic."""
+    turn = 2.0 * np.pi * hertz * np.arange(len(signal))[:, None] / rate
+    return signal + signal.std(axis=0) * (np.sqrt(2.0) * np.sin(turn) + np.sin(3.0 * turn) / 3.0), rate, 1.0
+
+
+DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]] = {
+    "as recorded": partial(misstated, by=1.0),
+    "1 s of it": partial(cut, seconds=1.0),
+    "0.5 s of it": partial(cut, seconds=0.5),
+    "0.25 s of it": partial(cut, seconds=0.25),
+    "at 10 kHz": partial(resampled, to=10_000.0),
+    "at 25.6 kHz": partial(resampled, to=25_600.0),
+    "speed stated 2 % too high": partial(misstated, by=1.02),
+    "speed stated 2 % too low": partial(misstated, by=0.98),
+    "clipped at 3 times its RMS": partial(clipped, at=3.0),
+    "in 100 steps up to its peak": partial(coarse, steps=100.0),
+    "with as much mains hum": partial(humming, hertz=50.0),
+}
+
+
+def read(folder: Path, label: pandas.Series[Any], name: str) -> RecordRows:
+    """Rows of one disturbed record."""
+    with Corpus(folder) as corpus:
+        signal = np.asarray(corpus.waveform(int(label["record"])), dtype=np.float64)
+    random = np.random.default_rng([SEED, int(label["record"])])
+    signal, rate, factor = DISTURBANCES[name](signal, float(label["rate_hz"]), random)
+    disturbed = label.copy()
+    disturbed["rate_hz"], disturbed["speed_rpm"] = rate, factor * float(label["speed_rpm"])
+    return record_rows(signal, disturbed, Reading())
+
+
+def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, Rows]:
+    """The labels of a corpus, and the rows of all its records, disturbed."""
+    with Corpus(folder) as corpus:
+        labels = corpus.labels
+    records = labels["record"].to_numpy(np.int64)
+    own = Parallel(WORKERS)(delayed(read)(folder, label, name) for _, label in labels.iterrows())
+    owner = np.concatenate([np.full(len(found.rows), record) for record, found in zip(records, own, strict=True)])
+    rejected = {int(record): found.reason for record, found in zip(records, own, strict=True) if found.reason}
+    return labels, Rows(np.array([row.values for found in own for row in found.rows]), owner, rejected)
+
+
+def scores(tested: list[Tested]) -> list[tuple[str, str, str, str]]:
+    """By model: its name, balanced accuracy without odd records, share of right races, and false alarms."""
+    truth = np.concatenate([one.truth for one in tested])
+    names = np.concatenate([one.labels["recording"].astype(str).to_numpy() for one in tested])
+    faulty, healthy = np.isin(truth, RACES) & ~np.isin(names, ODD), truth == "none"
+    found = []
+    for place, model in enumerate(one.name for one in tested[0].verdicts):
+        said = np.concatenate([one.verdicts[place].location for one in tested])
+        race = np.concatenate([one.verdicts[place].race for one in tested])
+        alarms = int(np.isin(said[healthy], RACES).sum())
+        balance = race_balance(truth[faulty], said[faulty])
+        right = float(np.mean(race[faulty] == truth[faulty]))
+        found.append((model, f"{balance:.3f}", f"{right:.3f}", f"{alarms} of {int(healthy.sum())}"))
+    return found
+
+
+def main(train: Path, tests: list[Path]) -> None:
+    """Score every disturbance and write the table."""
+    training = training_set(train, training_records(train, False), Benchmark(train, ()).training_reading(), WORKERS)
+    rule, models = train_rule(training), train_models(training, "all")
+    names = ["rule", *(model.name for model in models)]
+    head = " | ".join(f"{name}: faults, race, false alarms" for name in names)
+    lines = [f"| recordings | {head} |", "|---" * (len(names) + 1) + "|"]
+    for name in DISTURBANCES:
+        tested = []
+        for folder in tests:
+            labels, rows = rows_of(folder, name)
+            tested.append(judge(folder, labels, rows, rule, models, 0.0, True))
+        found = scores(tested)
+        for folder in tests:
+            write_line(folder, {"disturbed": name, "train": str(train), "with": list(map(str, tests)), "scores": found})
+        told = [f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found]
+        lines.append(f"| {' | '.join([name, *told])} |")
+        print(lines[-1], flush=True)
+    lines += ["", f"Learned from {len(np.unique(training.records))} simulated records."]
+    write_marked(PAGE, "disturbed", __file__, "\n".join(lines))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), [Path(folder) for folder in sys.argv[2:]])

@@ -66,6 +66,15 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ("scale = 0", "a.mat: scale = 0.0; allowed: any number but 0"),
         ("cut_s = 5", "cut_s = 5.0; allowed: 0.016 to 0.4 s, the length of a.mat"),
         ("envelope_band_hz = [100, 600]", "envelope_band_hz = [100.0, 600.0]; allowed: 0 <= low < high <= 500"),
+        (
+            "envelope_band_hz = [101, 102]",
+            "envelope_band_hz = [101.0, 102.0]: holds none of the lines in the spectrum of 400 samples of a.mat, "
+            "2.5 Hz apart; allowed: a band at least 2.5 wide",
+        ),
+        (
+            "cut_s = 0.1\nenvelope_band_hz = [101, 105]",
+            "envelope_band_hz = [101.0, 105.0]: holds none of the lines in the spectrum of 100 samples of a.mat",
+        ),
         ('location = "none"\nextent_mm = 1', "a healthy bearing has no defect"),
         ('location = "outer"\ncondition = "healthy"', "a healthy bearing has no defect"),
         (

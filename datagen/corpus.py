@@ -1,16 +1,13 @@
 """Reading a corpus: labels without opening a shard, any record in milliseconds, batches, and splits without leakage.
 
-corpus = Corpus("out/quickstart")
-x = corpus.to_numpy("acceleration", corpus.labels.query("rig == 'gearbox'").record)
-train, test = next(corpus.folds(5))
+with Corpus("out/quickstart") as corpus:
+    x = corpus.to_numpy("acceleration", corpus.labels.query("rig == 'gearbox'").record)
+    train, test = next(corpus.folds(5))
 """
 
 from __future__ import annotations
 
 import json
-import os
-import weakref
-from collections import OrderedDict
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
@@ -22,73 +19,33 @@ from numpy.typing import NDArray
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import Manifest, read_manifest
 from datagen.corpora.netcdf import ONE_AT_A_TIME
+from datagen.corpora.open_shards import OpenShards
 from datagen.corpora.reading import reading
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:
-    import netCDF4
     import pandas
     import xarray
-
-OPEN_FILES = 32
-
-
-class _OpenShards:
-    """The shard files read last, kept open. Each process opens its own, also after a fork or a pickle.
-
-    netCDF4 crashes when an open file is left to the garbage collector, so they are closed by hand before that.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self._start()
-
-    def _start(self) -> None:
-        self.files: OrderedDict[str, netCDF4.Dataset] = OrderedDict()
-        self.owner = os.getpid()
-        self.closer = weakref.finalize(self, _close_all, self.files, self.owner)
-
-    def file(self, shard: str) -> netCDF4.Dataset:
-        """The open file of a shard (its name relative to the folder)."""
-        import netCDF4
-
-        if self.owner != os.getpid():
-            self._start()
-        if shard not in self.files:
-            with ONE_AT_A_TIME, reading(self.folder, shard):
-                file = netCDF4.Dataset(self.folder / shard)
-                file.set_auto_mask(False)
-                self.files[shard] = file
-                if len(self.files) > OPEN_FILES:
-                    self.files.popitem(last=False)[1].close()
-        self.files.move_to_end(shard)
-        return self.files[shard]
-
-    def close(self) -> None:
-        """Close all."""
-        _close_all(self.files, self.owner)
-
-    def __reduce__(self) -> tuple[type[_OpenShards], tuple[Path]]:
-        return _OpenShards, (self.folder,)
-
-
-def _close_all(files: OrderedDict[str, netCDF4.Dataset], owner: int) -> None:
-    with ONE_AT_A_TIME:
-        while files and os.getpid() == owner:
-            files.popitem()[1].close()
 
 
 class Corpus:
     """A corpus in a folder: a sequence of (acceleration (T, axes) in m/s², labels), in the order of the record indices.
 
     Simulated records have the axes x and y, imported ones those that were recorded.
-    Fit for `torch.utils.data.DataLoader` as it is. Raises BadInput if the folder holds no corpus.
+    Fit for `torch.utils.data.DataLoader` as it is, and for several threads. As a context manager it closes its files at
+    the end of the block. Raises BadInput if the folder holds no corpus.
     """
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
         self.manifest: Manifest = read_manifest(self.folder)
-        self._shards = _OpenShards(self.folder)
+        self._shards = OpenShards(self.folder)
+
+    def __enter__(self) -> Corpus:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     @cached_property
     def labels(self) -> pandas.DataFrame:
@@ -112,29 +69,27 @@ class Corpus:
         """One signal of the record with the global index `record`, shape and unit as in labels.variables, without the
         record dimension; BadInput if the record or the signal is not in the corpus."""
         shard, position = self._place(record)
-        file = self._shards.file(shard)
-        if variable not in file.variables:
-            known = ", ".join(name for name, found in file.variables.items() if found.dimensions[:1] == ("record",))
-            raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
-        with reading(self.folder, shard):
+        with self._shards.reading(shard) as file:
+            if variable not in file.variables:
+                known = ", ".join(name for name, held in file.variables.items() if held.dimensions[:1] == ("record",))
+                raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
             found: NDArray[Any] = file.variables[variable][position]
         return found
 
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
         """Acceleration (T,) along one axis of a record, m/s²; BadInput if there is no such record or axis."""
         shard, position = self._place(record)
-        file, axes = self._shards.file(shard), self.axes(record)
+        axes = self.axes(record)
         if axis not in axes:
             raise BadInput(f"record {record} has no such axis", shard, "axis", axis, ", ".join(axes))
-        with reading(self.folder, shard):
+        with self._shards.reading(shard) as file:
             found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
         return found.astype(np.float64)
 
     def axes(self, record: int) -> list[str]:
         """Names of the axes along which the acceleration of a record is stored; BadInput if there is no such record."""
         shard, _ = self._place(record)
-        file = self._shards.file(shard)
-        with reading(self.folder, shard):
+        with self._shards.reading(shard) as file:
             return [str(name) for name in file.variables["axis"][:]]
 
     def _place(self, record: int) -> tuple[str, int]:
@@ -154,7 +109,8 @@ class Corpus:
         import xarray
 
         shard, position = self._place(record)
-        with reading(self.folder, shard), xarray.open_dataset(self.folder / shard, engine="netcdf4") as opened:
+        path = self.folder / shard
+        with ONE_AT_A_TIME, reading(self.folder, shard), xarray.open_dataset(path, engine="netcdf4") as opened:
             tables = {"ball_pass": "pass_record", "defect": "defect_record"}
             own = {
                 table: np.flatnonzero(opened[column].values == record)

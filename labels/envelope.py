@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
@@ -37,6 +39,17 @@ def default_band(rig: Rig, rate: float) -> Band:
     if high < rate / 2.0:
         return low, high
     return FALLBACK_SHARES[0] * rate, FALLBACK_SHARES[1] * rate
+
+
+def holds_a_line(band: Band, samples: int, rate: float) -> bool:
+    """Whether the spectrum of so many `samples` at `rate` (Hz) has a component above 0 Hz in `band` (Hz, with edges).
+
+    A band at least rate / samples wide, the distance of the components, always holds one.
+    """
+    low, high = band
+    spacing = 1.0 / (samples * (1.0 / rate))  # rounded as numpy rounds the frequencies that band_envelope compares
+    first = max(math.ceil(low / spacing) - 1, 1)
+    return any(low <= line * spacing <= high for line in range(first, min(first + 2, samples // 2) + 1))
 
 
 def band_envelope(signal: Array, rate: float, band: Band) -> Array:

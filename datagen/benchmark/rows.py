@@ -106,10 +106,11 @@ def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, worker
 
 
 def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
-    corpus = Corpus(folder)
-    labels = corpus.labels.set_index("record", drop=False)
-    found = {record: record_rows(corpus.waveform(record), labels.loc[record], reading) for record in records.tolist()}
-    corpus.close()
+    with Corpus(folder) as corpus:
+        labels = corpus.labels.set_index("record", drop=False)
+        found = {
+            record: record_rows(corpus.waveform(record), labels.loc[record], reading) for record in records.tolist()
+        }
     rows = [row for own in found.values() for row in own.rows]
     owners = [record for record, own in found.items() for _ in own.rows]
     return Rows(

@@ -30,10 +30,9 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float) -> Rows:
     What the window is too long for is padded with silence. They lie in a temporary file, read as they are needed, so
     that memory does not grow with the corpus.
     """
-    corpus = Corpus(folder)
-    rates = corpus.labels.set_index("record")["rate_hz"]
     owners: list[int] = []
-    with TemporaryFile() as file:
+    with Corpus(folder) as corpus, TemporaryFile() as file:
+        rates = corpus.labels.set_index("record")["rate_hz"]
         for record in records.tolist():
             for signal in np.asarray(corpus.waveform(record), dtype=np.float64).T:
                 if np.isfinite(signal).all():
@@ -44,7 +43,6 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float) -> Rows:
         # The mapping keeps the file alive after it is closed, and an empty one cannot be mapped.
         shape = (len(owners), WINDOW_SAMPLES)
         table = np.memmap(file, np.float32, "r", shape=shape) if owners else np.empty(shape, np.float32)
-    corpus.close()
     return Rows(table, np.array(owners, dtype=np.int64))
 
 

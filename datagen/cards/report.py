@@ -50,9 +50,8 @@ def _contents(folder: Path, facts: Facts, out: Path) -> dict[str, bytes]:
     from datagen.drawing.overview import overview_png
     from datagen.drawing.preview import preview_png
 
-    corpus = Corpus(folder)
     pictures = {kind.first: f"record_{kind.first:06d}.png" for kind in _shown(facts.kinds)}
-    try:
+    with Corpus(folder) as corpus:
         texts = {
             CARD: card_text(facts, origin_text(corpus.manifest), pictures),
             METADATA: croissant_text(folder, facts, out),
@@ -63,8 +62,6 @@ def _contents(folder: Path, facts: Facts, out: Path) -> dict[str, bytes]:
             | {OVERVIEW: overview_png(corpus.labels, facts.info.name)}
             | {name: preview_png(folder, record)[0] for record, name in pictures.items()}
         )
-    finally:
-        corpus.close()
 
 
 def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:

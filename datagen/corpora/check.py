@@ -16,6 +16,7 @@ from datagen.corpora.conformity import violations
 from datagen.corpora.format import FORMAT, content_hash, data_hash, format_hash
 from datagen.corpora.index import LABEL_COLUMNS, read_index
 from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
+from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.corpora.reading import READ_ERRORS
 from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
@@ -242,10 +243,9 @@ class _Check:
         if not count or not self.records or self.problems or self.manifest.identity.model_hash != fingerprint():
             return  # imported recordings have no model and so end here too
         ordered = sorted(self.records)
-        corpus = Corpus(self.folder)
-        for place in np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int)):
-            self._remake_one(corpus, ordered[place])
-        corpus.close()
+        with Corpus(self.folder) as corpus:
+            for place in np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int)):
+                self._remake_one(corpus, ordered[place])
 
     def _remake_one(self, corpus: Corpus, record: int) -> None:
         from datagen.records.record import make_record
@@ -278,7 +278,7 @@ def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[s
     try:
         if file_hash(path) != sidecar.sha256:
             found.append("its bytes have changed since it was written (SHA-256 differs)")
-        with xarray.open_dataset(path, engine="netcdf4") as opened:
+        with ONE_AT_A_TIME, xarray.open_dataset(path, engine="netcdf4") as opened:
             dataset = opened.load()
         if content_hash(dataset) != sidecar.content:
             found.append("its arrays are not those that were written")

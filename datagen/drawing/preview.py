@@ -76,11 +76,8 @@ def measured_portrait(folder: Path, record: int) -> MeasuredPortrait:
     from datagen.corpus import Corpus
     from datagen.drawing.measured_portrait import MeasuredPortrait
 
-    corpus = Corpus(folder)
-    try:
+    with Corpus(folder) as corpus:
         found = corpus.dataset(record)
-    finally:
-        corpus.close()
     return MeasuredPortrait(
         corpus=corpus.manifest.name,
         labels={label.name: _plain(found[label.name].values) for label in LABELS if label.name in found},
@@ -134,11 +131,8 @@ def corpus_portrait(folder: Path, record: int) -> Portrait:
     from datagen.drawing.portrait import Portrait
     from datagen.scenarios.scenario import Scenario
 
-    corpus = Corpus(folder)
-    try:
+    with Corpus(folder) as corpus:
         found = corpus.dataset(record)
-    finally:
-        corpus.close()
     labels = {label.name: _plain(found[label.name].values) for label in LABELS}
     scenario = Scenario.from_json(str(found["scenario"].values))
     sensor, background = _sensor_and_background(found, scenario)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from itertools import pairwise
 from pathlib import Path
@@ -10,6 +9,8 @@ from pathlib import Path
 from pydantic import Field, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
+from datagen.csv_rows import read_csv_rows
+from datagen.errors import BadInput
 from datagen.recipes.settings import Table
 
 COLUMNS = ("angle_deg", "depth_um")
@@ -64,13 +65,14 @@ class ProfileTable(Table):
 def read_table(path: Path) -> dict[str, tuple[float, ...]]:
     """The columns of a profile file; raises PydanticCustomError naming the file and the line."""
     try:
-        rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not a text file"
-        raise _refused(f"{path} cannot be read ({reason})") from None
-    if not rows or tuple(cell.strip() for cell in rows[0]) != COLUMNS:
+        rows = read_csv_rows(path)
+    except OSError as error:
+        raise _refused(f"{path} cannot be read ({error.strerror})") from None
+    except BadInput as problem:
+        raise _refused(str(problem)) from None
+    if not rows or tuple(cell.strip() for cell in rows[0][1]) != COLUMNS:
         raise _refused(f"{path}: the first line must be {','.join(COLUMNS)}")
-    numbers = [_numbers(path, line, row) for line, row in enumerate(rows[1:], start=2) if row]
+    numbers = [_numbers(path, line, row) for line, row in rows[1:]]
     return {"angle_deg": tuple(angle for angle, _ in numbers), "depth_um": tuple(depth for _, depth in numbers)}
 
 

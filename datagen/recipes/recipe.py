@@ -28,6 +28,7 @@ from datagen.recipes.recipe_files import find_recipe
 from datagen.recipes.record_order import Place, machines, place_by_part, place_interleaved
 from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.recipes.settings import Between, OneOf, Table, refuse
+from labels.envelope import holds_a_line
 from physics.scene import CONTACT_LAWS
 
 FEWEST_SAMPLES = 16
@@ -61,7 +62,24 @@ class Signal(Table):
             if not 0.0 <= low < high <= nyquist:
                 problem = "the band is empty" if low >= high else "the band is not below half the sampling rate"
                 raise refuse(problem, "envelope_band_hz", f"0 <= low < high <= {nyquist:g}")
+            narrow = self.too_narrow(self.envelope_band_hz)
+            if narrow is not None:
+                raise refuse(narrow[0], "envelope_band_hz", narrow[1])
         return self
+
+    def too_narrow(self, band: tuple[float, float]) -> tuple[str, str] | None:
+        """Problem and what is allowed of a band (Hz) that holds no line of a record's spectrum; None if all hold one.
+
+        Where rate or duration are drawn the band must be as wide as the lines of the shortest record lie apart.
+        """
+        rate, seconds = min(self.rate_hz.stated()), min(self.duration_s.stated())
+        spacing = rate / round(rate * seconds)
+        drawn = not (isinstance(self.rate_hz, Fixed) and isinstance(self.duration_s, Fixed))
+        wide = band[1] - band[0] >= spacing if drawn else holds_a_line(band, round(rate * seconds), rate)
+        problem = (
+            f"the band may hold none of the lines in the spectrum of {seconds:g} s, which lie {spacing:g} Hz apart"
+        )
+        return None if wide else (problem, f"a band at least {spacing:g} wide")
 
 
 def _offered(compression: object) -> object:

@@ -31,7 +31,7 @@ EXPECTED = {
     "string_too_short": "at least {min_length} character",
     "string_too_long": "at most {max_length} characters",
     "too_short": "at least {min_length}",
-    "too_long": "exactly {max_length}",
+    "too_long": "at most {max_length}",
     "string_pattern_mismatch": "letters, digits, - and _, starting with a letter or digit",
 }
 

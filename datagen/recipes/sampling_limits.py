@@ -1,4 +1,4 @@
-"""What a recipe may say of frequencies: nothing at or above half its lowest sampling rate, and no other rate."""
+"""What a recipe may say of frequencies: below half its lowest sampling rate, bands that hold a line, one rate."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ Frequency = tuple[Location, Distribution, str]
 
 
 def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
-    """Raise BadInput if a stated frequency or band is not below half the sampling rate, or a recording does not fit.
+    """Raise BadInput if a stated frequency or band is not below half the sampling rate, or a band or recording does
+    not fit.
 
     `text` is what was read from `path`, for the line of the setting.
     """
@@ -56,6 +57,9 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
         if band is not None and band[1] > nyquist:
             problem = f"the band is not below half the sampling rate of {2.0 * nyquist:g} Hz"
             raise refuse((*place, "background", "snr_band_hz"), problem, band, f"0 <= low < high <= {nyquist:g}")
+        narrow = None if band is None else recipe.signal.too_narrow(band)
+        if narrow is not None:
+            raise refuse((*place, "background", "snr_band_hz"), narrow[0], band, narrow[1])
         misfit = _misfit(recipe, background)
         if misfit is not None:
             field, problem, value, allowed = misfit

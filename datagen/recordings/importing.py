@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from datagen.corpora.atomic import TEMPORARY_SUFFIX
 from datagen.corpora.format import IMPORTED, Identity, data_hash, format_hash
@@ -29,6 +29,9 @@ from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
 from datagen.records.versions import program_hash, program_versions
 from labels.schema import UNKNOWN
+
+if TYPE_CHECKING:
+    import xarray
 
 SHARD_BYTES = 64e6
 
@@ -88,10 +91,15 @@ def _import(spec: Spec, folder: Path, root: Path) -> Imported:
     manifest = _manifest(spec, listing, len(plan.records))
     with _staged(folder) as staging:
         for number, planned in enumerate(plan.shards):
-            _write(staging, number, planned, manifest)
-        write_index(staging, finished_shards(staging))
-        manifest = manifest.with_shards(staging, finished_shards(staging))
-        write_manifest(staging, manifest)
+            start = time.perf_counter()
+            dataset = _dataset(planned, manifest)
+            seconds = round(time.perf_counter() - start, 3)
+            with _writing(folder):
+                write_shard(staging, number, manifest.identity, dataset, (), "zlib", seconds)
+        with _writing(folder):
+            write_index(staging, finished_shards(staging))
+            manifest = manifest.with_shards(staging, finished_shards(staging))
+            write_manifest(staging, manifest)
     return Imported(
         str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
         len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped),
@@ -165,15 +173,14 @@ class _Plan:
         return shards
 
 
-def _write(folder: Path, number: int, shard: list[_Planned], manifest: Manifest) -> None:
-    began = time.perf_counter()
+def _dataset(shard: list[_Planned], manifest: Manifest) -> xarray.Dataset:
+    """The records of a shard, read again."""
     records = list(_read_again(shard))
     spec = manifest.recipe["spec"]
     about = {"title": spec["title"] or spec["name"], "id": spec["name"], "license": spec["licence"]}
     about |= {"references": spec["citation"], **manifest.identity.to_dict()}
     about = {name: text for name, text in about.items() if text}
-    dataset = imported_dataset([planned.index for planned in shard], records, about)
-    write_shard(folder, number, manifest.identity, dataset, (), "zlib", round(time.perf_counter() - began, 3))
+    return imported_dataset([planned.index for planned in shard], records, about)
 
 
 def _read_again(shard: list[_Planned]) -> Iterator[Recorded]:
@@ -226,17 +233,29 @@ def _alive(process: int) -> bool:
 
 @contextmanager
 def _staged(folder: Path) -> Iterator[Path]:
-    """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong."""
+    """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong.
+
+    What goes wrong in the block is left as it is: it may be a recording that cannot be read.
+    """
     beginning = f".{folder.name}.{socket.gethostname()}."
     staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
     _sweep(folder.parent, beginning)
     try:
-        (staging / "shards").mkdir(parents=True)
+        with _writing(folder):
+            (staging / "shards").mkdir(parents=True)
         yield staging
-        if folder.exists():
-            folder.rmdir()
-        staging.rename(folder)
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
+        with _writing(folder):
+            if folder.exists():
+                folder.rmdir()
+            staging.rename(folder)
     finally:
         shutil.rmtree(staging, ignore_errors=True)
+
+
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    """BadInput that names `folder` in place of an OSError of the block, which does nothing but write."""
+    try:
+        yield
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None

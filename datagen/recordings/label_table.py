@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import ValidationError
 
+from datagen.csv_rows import read_csv_rows
 from datagen.errors import BadInput
 from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.spelling import suggestion
@@ -35,37 +35,35 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     exists is meant.
     """
     try:
-        lines = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
+        rows = read_csv_rows(path)
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
-    except (UnicodeDecodeError, csv.Error) as problem:
-        raise BadInput(f"not a CSV table: {problem}", str(path)) from None
-    if len(lines) < 2:
+    if len(rows) < 2:
         raise BadInput("the table holds no row", str(path))
-    header = [cell.strip() for cell in lines[0]]
-    _check_header(header, note_columns, path)
+    first, heads = rows[0]
+    header = [cell.strip() for cell in heads]
+    _check_header(header, note_columns, f"{path}, line {first}")
     return [
-        _row(header, cells, note_columns, path, number)
-        for number, cells in enumerate(lines[1:], start=2)
+        _row(header, cells, note_columns, f"{path}, line {line}")
+        for line, cells in rows[1:]
         if any(cell.strip() for cell in cells)
     ]
 
 
-def _check_header(header: list[str], note_columns: tuple[str, ...], path: Path) -> None:
+def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) -> None:
     known = (FILE_COLUMN, *SETTINGS, *note_columns)
     for column in header:
         if column not in known:
             hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
-            raise BadInput(hint, f"{path}, line 1", column, allowed=", ".join(known))
+            raise BadInput(hint, place, column, allowed=", ".join(known))
         if header.count(column) > 1:
-            raise BadInput("this column is there twice", f"{path}, line 1", column)
+            raise BadInput("this column is there twice", place, column)
     for column in (FILE_COLUMN, *note_columns):
         if column not in header:
-            raise BadInput("this column is missing", f"{path}, line 1", column)
+            raise BadInput("this column is missing", place, column)
 
 
-def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], path: Path, line: int) -> TableRow:
-    place = f"{path}, line {line}"
+def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], place: str) -> TableRow:
     if len(cells) != len(header):
         raise BadInput(f"{len(cells)} cells, but the table has {len(header)} columns", place)
     said = {name: cell.strip() for name, cell in zip(header, cells, strict=True) if cell.strip()}

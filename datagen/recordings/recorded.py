@@ -21,7 +21,7 @@ from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speed
 from datagen.recordings.source import Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
-from labels.envelope import FALLBACK_SHARES
+from labels.envelope import FALLBACK_SHARES, holds_a_line
 from labels.variables import AXES
 
 LARGEST_ACCELERATION = 1e9
@@ -55,8 +55,10 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     rate = _rate(source)
     counts = _samples(source, axes)
     factor = _scale(source)
-    labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, axes)}
-    for piece, (start, stop) in enumerate(_pieces(source, rate, counts.shape[0])):
+    pieces = _pieces(source, rate, counts.shape[0])
+    shortest = min(stop - start for start, stop in pieces)
+    labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, shortest, axes)}
+    for piece, (start, stop) in enumerate(pieces):
         part = counts[start:stop]
         speed, basis = shaft_speed(source, rate, start / rate, stop / rate)
         own = {
@@ -129,7 +131,7 @@ def _accelerations(counts: NDArray[np.float64], factor: float, source: Source) -
     return scaled.astype(np.float32)
 
 
-def _band(source: Source, rate: float, axes: tuple[str, ...]) -> tuple[float, float]:
+def _band(source: Source, rate: float, samples: int, axes: tuple[str, ...]) -> tuple[float, float]:
     if "y" not in axes:
         return math.nan, math.nan
     stated = source.setting("envelope_band_hz")
@@ -139,6 +141,12 @@ def _band(source: Source, rate: float, axes: tuple[str, ...]) -> tuple[float, fl
     if not 0.0 <= low < high <= rate / 2.0:
         allowed = f"0 <= low < high <= {rate / 2.0:g} (half the rate)"
         raise BadInput(file=source.request.place, field="envelope_band_hz", value=list(stated), allowed=allowed)
+    if not holds_a_line(stated, samples, rate):
+        apart = rate / samples
+        raise BadInput(
+            f"holds none of the lines in the spectrum of {samples} samples of {source.path.name}, {apart:g} Hz apart",
+            source.request.place, "envelope_band_hz", list(stated), f"a band at least {apart:g} wide",
+        )  # fmt: skip
     return low, high
 
 

@@ -59,6 +59,14 @@ class CsvLayout(Table):
     skip_lines: Annotated[int, Field(ge=0)] = 0
     """Lines to leave out at the start."""
 
+    @model_validator(mode="after")
+    def _delimiter_can_delimit(self) -> CsvLayout:
+        if self.delimiter in '"\r\n':
+            raise refuse(
+                "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
+            )
+        return self
+
 
 class BearingNumbers(Table):
     """The geometry of a bearing that the catalogue does not have."""

@@ -115,8 +115,11 @@ def _opened(path: Path, kind: str | None, layout: CsvLayout) -> Arrays:
 
 @lru_cache(maxsize=100_000)
 def source_hash(path: Path) -> str:
-    """SHA-256 of a file, computed once for all that is read from it."""
-    return file_hash(path)
+    """SHA-256 of a file, computed once for all that is read from it; BadInput if it cannot be read."""
+    try:
+        return file_hash(path)
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
 
 
 @contextmanager

@@ -51,6 +51,7 @@ def generate(
         require_room(recipe, planned, folder)
         _make_folder(folder)
         with locked(folder):
+            check_folder(folder, identity)  # again: another run may have been here since
             run = Run(recipe, folder, identity, asked, reporter or Silence())
             try:
                 run.make(planned, are_ready)

@@ -16,7 +16,7 @@ from datagen.scenarios.imperfections import draw_imperfections
 from datagen.scenarios.picker import Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
 from datagen.scenarios.turns import Turn
-from labels.envelope import resonance_band
+from labels.envelope import holds_a_line, resonance_band
 from labels.schema import SPLITS
 from physics.checks import InvalidParameter, require
 from physics.imperfections import Imperfections
@@ -92,7 +92,7 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
         split=_split(recipe.split, replace(draw, attempt=0).picker("split").share()),
         rate=rate,
         samples=samples,
-        envelope_band=_envelope_band(recipe.signal, rig, rate),
+        envelope_band=_envelope_band(recipe.signal, rig, rate, samples),
         redraws=redraws,
         turn=draw.turns.turn,
     )
@@ -111,10 +111,19 @@ def _draw_signal(signal: Signal, pick: Picker) -> tuple[float, int]:
 _resonance_band = lru_cache(maxsize=256)(resonance_band)
 
 
-def _envelope_band(signal: Signal, rig: Rig, rate: float) -> tuple[float, float]:
-    """The recipe's band, or that of the rig's resonance, which must then have been recorded, Hz."""
-    if signal.envelope_band_hz is not None:
-        return signal.envelope_band_hz
+def _envelope_band(signal: Signal, rig: Rig, rate: float, samples: int) -> tuple[float, float]:
+    """The recipe's band, or that of the rig's resonance, which must then have been recorded, Hz; it holds a line."""
+    low, high = signal.envelope_band_hz or _recorded_resonance(rig, rate)
+    require(
+        holds_a_line((low, high), samples, rate),
+        f"the envelope's band, {low:.0f} to {high:.0f} Hz, holds none of the lines in the spectrum of {samples} "
+        f"samples at {rate:g} Hz; allowed: longer records, or an envelope_band_hz at least {rate / samples:g} wide",
+        "duration_s",
+    )
+    return low, high
+
+
+def _recorded_resonance(rig: Rig, rate: float) -> tuple[float, float]:
     low, high = _resonance_band(rig)
     require(
         high < rate / 2.0,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zlib
 from dataclasses import asdict, fields
 from typing import Any
 
@@ -113,7 +114,7 @@ def from_json(text: str) -> Scenario:
         if found != FORMAT:
             raise BadInput(field="format", value=found, allowed=FORMAT)
         return _from_data(data)
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, IndexError, AttributeError, TypeError, ValueError, zlib.error) as error:
         raise BadInput(f"not the text of a scenario ({type(error).__name__}: {error})") from None
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -15,6 +14,7 @@ from datagen.corpora.index import read_index
 from datagen.errors import BadInput
 from datagen.records.versions import program_versions
 from datagen.sizing.estimators import find_estimator
+from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
 from datagen.sizing.record_scores import score_record, unsized_row
 from datagen.sizing.scored_record import ScoredRecord
@@ -24,7 +24,6 @@ from datagen.sizing.summary import summarise
 from labels.schema import SPLITS
 
 ALL = "all"
-RECORDS_AT_ONCE = 4  # for each process
 NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 
 
@@ -98,18 +97,10 @@ class _Counted:
 def _scored(
     records: Iterator[SizedRecord], estimator: str | None, known: list[KnownSize], workers: int
 ) -> list[ScoredRecord]:
-    """Rows of the records, made by several processes.
+    """Rows of the records, made by several processes."""
+    from joblib import delayed
 
-    They are read here, some at a time: a thread of joblib's that goes on reading netCDF files after an error crashes
-    whoever opens the next one.
-    """
-    from joblib import Parallel, delayed
-
-    made: list[ScoredRecord] = []
-    with Parallel(n_jobs=workers) as parallel:
-        while block := list(islice(records, RECORDS_AT_ONCE * workers)):
-            made += parallel(delayed(_score)(one, estimator, _factor(one, known)) for one in block)
-    return made
+    return list(in_blocks((delayed(_score)(one, estimator, _factor(one, known)) for one in records), workers))
 
 
 def _score(sized: SizedRecord, estimator: str | None, factor: float) -> ScoredRecord:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,14 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
-from datagen.corpora.reading import reading
+from datagen.corpora.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.sizing.stated_situation import reason_against, situation_of, wrong_speed
 from labels.spall_size.event_truth import EventTruth, event_truth
 from labels.spall_size.situation import Situation
 
 if TYPE_CHECKING:
-    import netCDF4
     import pandas
 
 Array = NDArray[np.float64]
@@ -69,25 +68,12 @@ def sized_records(
     table = _rows(folder, splits)
     able = [not reason_against(labels) for labels in table.to_dict("records")]
     chosen = table[np.array(able, dtype=np.bool_) & (table["record"].isin(only) if only is not None else True)]
-    for shard, rows in chosen.groupby("shard", sort=True):
-        with _opened(folder, str(shard)) as file:
+    with closing(OpenShards(folder)) as shards:
+        for shard, rows in chosen.groupby("shard", sort=True):
             for labels in rows.to_dict("records"):
-                with reading(folder, str(shard)):
+                with shards.reading(str(shard)) as file:
                     one = _read(file, {str(key): value for key, value in labels.items()}, load_known, seed)
                 yield one
-
-
-@contextmanager
-def _opened(folder: Path, shard: str) -> Iterator[netCDF4.Dataset]:
-    import netCDF4
-
-    with reading(folder, shard):
-        file = netCDF4.Dataset(folder / shard)
-        file.set_auto_mask(False)
-    try:
-        yield file
-    finally:
-        file.close()
 
 
 def unsized_records(folder: Path, splits: tuple[str, ...] | None = None) -> list[UnsizedRecord]:

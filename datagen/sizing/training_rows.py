@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
+from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.scored_record import CLEAN_DB, FEWEST_SAMPLES, FEWEST_SPACINGS, LONGEST_SCORED_SPACINGS
 from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_records
 from labels.spall_size.estimator import ONSET
@@ -62,10 +63,10 @@ class Trial:
 
 def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Trial]:
     """Every trial of the records of `splits` in a corpus that stores clean signals."""
-    from joblib import Parallel, delayed
+    from joblib import delayed
 
     records = sized_records(folder, load_known=True, splits=splits)
-    made = Parallel(n_jobs=workers, pre_dispatch=2 * workers)(delayed(_of_record)(sized) for sized in records)
+    made = in_blocks((delayed(_of_record)(sized) for sized in records), workers)
     return [trial for several in made for trial in several]
 
 

@@ -73,6 +73,27 @@ CASES = {
         "background.snr_band_hz",
         "0 <= low < high <= 32768",
     ),
+    "a band between two lines of the spectrum": (
+        "duration_s = 0.05",
+        "duration_s = 0.05\nenvelope_band_hz = [1001, 1002]",
+        6,
+        "signal.envelope_band_hz = [1001, 1002]",
+        "which lie 19.9988 Hz apart; allowed: a band at least 19.9988 wide",
+    ),
+    "a band that holds no line of the shortest record": (
+        "duration_s = 0.05",
+        "duration_s = {uniform = [0.025, 0.05]}\nenvelope_band_hz = [1000, 1030]",
+        6,
+        "signal.envelope_band_hz = [1000, 1030]",
+        "which lie 40.0098 Hz apart; allowed: a band at least 40.0098 wide",
+    ),
+    "a band for the noise between two lines of the spectrum": (
+        "[[part]]",
+        "[background]\nsnr_band_hz = [1001, 1002]\n[[part]]",
+        7,
+        "background.snr_band_hz",
+        "which lie 19.9988 Hz apart; allowed: a band at least 19.9988 wide",
+    ),
     "a resonance of the catalogue above half the rate": (
         "rate_hz = 65536",
         "rate_hz = 16384",

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from labels.envelope import FALLBACK_SHARES, band_envelope, default_band, squared_envelope_spectrum
+from labels.envelope import FALLBACK_SHARES, band_envelope, default_band, holds_a_line, squared_envelope_spectrum
 from physics import catalog
 
 RATE = 65536.0
@@ -76,6 +76,26 @@ def test_an_impossible_band_is_refused_with_its_edges_and_the_limit(band):
 def test_a_band_between_two_components_is_refused():
     with pytest.raises(ValueError, match="lie 2 Hz apart"):
         band_envelope(TIME, RATE, (10000.5, 10001.5))
+
+
+@pytest.mark.parametrize("size", [16, 17, 1000, 1023])
+def test_a_band_that_holds_a_line_is_one_that_has_an_envelope(size):
+    edges = np.random.default_rng(size).uniform(0.0, 22050.0, (300, 1))
+    lines = np.fft.rfftfreq(size, 1.0 / 44100.0)[1:, None]
+    widths = 44100.0 / size * np.array([[0.1, 0.5, 1.0]])
+    bands = [*zip(edges[:, 0], edges[::-1, 0], strict=True), *zip(lines[:, 0], lines[:, 0] + widths[0, 0], strict=True)]
+    bands += [(low, low + width) for low in edges[:, 0] for width in widths[0]]
+    tried = [band for band in bands if band[0] < band[1] <= 22050.0]
+    told = {holds_a_line(band, size, 44100.0) for band in tried}
+    for band in tried:
+        if holds_a_line(band, size, 44100.0):
+            assert band_envelope(np.ones(size), 44100.0, band).size == size
+        else:
+            assert band[1] - band[0] < 44100.0 / size
+            with pytest.raises(ValueError, match="holds no component"):
+                band_envelope(np.ones(size), 44100.0, band)
+    assert told == {True, False}
+    assert not holds_a_line((0.0, 1e-3), size, 44100.0)  # the mean is no line
 
 
 @pytest.mark.parametrize("window", ["hann", "none"])

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 import numpy as np
 
+from datagen.csv_rows import read_csv_rows
 from datagen.errors import BadInput
 from datagen.recordings.formats.arrays import Arrays
 from datagen.recordings.settings import CsvLayout
@@ -17,30 +17,21 @@ def read_csv(path: Path, layout: CsvLayout) -> Arrays:
 
     Cells that are no numbers are NaN; a column is refused for them only where it is used.
     """
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()[layout.skip_lines :]
-    except UnicodeDecodeError:
-        raise BadInput("not a text file", str(path)) from None
-    rows = [row for row in _split(lines, layout) if row]
-    names = [name.strip() for name in rows.pop(0)] if layout.header and rows else []
+    rows = read_csv_rows(path, layout.delimiter, layout.skip_lines)
+    header, heads = rows.pop(0) if layout.header and rows else (0, [])
+    names = [name.strip() for name in heads]
     twice = next((name for name in names if name and names.count(name) > 1), None)
     if twice is not None:
         raise BadInput(
-            "this column is there twice", f"{path}, line {1 + layout.skip_lines}", twice,
+            "this column is there twice", f"{path}, line {header}", twice,
             allowed='different names, or csv = {header = false, skip_lines = …}, which calls the columns "1", "2", …',
         )  # fmt: skip
-    width = len(names) or (len(rows[0]) if rows else 0)
+    width = len(names) or (len(rows[0][1]) if rows else 0)
     names = names or [str(column) for column in range(1, width + 1)]
-    for line, row in enumerate(rows, start=1 + layout.skip_lines + layout.header):
+    for line, row in rows:
         if len(row) != width:
             raise BadInput(f"{len(row)} cells, but the table has {width} columns", f"{path}, line {line}")
-    return {name: _numbers([row[place] for row in rows], layout.decimal) for place, name in enumerate(names)}
-
-
-def _split(lines: list[str], layout: CsvLayout) -> list[list[str]]:
-    if layout.delimiter == " ":
-        return [line.split() for line in lines]
-    return list(csv.reader(lines, delimiter=layout.delimiter))
+    return {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
 
 
 def _numbers(cells: list[str], decimal: str) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.errors import BadInput
 from datagen.recordings.formats.arrays import Arrays
 
@@ -49,7 +50,7 @@ def _read_hdf5(path: Path) -> Arrays:
     import netCDF4
 
     try:
-        with netCDF4.Dataset(path) as file:
+        with ONE_AT_A_TIME, netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
             file.set_auto_scale(False)
             return _group(file, "")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.errors import BadInput
 from datagen.recordings.formats.arrays import Arrays
 
@@ -20,7 +21,7 @@ class _Variables(Mapping[str, NDArray[Any]]):
         import netCDF4
 
         self.path = path
-        with netCDF4.Dataset(path) as file:
+        with ONE_AT_A_TIME, netCDF4.Dataset(path) as file:
             self.names = tuple(name for name, held in file.variables.items() if np.dtype(held.dtype).kind in "iufb")
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -29,7 +30,7 @@ class _Variables(Mapping[str, NDArray[Any]]):
         if name not in self.names:
             raise KeyError(name)
         try:
-            with netCDF4.Dataset(self.path) as file:
+            with ONE_AT_A_TIME, netCDF4.Dataset(self.path) as file:
                 values = file.variables[name][...]
         except (OSError, RuntimeError) as problem:
             raise BadInput(f"its variable {name} cannot be read: {problem}", str(self.path)) from None

@@ -6,7 +6,10 @@ import pytest
 
 from datagen.benchmark.fitness import TOO_SHORT
 from datagen.benchmark.known import known_kinematics
-from datagen.benchmark.rows import Reading, RecordRows, record_rows, signal_rows
+from datagen.benchmark.rows import Reading, RecordRows, read_rows, record_rows, signal_rows
+from datagen.benchmark.windows import read_windows
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
 from labels.classifier.liveness import DEAD
 from labels.features.table import FEATURE_NAMES
 
@@ -63,3 +66,12 @@ def test_glitches_are_counted_and_make_no_record_impulsive():
     for row in found.rows:
         # Two glitches of 20 deviations among 24 000 samples would raise it by 1.7, lines over them hardly move it.
         assert row.values[column] == pytest.approx(clean.rows[0].values[column], abs=0.01)
+
+
+@pytest.mark.parametrize("read", [read_rows, read_windows])
+def test_a_record_that_cannot_be_read_leaves_no_file_open(read, tiny_corpus, monkeypatch):
+    closed = []
+    monkeypatch.setattr(Corpus, "close", lambda corpus: closed.append(corpus.folder))
+    with pytest.raises(BadInput):
+        read(tiny_corpus, np.array([99]), Reading() if read is read_rows else RATE)
+    assert closed == [tiny_corpus]

@@ -13,6 +13,7 @@ from datagen.corpora.check import check_corpus
 from datagen.corpora.format import content_hash
 from datagen.corpora.netcdf import netcdf_bytes
 from datagen.corpora.shard import file_hash, label_columns, shard_path, sidecar_path
+from datagen.corpus import Corpus
 from datagen.errors import BadInput
 
 Change = Callable[[xarray.Dataset], xarray.Dataset]
@@ -45,6 +46,18 @@ def test_a_corpus_as_it_was_made_is_sound_and_its_scenarios_give_its_records_aga
     assert verdict.records == 14
     assert verdict.remade == (0, 6, 13)
     assert verdict.largest_difference == 0.0
+
+
+def test_a_check_that_is_interrupted_leaves_no_file_open(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    closed: list[Path] = []
+    monkeypatch.setattr("datagen.records.record.make_record", interrupted)
+    monkeypatch.setattr(Corpus, "close", lambda corpus: closed.append(corpus.folder))
+    with pytest.raises(KeyboardInterrupt):
+        check_corpus(tiny_corpus, remake=1)
+    assert closed == [tiny_corpus]
 
 
 @pytest.mark.parametrize("share", [0.1, 0.35, 0.6, 0.85])

@@ -45,6 +45,12 @@ def test_shares_that_are_not_one_are_listed_with_those_that_nobody_stated(
     assert said.endswith("allowed: three shares that add up to 1")
 
 
+def test_more_channels_than_two_are_told_that_fewer_will_do(tmp_path: Path) -> None:
+    learnt = f'file = "a.npz"\nrate_hz = 65536\nsamples = 99999\nsha256 = "{"0" * 64}"\n'
+    said = refusal(GOOD + f'[background.recording]\n{learnt}channels = ["a", "b", "c"]\n', tmp_path)
+    assert said.endswith('background.recording.channels = ["a", "b", "c"]; allowed: at most 2')
+
+
 def test_a_table_where_a_word_belongs_says_where_its_keys_belong(tmp_path: Path) -> None:
     said = refusal(GOOD + "machine.bearing = {balls = -9}\n", tmp_path)
     assert "part[1].machine.bearing = {balls = -9}: balls: a setting of its own, written beside it" in said

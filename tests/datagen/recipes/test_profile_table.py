@@ -35,6 +35,8 @@ def test_a_table_is_centred_and_converted_to_si(tmp_path: Path) -> None:
         (HEAD + "1,2\n", "at least two"),
         (HEAD + "1,2\n2,deep\n", "line 3: 2,deep is not two numbers"),
         (HEAD + "1,2\n2\n", "line 3: 2 is not two numbers"),
+        (HEAD + '1,2\n\n2,"3\n3,4\n', "pit.csv, line 4: not a row of a CSV table: unexpected end of data"),
+        ("\n" + HEAD + "1,2\n\n2,deep\n", "line 5: 2,deep is not two numbers"),
         (HEAD + "1,2\n1,3\n", "must rise"),
         (HEAD + "1,2\n2,-3\n", "0 to 10000"),
         (HEAD + "1,2\n2,nan\n", "finite"),
@@ -44,6 +46,16 @@ def test_a_table_is_centred_and_converted_to_si(tmp_path: Path) -> None:
 def test_a_bad_table_is_refused_with_its_line_or_rule(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(ValidationError, match=message):
         read(tmp_path, text)
+
+
+def test_a_byte_order_mark_in_a_table_is_no_matter(tmp_path: Path) -> None:
+    assert read(tmp_path, "\ufeff" + HEAD + "1,2\n2,3\n").depths() == (2e-6, 3e-6)
+
+
+def test_a_table_that_is_no_text_is_refused_by_its_path(tmp_path: Path) -> None:
+    (tmp_path / "pit.csv").write_bytes(b"angle_deg,depth_um\n1,\xb5\n")
+    with pytest.raises(ValidationError, match=r"pit\.csv: not a text file"):
+        ProfileTable.model_validate("pit.csv", context={FOLDER: tmp_path})
 
 
 def test_a_missing_table_is_refused_by_its_path(tmp_path: Path) -> None:

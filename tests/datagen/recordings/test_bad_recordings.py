@@ -66,6 +66,15 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ("scale = 0", "a.mat: scale = 0.0; allowed: any number but 0"),
         ("cut_s = 5", "cut_s = 5.0; allowed: 0.016 to 0.4 s, the length of a.mat"),
         ("envelope_band_hz = [100, 600]", "envelope_band_hz = [100.0, 600.0]; allowed: 0 <= low < high <= 500"),
+        (
+            "envelope_band_hz = [101, 102]",
+            "envelope_band_hz = [101.0, 102.0]: holds none of the lines in the spectrum of 400 samples of a.mat, "
+            "2.5 Hz apart; allowed: a band at least 2.5 wide",
+        ),
+        (
+            "cut_s = 0.1\nenvelope_band_hz = [101, 105]",
+            "envelope_band_hz = [101.0, 105.0]: holds none of the lines in the spectrum of 100 samples of a.mat",
+        ),
         ('location = "none"\nextent_mm = 1', "a healthy bearing has no defect"),
         ('location = "outer"\ncondition = "healthy"', "a healthy bearing has no defect"),
         (
@@ -75,6 +84,7 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('bearing = "skf_6205"\nbpfo = 3.6', "bpfo: the bearing's geometry says it already"),
         ('tach = {variable = "sig", rate_hz = 100, threshold = 9}', "pulses from 0 to 0.4 s"),
         ('channel = [{name = "a"}]\n', "the channel has no variable"),
+        ("csv = {delimiter = '\"'}", 'csv.delimiter = """: cells may be quoted, and rows are lines'),
     ],
 )  # fmt: skip
 def test_a_label_or_setting_that_cannot_be_is_refused(
@@ -144,6 +154,8 @@ def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Pa
         ("file,location\nz.mat,inner\n", "a.mat is not in the table t.csv"),
         ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
         ("file,location\n", "t.csv: the table holds no row"),
+        ('file,location\n"a.mat,inner\n', "t.csv, line 2: not a row of a CSV table: unexpected end of data"),
+        ('\nfile,recording\n\na.mat,"a\nb"\n\na.mat\n', "t.csv, line 7: 1 cells, but the table has 2 columns"),
     ],
 )  # fmt: skip
 def test_a_wrong_line_of_a_label_table_is_named(table: str, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:

@@ -68,6 +68,27 @@ def test_columns_of_text_tables_are_read_however_they_are_laid_out(
     assert read_arrays(tmp_path / "a.csv", None, layout)[name].tolist() == [1.5, -2.0]
 
 
+@pytest.mark.parametrize(
+    ("text", "layout", "told"),
+    [
+        ("a,b\n\n1,2\n\n3\n", PLAIN, "line 5: 1 cells, but the table has 2 columns"),
+        ("by hand\n\n1,2\n3\n", CsvLayout(header=False, skip_lines=1), "line 4: 1 cells"),
+        ("0 1\n\n  \n2\n", CsvLayout(header=False, delimiter=" "), "line 4: 1 cells"),
+        ("\na,a\n1,2\n", PLAIN, "line 2: a: this column is there twice"),
+        ('a,b\n1,2\n3,"4\n5,6\n7,8\n', PLAIN, "line 3: not a row of a CSV table: unexpected end of data"),
+        ("a,b\n1," + "2" * 200_000 + "\n", PLAIN, "line 2: not a row of a CSV table: field larger than field limit"),
+    ],
+    ids=["blank", "skipped", "blanks", "head", "unclosed quote", "endless cell"],
+)
+def test_a_line_of_a_text_table_that_is_wrong_is_named_by_its_number_in_the_file(
+    text: str, layout: CsvLayout, told: str, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(BadInput) as problem:
+        read_arrays(tmp_path / "a.csv", None, layout)
+    assert str(problem.value).startswith(f"{tmp_path / 'a.csv'}, {told}")
+
+
 def test_a_file_without_an_ending_is_read_by_the_stated_format(tmp_path: Path) -> None:
     (tmp_path / "2003.10.22.12.14.13").write_text("1\t2\n3\t4\n")
     layout = CsvLayout(delimiter="\t", header=False)

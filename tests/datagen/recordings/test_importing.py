@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import json
 import os
 import socket
@@ -16,8 +17,10 @@ import xarray
 
 from datagen.corpora.check import check_corpus
 from datagen.corpora.info import corpus_info
+from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
 from datagen.drawing.preview import draw_preview
+from datagen.errors import BadInput
 from labels.schema import LABEL
 
 G = 9.80665
@@ -253,3 +256,47 @@ def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: B
     assert not dead.exists()
     assert all(path.is_dir() for path in others)
     assert sorted(tmp_path.glob(".*")) == sorted(others)
+
+
+SPEC = '[[recording]]\nname = "a"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 1000\n'
+
+
+def test_a_full_disk_is_told_of_the_folder_that_is_written(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    mat("a.mat")
+    monkeypatch.setattr("datagen.corpora.shard.write_atomically", full)
+    with pytest.raises(BadInput) as problem:
+        bring(SPEC)
+    assert str(problem.value) == f"{tmp_path / 'corpus'}: --out: cannot write here: No space left on device"
+    assert not (tmp_path / "corpus").exists()
+
+
+def test_a_recording_that_cannot_be_read_again_is_not_told_of_the_folder_that_is_written(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def gone(*_: object) -> None:
+        raise OSError(errno.EIO, "Input/output error", "a.mat")
+
+    mat("a.mat")
+    monkeypatch.setattr("datagen.recordings.importing._read_again", gone)
+    with pytest.raises(OSError, match=r"Input/output error: 'a\.mat'"):
+        bring(SPEC)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.mat", "spec.toml"]
+
+
+def test_a_recording_that_vanishes_before_its_hash_is_taken_is_named(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def vanished(path: Path) -> str:
+        path.unlink()
+        return file_hash(path)
+
+    mat("a.mat")
+    monkeypatch.setattr("datagen.recordings.source.file_hash", vanished)
+    with pytest.raises(BadInput) as problem:
+        bring(SPEC)
+    assert str(problem.value) == f"{tmp_path / 'a.mat'}: cannot be read: No such file or directory"

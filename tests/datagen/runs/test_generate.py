@@ -3,6 +3,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import shutil
 import signal
 import threading
 from collections.abc import Callable
@@ -161,6 +162,24 @@ def test_a_corpus_of_another_recipe_is_refused_and_left_alone(
     with pytest.raises(BadInput, match=sentence):
         generate(Recipe.model_validate(tiny.model_dump(mode="json") | change), copy, engine=ALONE)
     assert (copy / "manifest.json").read_bytes() == before
+
+
+def test_a_corpus_that_another_run_began_meanwhile_is_refused_and_left_alone(
+    tiny: Recipe, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+
+    def slowly(*arguments: Any) -> Any:
+        shutil.copytree(tiny_corpus, out)
+        return plan_shards(*arguments)
+
+    monkeypatch.setattr("datagen.runs.generate.plan_shards", slowly)
+    with pytest.raises(BadInput, match="another version of the recipe"):
+        generate(Recipe.model_validate(tiny.model_dump(mode="json") | {"seed": 8}), out, engine=ALONE)
+    assert {path.name: path.read_bytes() for path in (out / "shards").iterdir()} == {
+        path.name: path.read_bytes() for path in (tiny_corpus / "shards").iterdir()
+    }
+    assert (out / "manifest.json").read_bytes() == (tiny_corpus / "manifest.json").read_bytes()
 
 
 @pytest.mark.parametrize(

@@ -304,6 +304,15 @@ def test_the_band_is_the_rigs_resonance_unless_the_recipe_says_otherwise() -> No
     assert draw_scenario(recipe_of(HEALTHY, signal=signal), 0).envelope_band == (1000.0, 2000.0)
 
 
+def test_a_record_too_short_for_a_line_of_its_spectrum_in_the_resonance_is_refused() -> None:
+    part = HEALTHY | {"machine": {"rig": "ims"}}  # the band from 4364 to 4824 Hz
+    signal = {"rate_hz": 65536, "duration_s": 66 / 65536}  # lines at 3972 and 4965 Hz
+    with pytest.raises(BadInput, match=r"4364 to 4824 Hz, holds none of the lines in the spectrum of 66 .* 992\.97"):
+        draw_scenario(recipe_of(part, signal=signal), 0)
+    signal = {"rate_hz": 65536, "duration_s": 70 / 65536}  # a line at 4681 Hz
+    assert draw_scenario(recipe_of(part, signal=signal), 0).samples == 70
+
+
 def test_a_resonance_that_is_not_recorded_needs_a_band_of_ones_own() -> None:
     slow = {"rate_hz": 16384, "duration_s": 0.1}
     altered = HEALTHY | {"machine": {"rig": "gearbox", "factors": {"resonator_mass": 1}}}

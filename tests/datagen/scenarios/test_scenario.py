@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -209,6 +210,30 @@ def test_the_seeds_in_the_text_open_the_records_noise_without_our_code() -> None
 def test_a_text_that_is_no_scenario_is_refused(text: str) -> None:
     with pytest.raises(BadInput):
         Scenario.from_json(text)
+
+
+def recording(data: Any) -> Any:
+    """The layer of a text's data that is a stretch of a recording."""
+    return data["background"]["layers"]["recording"]
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda data: recording(data).update(content=recording(data)["content"][:16]),
+        lambda data: recording(data).update(content=3),
+        lambda data: recording(data).update(starts=[]),
+        lambda data: data["background"].update(layers=[]),
+        lambda data: data["background"].update(snr_band_hz=[1.0]),
+        lambda data: data["sampling"].update(envelope_band_hz=[]),
+    ],
+    ids=["truncated content", "a number for content", "no starts", "layers in a list", "half a band", "empty band"],
+)
+def test_a_damaged_text_of_a_scenario_is_refused(spoil: Callable[[Any], None]) -> None:
+    data = json.loads(full_scenario().to_json())
+    spoil(data)
+    with pytest.raises(BadInput, match="not the text of a scenario"):
+        Scenario.from_json(json.dumps(data))
 
 
 def test_a_format_of_the_future_is_refused_by_name() -> None:

@@ -1,0 +1,81 @@
+"""One door to the open shards: a file is nobody else's while it is read."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+
+from datagen.corpora.open_shards import OpenShards
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.recordings.formats.reading import read_arrays
+from datagen.recordings.settings import CsvLayout
+from datagen.sizing.sized_records import sized_records
+
+HELD = 0.2  # s: ample for a thread that does not wait
+
+
+def waits_while_a_shard_is_read(folder: Path, task: Callable[[], object]) -> bool:
+    """Whether a task in another thread ends only after the block in which this one reads a shard."""
+    shards = OpenShards(folder)
+    done = threading.Event()
+    other = threading.Thread(target=lambda: (task(), done.set()))
+    last = max(path.name for path in (folder / "shards").glob("*.nc"))  # the tasks read others: HDF5 2.2.0 crashes
+    with shards.reading(f"shards/{last}"):  # after a file was open three times in one process, threads or not
+        other.start()
+        waited = not done.wait(HELD)
+    other.join()
+    shards.close()
+    return waited and done.is_set()
+
+
+def test_nobody_opens_reads_or_closes_a_shard_while_another_thread_reads_one(tiny_corpus: Path) -> None:
+    corpus = Corpus(tiny_corpus)
+    before = corpus.waveform(0)
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.waveform(0))  # an open file
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.signal(0))
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.axes(0))
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.dataset(0))
+    assert waits_while_a_shard_is_read(tiny_corpus, corpus.close)
+    assert np.array_equal(corpus.waveform(0), before)
+
+
+def test_recordings_and_sized_records_are_read_by_one_thread_at_a_time_too(tiny_corpus: Path, tmp_path: Path) -> None:
+    records = sized_records(tiny_corpus, load_known=True)
+    next(records)  # its file is open
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: next(records))
+    records.close()
+    with netCDF4.Dataset(tmp_path / "a.nc", "w") as file:
+        file.createDimension("time", 3)
+        file.createVariable("acc", "f8", ("time",))[...] = [1.0, 2.0, 3.0]
+    arrays = read_arrays(tmp_path / "a.nc", None, CsvLayout())
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: read_arrays(tmp_path / "a.nc", None, CsvLayout()))
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: arrays["acc"])
+
+
+def test_threads_that_share_a_corpus_read_what_one_thread_reads(
+    tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.corpora.open_shards.OPEN_FILES", 1)  # nearly every reading closes a file
+    with Corpus(tiny_corpus) as corpus, ThreadPoolExecutor(8) as pool:
+        alone = [corpus.waveform(record) for record in range(14)]
+        together = list(pool.map(corpus.waveform, [*range(14)] * 20))
+    assert all(np.array_equal(found, alone[place % 14]) for place, found in enumerate(together))
+
+
+def test_a_corpus_closes_its_files_at_the_end_of_its_block_whatever_happens_there(tiny_corpus: Path) -> None:
+    corpus = Corpus(tiny_corpus)
+    with contextlib.suppress(BadInput), corpus as same:
+        same.waveform(0)
+        assert corpus._shards.files
+        same.waveform(14)  # there is none
+    assert not corpus._shards.files
+    assert np.isfinite(corpus.waveform(0)).all()  # and opens them again
+    corpus.close()

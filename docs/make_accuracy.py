@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
-from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, house_style
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, plt, png_of
 from datagen.marked_tables import write_marked
 
 DOCS = Path(__file__).parent
@@ -34,31 +34,29 @@ def table() -> str:
     return "\n".join(lines)
 
 
-def picture() -> None:
+def draw() -> Figure:
     """Error against its estimate, every judged scene a dot that the program does not call chaotic."""
-    with house_style():
-        figure, axes = plt.subplots(figsize=(6.2, 4.2), layout="constrained")
-        faint_grid(axes)
-        for (length, name), marker, colour in zip(SETS.items(), "o^", (BLUE, VERMILLION), strict=True):
-            rows = json.loads((DOCS / name).read_text(encoding="utf-8"))["rows"].values()
-            judged = [row for row in rows if row["judge_apart"] <= 2e-4 and not row["chaotic"]]
-            estimate, error = [row["estimate"] for row in judged], [row["error"] for row in judged]
-            label = f"{len(judged)} scenes of {length}"
-            axes.loglog(estimate, error, marker, color=colour, markersize=4, alpha=0.6, label=label)
-        span = np.array([5e-5, 3e-3])
-        axes.plot(span, span, color=GREY, linewidth=1.0, label="error as estimated")
-        axes.axhline(1e-3, color=INK, linewidth=1.0, linestyle="--", label="accuracy asked for")
-        axes.set(xlabel="estimated error", ylabel="error against fixed steps (relative RMS)", xlim=span)
-        axes.set_title("Scenes of the wide corpus, drawn by a seed nothing was tuned with")
-        axes.legend(loc="lower right")
-        figure.savefig(DOCS / "pictures" / "own_choice.png", dpi=130)
-        plt.close(figure)
+    figure, axes = plt.subplots(figsize=(6.2, 4.2), layout="constrained")
+    faint_grid(axes)
+    for (length, name), marker, colour in zip(SETS.items(), "o^", (BLUE, VERMILLION), strict=True):
+        rows = json.loads((DOCS / name).read_text(encoding="utf-8"))["rows"].values()
+        judged = [row for row in rows if row["judge_apart"] <= 2e-4 and not row["chaotic"]]
+        estimate, error = [row["estimate"] for row in judged], [row["error"] for row in judged]
+        label = f"{len(judged)} scenes of {length}"
+        axes.loglog(estimate, error, marker, color=colour, markersize=4, alpha=0.6, label=label)
+    span = np.array([5e-5, 3e-3])
+    axes.plot(span, span, color=GREY, linewidth=1.0, label="error as estimated")
+    axes.axhline(1e-3, color=INK, linewidth=1.0, linestyle="--", label="accuracy asked for")
+    axes.set(xlabel="estimated error", ylabel="error against fixed steps (relative RMS)", xlim=span)
+    axes.set_title("Scenes of the wide corpus, drawn by a seed nothing was tuned with")
+    axes.legend(loc="lower right")
+    return figure
 
 
 def main() -> None:
     """Write both."""
     write_marked(DOCS / "accuracy.md", "own choice", __file__, table())
-    picture()
+    (DOCS / "pictures" / "own_choice.png").write_bytes(png_of(draw, 130))
 
 
 if __name__ == "__main__":

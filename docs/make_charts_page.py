@@ -35,8 +35,16 @@ def runs_of(chart: Facts, name: str) -> list[Facts]:
 
 
 def at_accuracy(chart: Facts, name: str, accuracy: float) -> Facts | None:
-    """The run of a modal contestant that was asked for this accuracy."""
+    """The run of a modal contestant that was asked for this accuracy; None if there is none."""
     return next((run for run in runs_of(chart, name) if asked(run) == accuracy), None)
+
+
+def default_run(chart: Facts) -> Facts:
+    """The run of the default: the modal method asked for 1e-3; ValueError if the chart has none."""
+    run = at_accuracy(chart, MARCHED, DEFAULT)
+    if run is None:
+        raise ValueError(f"{chart['subject']}: no run of {MARCHED} that was asked for {DEFAULT:g}")
+    return run
 
 
 def fastest(chart: Facts, group: str, equations: str) -> tuple[str, float] | None:
@@ -68,8 +76,7 @@ def speeds(charts: dict[str, Facts]) -> list[str]:
     )
     rows = {}
     for name, chart in charts.items():
-        default = at_accuracy(chart, MARCHED, DEFAULT)
-        assert default is not None
+        default = default_run(chart)
         cells = [told(default), told(fastest_run(chart)), told(at_accuracy(chart, REPEATED, DEFAULT))]
         rows[name] = cells + [rival(fastest(chart, *kind), default["real_time"]) for kind in RIVALS]
     made = charts[SCENES[0]]["made_with"]
@@ -109,7 +116,7 @@ def missed(chart: Facts) -> str:
 def simpler(charts: dict[str, Facts]) -> list[str]:
     """One row a scene: speed and error of the simpler models beside the default."""
     rows = {
-        name: [told(at_accuracy(chart, MARCHED, DEFAULT)), *(told(runs_of(chart, model)[0]) for model in MODELS)]
+        name: [told(default_run(chart)), *(told(runs_of(chart, model)[0]) for model in MODELS)]
         for name, chart in charts.items()
     }
     return by_scene(("`modal`, 1e-3 asked", *MODELS), rows)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
@@ -21,9 +22,9 @@ from datagen.drawing.style import (
     PALE,
     VERMILLION,
     faint_grid,
-    house_style,
     outside_legend,
     plt,
+    png_of,
 )
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.truth import PassTable, ball_passes
@@ -73,8 +74,8 @@ class Column:
 def main() -> None:
     """Draw every picture into docs/pictures."""
     PICTURES.mkdir(exist_ok=True)
-    with house_style():
-        draw_states(columns(), PICTURES / "states.png")
+    states = columns()
+    (PICTURES / "states.png").write_bytes(png_of(lambda: draw_states(states), 120))
     for name, (dataset, record) in PREVIEWS.items():
         draw_preview(DATASETS / dataset / "recipe.toml", record, PICTURES / name)
 
@@ -105,12 +106,12 @@ def column(title: str, *spalls: Spall) -> Column:
     step, first, knots = draw_slip_knots(np.random.default_rng(SEED), 0.01, pass_period, DURATION)
     cage = CagePath(speed, DURATION, 0.0, 0.0, step, first, knots)
     scene = Scene(rig, Operation(rig.rated_speed, rig.rated_load), cage, spalls)
-    trace = simulate(scene, RATE, keep_force=True, estimate_error=False)
+    trace = simulate(scene, RATE, keep_force=True)
     noise = FLOOR * np.random.default_rng(SEED).standard_normal(trace.time.size)
     return Column(title, scene, trace, ball_passes(scene, trace.changes, DURATION), trace.acceleration[:, 1] + noise)
 
 
-def draw_states(states: list[Column], out: Path) -> None:
+def draw_states(states: list[Column]) -> Figure:
     """A column a state, and below each other path, force on a ball, acceleration and squared envelope spectrum."""
     figure = plt.figure(figsize=(13.0, 9.4))
     blocks = figure.add_gridspec(
@@ -140,8 +141,7 @@ def draw_states(states: list[Column], out: Path) -> None:
     for row in (0, 1, 3):
         _same_height(list(grid[row]))
     figure.align_ylabels(grid[:, 0])
-    figure.savefig(out, dpi=120)
-    plt.close(figure)
+    return figure
 
 
 def _same_height(panels: list[plt.Axes]) -> None:

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from physics.spall import PROFILES
+
 CONDITIONS = ("healthy", "line", "extended")
 LOCATIONS = ("none", "outer", "inner")
-PROFILES = ("none", "tukey", "ball_path", "table")
+# The same as physics.scene.CONTACT_LAWS, as a test holds; to import that would load scipy with the table of labels.
 CONTACT_LAWS = ("paper", "no_tension")
 SPLITS = ("train", "validation", "test")
 SPEED_BASES = ("set", "measured", "tach", "nominal")
@@ -99,7 +101,11 @@ LABELS: tuple[Label, ...] = (
     _number("exit_taper", "rad", "scene", "Arc of the taper that a ball meets last; 0 when healthy."),
     _number("roughness", "m", "scene", "Standard deviation of the surface inside the spall; 0 when healthy."),
     _text(
-        "profile", "scene", "Rule by which the path of the ball's centre follows from the spall.", PROFILES, (UNKNOWN,)
+        "profile",
+        "scene",
+        "Rule by which the path of the ball's centre follows from the spall.",
+        ("none", *PROFILES),
+        (UNKNOWN,),
     ),
     _number("speed_rpm", "rpm", "scene", "Mean speed of the shaft in revolutions per minute."),
     _text(

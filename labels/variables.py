@@ -8,6 +8,7 @@ from functools import partial
 from labels.schema import BAND_EDGES, LAYERS, LOCATIONS
 
 AXES = ("x", "y")
+# The same as physics.statics.stiffness.COMPONENTS, as a test holds; to import that would load numba with this table.
 COMPONENTS = ("xx", "yy", "xy")
 
 

@@ -31,7 +31,6 @@ class Alias:
 
 
 ALIASES: tuple[Alias, ...] = (
-    Alias("recording_id", "record"),
     Alias("fs", "rate_hz"),
     Alias("speed_rpm", "speed_rpm"),
     Alias("load", "load_n"),
@@ -63,16 +62,15 @@ def common_row(labels: Mapping[str, Any], axis: str) -> dict[str, object]:
     Numbers keep the unit that the vocabulary gives them; KeyError if a label or one of its values is unknown.
     """
     measured = labels["model"] == MEASURED
-    row: dict[str, object] = CONSTANTS | (UNKNOWN_OF_A_RECORDING if measured else {})
+    name = labels["recording"] or str(labels["record"])
+    row: dict[str, object] = CONSTANTS | (UNKNOWN_OF_A_RECORDING if measured else {}) | {"recording_id": name}
     for alias in ALIASES:
         value = labels[alias.label]
         row[alias.column] = value * alias.factor if alias.factor != 1.0 else value
     severity, level = SEVERITY[str(labels["condition"])]
     healthy = labels["condition"] == "healthy"
     place = "none" if healthy else "unknown" if labels["location"] == "unknown" else "test_bearing"
-    name = labels["recording"] or str(labels["record"])
     return row | {
-        "recording_id": name,
         "signal_id": f"{name}_{axis}",
         "channel": labels["channel"] or axis,
         "axis": axis,

@@ -87,7 +87,7 @@ def _named(source: str) -> Subject:
         raise BadInput(field="SCENE", value=source, allowed=allowed)
     name = RIG_NAMES.get(form["name"], form["name"])
     scene = reference_scene(name, LONGEST, speed_factor=times)
-    title = f"{name}, {scene.rig.name} rig at {scene.operation.shaft_speed * 9.549296585513721:.5g} rpm"
+    title = f"{name}, {scene.rig.name} rig at {scene.operation.shaft_speed * 30.0 / math.pi:.5g} rpm"
     if times != 1.0:
         name += f"_{times:g}x"
     if slip > 0.0:

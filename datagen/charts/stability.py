@@ -13,7 +13,6 @@ from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
-from physics.integrators.method import NO_MODES
 from physics.integrators.methods import MARCHES, METHODS, MODAL
 from physics.integrators.output import Grid
 from physics.outcome import SimulationFailed
@@ -170,11 +169,8 @@ def facts(maps: list[Map]) -> dict[str, object]:
 
 def _exact(scene: Scene) -> Array | None:
     """Acceleration (T, 2) with steps so short that half of them give the same, or None if there are none."""
-    steps = FINEST
-    if METHODS["exponential_rk4"].limits != NO_MODES:
-        steps = max(
-            steps, 4 * stable_substeps(scene, METHODS["exponential_rk4"], equilibrium(scene, np.zeros(1)), RATE)
-        )
+    stable = stable_substeps(scene, METHODS["exponential_rk4"], equilibrium(scene, np.zeros(1)), RATE)
+    steps = max(FINEST, 4 * stable)
     try:
         fine, finer = (_response(scene, "exponential_rk4", 1.0 / n) for n in (steps, 2 * steps))
     except (SimulationFailed, InvalidParameter):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from typing import TYPE_CHECKING
 
@@ -21,9 +20,9 @@ from datagen.drawing.style import (
     PURPLE,
     VERMILLION,
     faint_grid,
-    house_style,
     outside_legend,
     plt,
+    png_of,
 )
 from datagen.drawing.time_panels import DYNAMIC_RANGE_DB
 from labels.envelope import squared_envelope_spectrum
@@ -56,12 +55,7 @@ HERTZ_WITHOUT_SPEED = 500.0
 
 def measured_sheet_png(portrait: MeasuredPortrait) -> bytes:
     """The sheet of one imported recording as the bytes of a PNG file."""
-    picture = io.BytesIO()
-    with house_style():
-        figure = draw_measured_sheet(portrait)
-        figure.savefig(picture, dpi=DPI, format="png")
-        plt.close(figure)
-    return picture.getvalue()
+    return png_of(lambda: draw_measured_sheet(portrait), DPI)
 
 
 def draw_measured_sheet(portrait: MeasuredPortrait) -> Figure:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,15 +17,16 @@ from datagen.drawing.style import (
     SKY,
     VERMILLION,
     faint_grid,
-    house_style,
     outside_legend,
     plt,
+    png_of,
 )
 from labels.schema import LABEL
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 WIDTH, ROW_HEIGHT, DPI = 11.0, 2.7, 120
 ACROSS, MOST_DISTRIBUTIONS = 3, 5
@@ -40,21 +40,22 @@ LOGARITHMIC_FROM = 20.0
 
 def overview_png(labels: pandas.DataFrame, name: str) -> bytes:
     """The overview of a table of labels as the bytes of a PNG file."""
+    return png_of(lambda: draw_overview(labels, name), DPI)
+
+
+def draw_overview(labels: pandas.DataFrame, name: str) -> Figure:
+    """The figure of a table of labels: records of each kind, then how the labels are distributed."""
     shown = [column for column in WORTH_SHOWING if _values(labels, column).size > 1][:MOST_DISTRIBUTIONS]
     rows = -(-(1 + len(shown)) // ACROSS)
-    picture = io.BytesIO()
-    with house_style():
-        figure, grid = plt.subplots(rows, ACROSS, figsize=(WIDTH, ROW_HEIGHT * rows + 0.5), layout="constrained")
-        panels = list(np.ravel(grid))
-        draw_kinds(panels[0], labels)
-        for panel, column in zip(panels[1:], shown, strict=False):
-            draw_distribution(panel, labels, column)
-        for panel in panels[1 + len(shown) :]:
-            panel.set_axis_off()
-        figure.suptitle(f"{name}: {len(labels)} records", x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
-        figure.savefig(picture, dpi=DPI, format="png")
-        plt.close(figure)
-    return picture.getvalue()
+    figure, grid = plt.subplots(rows, ACROSS, figsize=(WIDTH, ROW_HEIGHT * rows + 0.5), layout="constrained")
+    panels = list(np.ravel(grid))
+    draw_kinds(panels[0], labels)
+    for panel, column in zip(panels[1:], shown, strict=False):
+        draw_distribution(panel, labels, column)
+    for panel in panels[1 + len(shown) :]:
+        panel.set_axis_off()
+    figure.suptitle(f"{name}: {len(labels)} records", x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
+    return figure
 
 
 def _values(labels: pandas.DataFrame, column: str) -> NDArray[np.float64]:

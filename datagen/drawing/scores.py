@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, house_style, plt
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, plt, png_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
 WIDTH, ROW, DPI = 20.0, 3.0, 100
@@ -23,26 +23,27 @@ COLUMN_WIDTHS = (1.0, 1.6, *[1.0] * (COLUMNS - 2))  # room for a confusion table
 
 
 def scores_png(results: dict[str, Any]) -> bytes:
-    """The sheet of the results of `classify` as the bytes of a PNG file: one row of panels a corpus, then the model."""
+    """The sheet of the results of `classify` as the bytes of a PNG file."""
+    return png_of(lambda: draw_results(results), DPI)
+
+
+def draw_results(results: dict[str, Any]) -> Figure:
+    """The figure of the results of `classify`: one row of panels a corpus, then the model."""
     tests = results["tests"]
-    with house_style():
-        rows = len(tests) + 1
-        figure, axes = plt.subplots(
-            rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False, width_ratios=COLUMN_WIDTHS
-        )
-        for panels, test in zip(axes, tests, strict=False):
-            draw_scores(panels[0], test)
-            draw_confusion(panels[1], test)
-            draw_reliability(panels[2], test)
-            for panel, quantity in zip(panels[3:], AGAINST, strict=True):
-                draw_against(panel, test, quantity)
-        draw_importances(axes[-1][:-2], results)
-        draw_curve(axes[-1][-2], results)
-        axes[-1][-1].axis("off")
-        picture = io.BytesIO()
-        figure.savefig(picture, dpi=DPI, format="png")
-        plt.close(figure)
-    return picture.getvalue()
+    rows = len(tests) + 1
+    figure, axes = plt.subplots(
+        rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False, width_ratios=COLUMN_WIDTHS
+    )
+    for panels, test in zip(axes, tests, strict=False):
+        draw_scores(panels[0], test)
+        draw_confusion(panels[1], test)
+        draw_reliability(panels[2], test)
+        for panel, quantity in zip(panels[3:], AGAINST, strict=True):
+            draw_against(panel, test, quantity)
+    draw_importances(axes[-1][:-2], results)
+    draw_curve(axes[-1][-2], results)
+    axes[-1][-1].axis("off")
+    return figure
 
 
 def draw_scores(axes: Axes, test: dict[str, Any]) -> None:

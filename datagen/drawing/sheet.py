@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,7 @@ from datagen.drawing.frequency_panels import (
 )
 from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, house_style, plt
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, plt, png_of
 from datagen.drawing.time_panels import (
     draw_close_up,
     draw_part,
@@ -33,12 +32,7 @@ WIDTH, HEIGHT, DPI = 13.0, 12.5, 120
 
 def sheet_png(portrait: Portrait) -> bytes:
     """The sheet of one record as the bytes of a PNG file."""
-    picture = io.BytesIO()
-    with house_style():
-        figure = draw_sheet(portrait)
-        figure.savefig(picture, dpi=DPI, format="png")
-        plt.close(figure)
-    return picture.getvalue()
+    return png_of(lambda: draw_sheet(portrait), DPI)
 
 
 def draw_sheet(portrait: Portrait) -> Figure:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import io
 import math
 from typing import TYPE_CHECKING, Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 
-from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, house_style
+from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, plt, png_of
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.summary import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 
@@ -20,20 +18,17 @@ if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
 
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)
+DPI = 130
 MOST_BINS = 8
 LONGEST_LEVEL_NAMES = 44  # letters of all names together that fit side by side
 
 
 def size_report_png(scores: SizeScores) -> bytes:
-    """The picture of a corpus scored against a known truth, as the bytes of a PNG file; empty without one."""
-    picture = io.BytesIO()
-    if scores.summary is None:
-        return b""
-    with house_style():
-        figure = draw_size_report(scores, scores.summary)
-        figure.savefig(picture, dpi=130, format="png")
-        plt.close(figure)
-    return picture.getvalue()
+    """The picture of a corpus scored against a known truth, as the bytes of a PNG file; ValueError without a truth."""
+    summary = scores.summary
+    if summary is None:
+        raise ValueError("no ball passes are known, so there is nothing to draw the estimates against")
+    return png_of(lambda: draw_size_report(scores, summary), DPI)
 
 
 def draw_size_report(scores: SizeScores, summary: dict[str, Any]) -> Figure:

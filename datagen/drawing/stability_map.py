@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from datagen.charts.stability import BY_STEP, DURATION, NOT_CONVERGED, RATE, STEPS, VALUE, Map
-from datagen.drawing.style import GREY, INK, house_style, plt
+from datagen.drawing.style import GREY, INK, plt, png_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -43,15 +43,13 @@ def stability_sheets(maps: Sequence[Map]) -> list[bytes]:
     """The maps as PNG files, four quantities a sheet."""
     sweeps = list(dict.fromkeys(one.sweep for one in maps))
     groups = [sweeps[k : k + COLUMNS_A_SHEET] for k in range(0, len(sweeps), COLUMNS_A_SHEET)]
-    sheets = []
-    for number, group in enumerate(groups, 1):
-        picture = io.BytesIO()
-        with house_style(), plt.rc_context({"font.size": LETTERS, "hatch.linewidth": 0.6}):
-            figure = draw_sheet([one for one in maps if one.sweep in group], f"{number} of {len(groups)}")
-            figure.savefig(picture, dpi=DPI, format="png")
-            plt.close(figure)
-        sheets.append(picture.getvalue())
-    return sheets
+
+    def draw(number: int) -> Figure:
+        own = [one for one in maps if one.sweep in groups[number]]
+        return draw_sheet(own, f"{number + 1} of {len(groups)}")
+
+    settings = {"font.size": LETTERS, "hatch.linewidth": 0.6}
+    return [png_of(partial(draw, number), DPI, settings) for number in range(len(groups))]
 
 
 def draw_sheet(maps: Sequence[Map], number: str) -> Figure:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import io
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ import matplotlib.pyplot as plt
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 # Okabe and Ito's palette.
 BLUE, VERMILLION, GREEN, ORANGE, SKY, PURPLE = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7"
@@ -53,6 +55,27 @@ def house_style() -> Iterator[None]:
     """Everything drawn inside has the one look."""
     with plt.rc_context(SETTINGS):
         yield
+
+
+def png_of(
+    draw: Callable[[], Figure],
+    dpi: float,
+    settings: Mapping[str, object] | None = None,
+    metadata: Mapping[str, str | None] | None = None,
+) -> bytes:
+    """The figure that `draw` makes in the house style, as the bytes of a PNG file with `dpi` dots an inch.
+
+    `settings` of matplotlib overrule those of the house style; `metadata` are texts of the file, None leaves one out.
+    Every figure that `draw` opened is closed again, whatever it raises.
+    """
+    picture, opened_before = io.BytesIO(), set(plt.get_fignums())
+    try:
+        with house_style(), plt.rc_context(dict[Any, Any](settings or {})):
+            draw().savefig(picture, dpi=dpi, format="png", metadata=metadata)
+    finally:
+        for number in set(plt.get_fignums()) - opened_before:
+            plt.close(number)
+    return picture.getvalue()
 
 
 def faint_grid(axes: Axes) -> None:

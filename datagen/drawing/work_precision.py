@@ -1,15 +1,17 @@
-"""The work-precision diagram: error of the acceleration against times real time, both logarithmic."""
+"""The work-precision diagram: error of the acceleration against times real time, both logarithmic.
+
+Errors beyond WORST_SHOWN or BEST_SHOWN are drawn on that edge of the panel, in a ring that the legend explains.
+"""
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from datagen.charts.contestants import METHOD, MODEL
 from datagen.charts.measure import TARGET, Chart, Run
-from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, house_style, plt
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, plt, png_of
 from physics.integrators.general_purpose import BALL_BY_BALL
 from physics.integrators.methods import MODAL
 
@@ -24,17 +26,13 @@ RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": 
 # On the contact kernel and ball by ball.
 RIVAL_STYLES = {"compiled": ("-", "-"), "numbalsoda": ("-.", "-."), "SciPy": ("--", ":")}
 WORST_SHOWN, BEST_SHOWN = 8.0, 1e-8
+RINGED = "ringed: error beyond the panel"
 EDGE_ROW = 0.03  # of the height of the panel of errors
 
 
 def work_precision_png(chart: Chart) -> bytes:
     """The diagram of one scene as the bytes of a PNG file."""
-    picture = io.BytesIO()
-    with house_style():
-        figure = draw_work_precision(chart)
-        figure.savefig(picture, dpi=DPI, format="png")
-        plt.close(figure)
-    return picture.getvalue()
+    return png_of(lambda: draw_work_precision(chart), DPI)
 
 
 def draw_work_precision(chart: Chart) -> Figure:
@@ -52,6 +50,7 @@ def draw_work_precision(chart: Chart) -> Figure:
     models = [name for name in names if _group(chart, name) == MODEL]
     for name in names:
         _draw(axes, chart, name, methods, models)
+    _ring_beyond(axes, chart, names)
     axes.axhline(TARGET, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
     axes.axvline(1.0, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
     axes.set(xscale="log", yscale="log", ylim=(_bottom(chart), WORST_SHOWN))
@@ -67,7 +66,8 @@ def draw_work_precision(chart: Chart) -> Figure:
 
 def _bottom(chart: Chart) -> float:
     """The decade below the smallest error, or BEST_SHOWN."""
-    errors = [error for name in dict.fromkeys(run.name for run in chart.runs) for _, error in _points(chart.runs, name)]
+    names = dict.fromkeys(run.name for run in chart.runs)
+    errors = [_on_panel(error) for name in names for _, error in _points(chart.runs, name)]
     return max(BEST_SHOWN, 10.0 ** math.floor(math.log10(min(errors, default=TARGET))))
 
 
@@ -81,11 +81,27 @@ def _method(name: str) -> str:
 
 
 def _points(runs: Sequence[Run], name: str) -> list[tuple[float, float]]:
+    """Times real time and error of each run of a name that has an error."""
     found = []
     for run in runs:
         if run.name == name and run.score is not None and math.isfinite(run.score.acceleration):
-            found.append((run.real_time, min(max(run.score.acceleration, BEST_SHOWN), WORST_SHOWN)))
+            found.append((run.real_time, run.score.acceleration))
     return found
+
+
+def _on_panel(error: float) -> float:
+    return min(max(error, BEST_SHOWN), WORST_SHOWN)
+
+
+def _ring_beyond(axes: Axes, chart: Chart, names: Sequence[str]) -> None:
+    """A ring, clear of the curve's own marker, around every point that stands on an edge in place of its error."""
+    points = [point for name in names for point in _points(chart.runs, name)]
+    beyond = [(speed, _on_panel(error)) for speed, error in points if error != _on_panel(error)]
+    if beyond:
+        axes.plot(
+            *zip(*beyond, strict=True), "o", color=INK, markerfacecolor="none", markersize=10, markeredgewidth=0.8,
+            zorder=5, clip_on=False, label=RINGED,
+        )  # fmt: skip
 
 
 def _draw(axes: Axes, chart: Chart, name: str, methods: list[str], models: list[str]) -> None:
@@ -93,7 +109,7 @@ def _draw(axes: Axes, chart: Chart, name: str, methods: list[str], models: list[
     if not points:
         axes.plot([], [], " ", label=f"{name}: gave up")
         return
-    speed, error = zip(*points, strict=True)
+    speed, error = zip(*((speed, _on_panel(error)) for speed, error in points), strict=True)
     if _group(chart, name) == METHOD:
         colour = _colour(name, methods)
         style, face = ("o-", colour) if _method(name) == name else ("o--", "white")

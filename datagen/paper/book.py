@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib import import_module
@@ -10,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.corpora.atomic import write_results
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import png_of
 from datagen.errors import BadInput
 from datagen.paper.chapter import Chapter
 from datagen.paper.tables import csv_text, page
@@ -54,22 +53,15 @@ def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) ->
     chapters = []
     for key in keys:
         chapter: Chapter = import_module(f"datagen.paper.{CHAPTERS[key]}").chapter()
-        picture, table = _picture(chapter), csv_text(chapter.rows).encode()
+        # Without the name of the program that wrote it, a picture that did not change is the same file.
+        picture = png_of(chapter.draw, DPI, metadata={"Software": None})
+        table = csv_text(chapter.rows).encode()
         write_results(out, {f"{chapter.name}.png": picture, f"{chapter.name}.csv": table})
         chapters.append(chapter)
         report(chapter.title)
     results = {chapter.name: _facts(chapter) for chapter in chapters}
     write_results(out, {"paper.json": plain_json(results).encode(), "README.md": page(chapters).encode()})
     return results
-
-
-def _picture(chapter: Chapter) -> bytes:
-    png = io.BytesIO()
-    with house_style():
-        figure = chapter.draw()
-        figure.savefig(png, dpi=DPI, format="png", metadata={"Software": None})
-        plt.close(figure)
-    return png.getvalue()
 
 
 def _facts(chapter: Chapter) -> dict[str, Any]:

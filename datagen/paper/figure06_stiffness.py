@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from datagen.drawing.style import EXTENDED, HEALTHY, INK, LINE, PURPLE, faint_grid, plt
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import SHOWN_SEED, line_spall, reference_extended_spall, scene, wavy_extended_spall
+from datagen.paper.scenes import (
+    BOTTOM,
+    SHOWN_SEED,
+    line_spall,
+    machine,
+    reference_extended_spall,
+    scene,
+    wavy_extended_spall,
+)
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
 
@@ -45,8 +53,8 @@ class Stiffness:
     @property
     def ball_inside(self) -> NDArray[np.bool_]:
         """Where a ball of row 1 is between the edges of the spall (S,)."""
-        spacing = 30.0
-        return np.abs((self.cage - 270.0 + spacing / 2.0) % spacing - spacing / 2.0) <= self.half
+        spacing = math.degrees(machine("gearbox").bearing.spacing)
+        return np.abs((self.cage - math.degrees(BOTTOM) + spacing / 2.0) % spacing - spacing / 2.0) <= self.half
 
 
 def stiffness(*spalls: Spall) -> Stiffness:

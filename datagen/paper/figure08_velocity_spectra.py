@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from datagen.drawing.style import GREEN, GREY, INK, LINE, PURPLE, faint_grid, plt
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, highest_near, legend_below, letter, power_decibel, spread
-from datagen.paper.published import published
+from datagen.paper.published import published_value
 from datagen.paper.recordings import CONDITIONS, SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, bpfo_hz, ftf_hz, scene, shaft_hz, signal, wavy_extended_spall
 from labels.density import velocity_density
@@ -175,7 +175,7 @@ def _draw_spectrum(axes: Axes, acceleration: Array, colour: str) -> None:
     bpfo, ftf, shaft = bpfo_hz("gearbox"), ftf_hz("gearbox"), shaft_hz("gearbox")
     defect = [k * bpfo for k in range(1, HARMONICS + 1)]
     beside_them = [f + side * ftf for f in defect for side in (-1.0, 1.0)]
-    mesh = published(NAME, "gear_mesh").value or 0.0
+    mesh = published_value(NAME, "gear_mesh")
     for f in np.arange(1.0, TOP / shaft):
         axes.plot([f * shaft] * 2, [LEVELS[0], LEVELS[0] + 4.0], color=PURPLE, linewidth=1.0)
     axes.plot([], [], "|", color=PURPLE, label="shaft, 7 Hz and harmonics")

@@ -1,5 +1,4 @@
-"""Figure 9: squared envelope spectra of the gearbox rig in the paper's band and in one that holds the simulated "
-"pole."""
+"""Figure 9: squared envelope spectra of the gearbox rig in the paper's band and around the simulated resonance."""
 
 from __future__ import annotations
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from datagen.drawing.style import INK, faint_grid, plt
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, legend_below, letter, spread
-from datagen.paper.published import published
+from datagen.paper.published import published_value
 from datagen.paper.recordings import CONDITIONS, SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
@@ -62,7 +61,7 @@ def chapter(count: int = len(SEEDS)) -> Chapter:
 
 def rows(lines: dict[str, Array], pole: dict[str, Array]) -> list[Row]:
     """The table of Figure 9 from the BPFO lines of each condition in the paper's band and around the pole."""
-    density = 10.0 ** ((published("figure10", "highest").value or 0.0) / 10.0)
+    density = 10.0 ** (published_value("figure10", "highest") / 10.0)
     most = 2.0 * density * (PAPER_BAND[1] - PAPER_BAND[0])
     unit = f"Figure 10's axis bounds the mean squared envelope in that band by {most:.2g} (m/s²)², so 0.2 is no (m/s²)²"
     top = {name: float(np.median(values)) for name, values in lines.items()}

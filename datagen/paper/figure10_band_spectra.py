@@ -11,7 +11,7 @@ from datagen.drawing.style import EXTENDED, GREY, INK, LINE, ORANGE, PALE, SKY, 
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure09_envelope_spectra import PAPER_BAND
 from datagen.paper.panels import heading, legend_below, letter, power_decibel, spread
-from datagen.paper.published import published
+from datagen.paper.published import published_value
 from datagen.paper.recordings import SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, line_spall, machine, scene, signal
 from labels.density import power_density
@@ -136,7 +136,7 @@ def draw() -> Figure:
 
 def _mark_paper(narrow: Axes, wide: Axes) -> None:
     for end in ("lowest", "highest"):
-        narrow.axhline(published(NAME, end).value or 0.0, color=GREY, linewidth=0.9, linestyle=(0, (5, 3)))
+        narrow.axhline(published_value(NAME, end), color=GREY, linewidth=0.9, linestyle=(0, (5, 3)))
     wide.axvspan(PAPER_BAND[0] * 1e-3, PAPER_BAND[1] * 1e-3, color=PALE, alpha=0.6, linewidth=0, zorder=0)
     rig = machine("gearbox")
     pole = coupled_resonator_frequency(rig, rated_matrices(rig)[0]) * 1e-3

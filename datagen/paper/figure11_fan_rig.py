@@ -66,8 +66,7 @@ class Recording:
         return self.acceleration[-round(ANALYSED * RATE) :]
 
     def entry_over_exit(self, band: tuple[float, float]) -> float:
-        """Peak of the envelope in a band (Hz) after entry, to mid-spall, over that around exit, mean over the "
-        "passes."""
+        """Mean peak of the envelope in a band (Hz) from entry to mid-spall over the mean peak around exit."""
         early, late = self.peaks(band)
         return early / late
 

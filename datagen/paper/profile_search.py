@@ -13,6 +13,9 @@ from datagen.paper.figure08_velocity_spectra import FIRST_READ, SIXTH, harmonics
 from datagen.paper.figure09_envelope_spectra import envelope_line
 from datagen.paper.recordings import recordings
 from datagen.paper.scenes import (
+    SHORTEST_WAVE,
+    WAVY_DEPTH,
+    WAVY_DEVIATION,
     machine,
     reference_extended_spall,
     scene,
@@ -84,6 +87,29 @@ class Outcome:
         return bool(np.all(self.envelope_ratio > 1.0))
 
 
+def smooth_title(depth_um: float, taper_deg: float) -> str:
+    """What a smooth profile is called: depth (µm) and tapers (°)."""
+    return f"smooth, {depth_um:g} µm deep, tapers {taper_deg:g}°"
+
+
+def rough_title(depth_um: float, deviation_um: float, shortest_wave_mm: float) -> str:
+    """What a profile of random waves is called: mean depth and standard deviation (µm), shortest wave (mm)."""
+    return f"{deviation_um:g} µm about {depth_um:g} µm, shortest wave {shortest_wave_mm:g} mm"
+
+
+# The profile that the other figures use for the extended spall, and the two drawn beside it: scenes G2r and G2.
+CHOSEN = rough_title(WAVY_DEPTH / MICRON, WAVY_DEVIATION / MICRON, SHORTEST_WAVE / MILLIMETRE)
+REFERENCE, SMOOTH = "reference profile G2r", smooth_title(4.0, 1.0)
+
+
+def titled(found: Sequence[Outcome], title: str) -> Outcome:
+    """The outcome of the profile of this title; ValueError if it was not searched."""
+    for one in found:
+        if one.profile.title == title:
+            return one
+    raise ValueError(f'no profile "{title}" among the {len(found)} searched')
+
+
 def profiles(
     shortest_waves: Sequence[float] = SHORTEST_WAVES_MM,
     deviations: Sequence[float] = DEVIATIONS_UM,
@@ -94,7 +120,7 @@ def profiles(
     yield from waved_profiles()
     yield from rough_profiles(shortest_waves, deviations, depths)
     draws = tuple(reference_extended_spall(seed) for seed in range(ROUGH_SEEDS))
-    yield Profile("reference", "reference profile G2r", draws)
+    yield Profile("reference", REFERENCE, draws)
 
 
 def smooth_profiles() -> Iterator[Profile]:
@@ -102,7 +128,7 @@ def smooth_profiles() -> Iterator[Profile]:
     for depth in SMOOTH_DEPTHS_UM:
         for taper in TAPERS_DEG:
             draws = (smooth_extended_spall(depth * MICRON, math.radians(taper)),) * 2
-            yield Profile("smooth", f"smooth, {depth:g} µm deep, tapers {taper:g}°", draws, depth_um=depth)
+            yield Profile("smooth", smooth_title(depth, taper), draws, depth_um=depth)
 
 
 def waved_profiles() -> Iterator[Profile]:
@@ -128,8 +154,7 @@ def rough_profiles(
                     wavy_extended_spall(seed, depth * MICRON, deviation * MICRON, wave * MILLIMETRE)
                     for seed in range(ROUGH_SEEDS)
                 )
-                title = f"{deviation:g} µm about {depth:g} µm, shortest wave {wave:g} mm"
-                yield Profile(family, title, draws, depth, deviation, wave)
+                yield Profile(family, rough_title(depth, deviation, wave), draws, depth, deviation, wave)
 
 
 def outcome(profile: Profile) -> Outcome:

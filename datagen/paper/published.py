@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-SENSES = ("equal", "at most", "at least")
-
 
 @dataclass(frozen=True)
 class Published:
@@ -46,6 +44,9 @@ def published(chapter: str, key: str) -> Published:
     return Published(**_typed()[chapter][key])  # type: ignore[arg-type]
 
 
-def every_published() -> dict[tuple[str, str], Published]:
-    """All typed statements by chapter and key."""
-    return {(chapter, key): published(chapter, key) for chapter, keys in _typed().items() for key in keys}
+def published_value(chapter: str, key: str) -> float:
+    """The number that the paper prints under `key`; KeyError if it is not typed, ValueError if it is in words alone."""
+    value = published(chapter, key).value
+    if value is None:
+        raise ValueError(f"the paper prints no number for {key} of {chapter}")
+    return value

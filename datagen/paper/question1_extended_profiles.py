@@ -12,7 +12,7 @@ from datagen.drawing.style import EXTENDED, GREEN, GREY, INK, LINE, ORANGE, PURP
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure08_velocity_spectra import HARMONICS, SIXTH
 from datagen.paper.panels import heading, letter
-from datagen.paper.profile_search import MOST_RECORDS, Outcome, outcome, profiles
+from datagen.paper.profile_search import CHOSEN, MOST_RECORDS, REFERENCE, SMOOTH, Outcome, outcome, profiles, titled
 from datagen.paper.scenes import machine
 
 if TYPE_CHECKING:
@@ -64,11 +64,11 @@ def answer(found: Sequence[Outcome]) -> str:
 
 
 def rows(found: Sequence[Outcome]) -> list[Row]:
-    """The table of question 1: the outcome of the chosen profile, and one line a profile of the grid."""
-    chosen = next((one for one in found if one.profile.title == chosen_title()), None)
-    table: list[Row] = []
-    if chosen is not None:
-        table += _chosen_rows(chosen)
+    """The table of question 1: the outcome of the chosen profile, and one line a profile of the grid.
+
+    ValueError if the chosen profile is not among them.
+    """
+    table = _chosen_rows(titled(found, CHOSEN))
     table.append(
         only_ours(
             "profiles that answer yes", float(sum(o.lifts and o.keeps_envelope for o in found)), f"of {len(found)}"
@@ -86,11 +86,6 @@ def rows(found: Sequence[Outcome]) -> list[Row]:
             only_ours(f"harmonics 3 to 13 over the line spall's: {one.profile.title}", one.mean, "dB", comment)
         )
     return table
-
-
-def chosen_title() -> str:
-    """The profile that the other figures use for the extended spall."""
-    return "8 µm about 4 µm, shortest wave 2 mm"
 
 
 def _chosen_rows(one: Outcome) -> list[Row]:
@@ -120,7 +115,10 @@ def _chosen_rows(one: Outcome) -> list[Row]:
 
 
 def draw(found: Sequence[Outcome]) -> Figure:
-    """Maps of the random waves above; below, every profile in one plane and the harmonics one by one."""
+    """Maps of the random waves above; below, every profile in one plane and the harmonics one by one.
+
+    ValueError if one of the three profiles drawn by name was not searched.
+    """
     figure = plt.figure(figsize=(11.0, 9.4))
     upper = figure.add_gridspec(1, 3, left=0.085, right=0.985, top=0.895, bottom=0.545, wspace=0.1)
     lower = figure.add_gridspec(
@@ -207,15 +205,14 @@ def _draw_plane(axes: Axes, found: Sequence[Outcome]) -> None:
 def _draw_levels(axes: Axes, found: Sequence[Outcome]) -> None:
     number = np.arange(1, HARMONICS + 1)
     for title, colour, name in (
-        (chosen_title(), EXTENDED, f"{chosen_title()}"),
-        ("reference profile G2r", INK, "reference profile G2r"),
-        ("smooth, 4 µm deep, tapers 1°", GREY, "smooth, 4 µm, tapers 1° (G2)"),
+        (CHOSEN, EXTENDED, CHOSEN),
+        (REFERENCE, INK, REFERENCE),
+        (SMOOTH, GREY, "smooth, 4 µm, tapers 1° (G2)"),
     ):
-        one = next((one for one in found if one.profile.title == title), None)
-        if one is not None:
-            axes.plot(number, np.median(one.above, axis=0), "o-", color=colour, markersize=3.5, label=name)
-            if one.profile.family == "long":
-                axes.fill_between(number, one.above.min(axis=0), one.above.max(axis=0), color=colour, alpha=0.15)
+        one = titled(found, title)
+        axes.plot(number, np.median(one.above, axis=0), "o-", color=colour, markersize=3.5, label=name)
+        if title == CHOSEN:
+            axes.fill_between(number, one.above.min(axis=0), one.above.max(axis=0), color=colour, alpha=0.15)
     axes.axhline(0.0, color=LINE, linewidth=1.2, label="line spall G1")
     axes.set(xlabel="harmonic of the BPFO", ylabel="dB", xticks=number, ylim=(-30.0, 27.0))
     axes.legend(loc="upper right")

@@ -74,8 +74,7 @@ def sidebands(acceleration: Array, orders: tuple[int, ...] = (1,)) -> Array:
 
 
 def strongest_of_all(condition: str, draws: int = DRAWS) -> Array:
-    """Strongest of the first five cage sidebands of the sixth harmonic for the shown deviation, no slip, (draws,) "
-    "dB."""
+    """Strongest of the first five cage sidebands of the sixth harmonic, dB (draws,): shown deviation, no slip."""
     states = (machine_state(condition, SHOWN_DEVIATION, seed, False) for seed in range(draws))
     return np.array([sidebands(signal(state), (1, 2, 3, 4, 5))[SIXTH - 1] for state in states])
 

@@ -1,7 +1,8 @@
-"""At what probability a spall is called: so that one healthy record in twenty is, and fewer where noise hides them.
+"""The alarm: the probability of a spall above which a record is called faulty, such that few healthy ones are.
 
-In a clear record a healthy bearing shows what it does: its stiffness varies as balls pass, so the lines of BPFO stand
-in its envelopes. Under noise they do not, and a probability that means little in a clear record means much. The alarm
+A stated share of all healthy records passes it, and half of that share of those that look like noise. In a clear
+record a healthy bearing shows what it does: its stiffness varies as balls pass, so the lines of BPFO stand in its
+envelopes. Under noise they do not, so a probability that means little in a clear record means much there. The alarm
 therefore rises with how far a record's bands differ from noise, which their median spectral kurtosis tells.
 """
 
@@ -12,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.classifier.log_odds import EDGE, logit, probability_of
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
 
@@ -19,21 +21,16 @@ CLEARNESS = "median_band_kurtosis"
 NOISE_LIKE, CLEAR = 0.02, 0.06
 """Values of that feature below which a record cannot be told from noise, and above which it is taken as clear."""
 SHARE_IN_NOISE = 0.5
-"""Records like noise may raise this share of the alarms that are allowed on average; the clear ones raise the rest."""
-EDGE = 1e-4
+"""The share of false alarms among rows like noise over the share allowed among all healthy records."""
+SMALLEST = 1e-4
+"""Kurtosis and mean clearness below this count as this, so that a logarithm and a quotient of them are finite."""
 FEWEST_ROWS = 20
 
 
 def clearness(table: Array) -> Array:
     """How clear (N,) each row of the feature table is: 0 like noise, 1 clear, with the logarithm between."""
-    kurtosis = np.maximum(np.asarray(table)[:, FEATURE_NAMES.index(CLEARNESS)], EDGE)
+    kurtosis = np.maximum(np.asarray(table)[:, FEATURE_NAMES.index(CLEARNESS)], SMALLEST)
     return np.clip(np.log(kurtosis / NOISE_LIKE) / np.log(CLEAR / NOISE_LIKE), 0.0, 1.0)
-
-
-def logit(probability: Array) -> Array:
-    """ln(p / (1 − p)) of probabilities, kept within 1e-4 of 0 and 1."""
-    inside = np.clip(probability, EDGE, 1.0 - EDGE)
-    return np.asarray(np.log(inside / (1.0 - inside)))
 
 
 @dataclass(frozen=True)
@@ -47,11 +44,11 @@ class Alarm:
         """Probability (N,) of a spall at which each row of the feature table is called."""
         clear = clearness(table)
         low, high = logit(np.array([self.in_noise, self.in_clear]))
-        return np.asarray(0.5 * (1.0 + np.tanh(0.5 * (low * (1.0 - clear) + high * clear))))
+        return probability_of(low * (1.0 - clear) + high * clear)
 
 
 def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDArray[np.bool_], share: float) -> Alarm:
-    """The alarm that `share` of healthy records pass, half of that of the rows that are like noise.
+    """The alarm that `share` of healthy records pass, and SHARE_IN_NOISE times `share` of the rows like noise.
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise
@@ -67,7 +64,7 @@ def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDA
     above = np.bincount(place, (level - low * (1.0 - clear))[~noisy]) / rows
     weight = np.bincount(place, clear[~noisy]) / rows
     # A record alarms where its mean level passes low (1 − clear) + high clear, that is where high lies below this:
-    needed = np.where(weight > 0.0, above / np.maximum(weight, EDGE), np.where(above > 0.0, np.inf, -np.inf))
+    needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
     high = np.sort(needed)[::-1][min(int(share * own.size), own.size - 1)]
-    low, high = (0.5 * (1.0 + np.tanh(0.5 * value)) for value in (low, float(np.clip(high, low, -np.log(EDGE)))))
-    return Alarm(float(low), float(high))
+    in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
+    return Alarm(float(in_noise), float(in_clear))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassifierMixin, clone
 
-from labels.classifier.alarm import logit
+from labels.classifier.log_odds import logit, probability_of
 from labels.features.conditioning import Array
 
 
@@ -32,7 +32,7 @@ class Blend(ClassifierMixin, BaseEstimator):
     def predict_proba(self, X: Array) -> Array:
         """Probabilities (N, 2) of the two classes."""
         level = np.mean([logit(part.predict_proba(X)[:, 1]) for part in self.fitted_], axis=0)
-        second = 0.5 * (1.0 + np.tanh(0.5 * level))
+        second = probability_of(level)
         return np.column_stack([1.0 - second, second])
 
     def predict(self, X: Array) -> NDArray[Any]:

@@ -13,7 +13,7 @@ def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> 
     """A fresh classifier with `fit` and `predict_proba`; ValueError for an unknown name.
 
     "forest" and "boosting" are half a logistic regression each (`Blend`). `signs` (F,) are 1 for features with
-    which the probability may only rise, −1 only fall, 0 either; the trees of "boosting" see the former alone.
+    which the probability may only rise, −1 only fall, 0 either; the trees of "boosting" see only features of 1 or −1.
     """
     from sklearn.ensemble import ExtraTreesClassifier, HistGradientBoostingClassifier
     from sklearn.pipeline import make_pipeline

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import Array, Spectrum, local_mean_power
+from labels.features.conditioning import FEWEST_BINS, Array, Spectrum, local_mean_power
 from labels.features.families import find_family, lines_in, near_mains
+from labels.features.speed import SPECTRUM_FLOOR_ORDERS, SPEED_TOLERANCE
 
 STILL_VELOCITY = 0.071e-3
 """m/s: a tenth of the limit between zones A and B of ISO 10816-1 for the smallest machines (0.71 mm/s RMS)."""
@@ -109,14 +110,15 @@ def _turning(analysis: Analysis) -> float:
     """Evidence (nats) of shaft harmonics or passing balls in the vibration, without mains tones and strongest line."""
     spectrum, step = analysis.record.raw, analysis.record.step
     power = np.abs(spectrum[None, : int(STILL_BAND[1] / step)]) ** 2
-    floor = local_mean_power(power[:, 1:], max(24, int(3.0 * analysis.given.shaft_hz / step)))
+    block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * analysis.given.shaft_hz / step))
+    floor = local_mean_power(power[:, 1:], block)
     excess = np.ones_like(power)
     excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
     frequency = np.arange(excess.shape[-1]) * step
     lines = lines_in(np.where(_hum(frequency, step) | (frequency <= 2.0 * step), 1.0, excess), step)
     known = analysis.given
     found = [
-        find_family(lines, order * known.shaft_hz, 0.022, known.shaft_hz, harmonics=6).parts[0]
+        find_family(lines, order * known.shaft_hz, SPEED_TOLERANCE, known.shaft_hz, harmonics=6).parts[0]
         for order in (1.0, known.bpfo, known.bpfi)
     ]
     return float(max(parts.sum() - parts.max() for parts in found))

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.conditioning import Array
+from labels.features.modulation import RACES
 from labels.features.table import FEATURE_NAMES
 
 QUANTILE = 0.95
-STRENGTHS = ("outer_strength", "inner_strength")
-RACES = ("outer", "inner")
+STRENGTHS = tuple(f"{race}_strength" for race in RACES)
 
 
 def strengths(table: Array) -> Array:

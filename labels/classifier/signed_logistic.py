@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassifierMixin
 
+from labels.classifier.log_odds import probability_of
 from labels.features.conditioning import Array
 
 MOST_STEPS = 2000
@@ -35,7 +36,7 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
 
         def loss(coefficients: Array) -> tuple[float, Array]:
             margin = side * (table @ coefficients)
-            slope = -side * weight * 0.5 * (1.0 - np.tanh(0.5 * margin))
+            slope = -side * weight * probability_of(-margin)
             shrunk = np.append(coefficients[:-1], 0.0)
             value = float(weight @ np.logaddexp(0.0, -margin)) + 0.5 / self.C * float(shrunk @ shrunk)
             return value, table.T @ slope + shrunk / self.C
@@ -50,7 +51,7 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
 
     def predict_proba(self, X: Array) -> Array:
         """Probabilities (N, 2) of the two classes."""
-        second = 0.5 * (1.0 + np.tanh(0.5 * (np.asarray(X) @ self.coef_ + self.intercept_)))
+        second = probability_of(np.asarray(X) @ self.coef_ + self.intercept_)
         return np.column_stack([1.0 - second, second])
 
     def predict(self, X: Array) -> NDArray[Any]:

@@ -13,13 +13,13 @@ from labels.classifier.classes import CLASSES, HEALTHY, decide
 from labels.classifier.learners import SEED, learner
 from labels.classifier.stage import Stage
 from labels.features.conditioning import Array
+from labels.features.modulation import RACES
 from labels.features.table import FEATURE_NAMES
 
 FALSE_ALARMS = 0.05
 """Share of simulated healthy records that may be called faulty: that of the rule's threshold."""
 DIVISIONS = 3
 """Divisions into folds from which held-out probabilities are taken for the alarm: with one it hangs on chance."""
-RACES = ("outer", "inner")
 STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
 IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")
 LEADS = ("inner_lead_evidence", "inner_lead_spread", "inner_lead_strength", "inner_lead_others")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.classifier.alarm import logit
+from labels.classifier.log_odds import logit, probability_of
 from labels.features.conditioning import Array
 
 FOLDS = 5
@@ -46,7 +46,7 @@ class Stage:
         if np.unique(answer[plain]).size < 2:
             raise ValueError("each answer must be given by records without added noise too")
         level = [logit(self._held_out(table, answer, groups, folds, self.seed + r)) for r in range(self.repeats)]
-        raw = 0.5 * (1.0 + np.tanh(0.5 * np.mean(level, axis=0)))
+        raw = probability_of(np.mean(level, axis=0))
         own, share = answer[plain], answer[plain].mean()
         weight = np.where(own, 1.0 / share, 1.0 / (1.0 - share))
         self.calibration = LogisticRegression(C=10.0).fit(logit(raw[plain])[:, None], own, sample_weight=weight)

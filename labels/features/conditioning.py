@@ -17,6 +17,7 @@ SHARE_OF_NYQUIST = 0.95
 FEWEST_SAMPLES = 64
 BLOCKS = 96
 FEWEST_BINS = 24
+"""Components in the smallest block from which a local mean power is taken."""
 TONE_CEILING = 10.0
 """A component is cut to this many times the local mean power; noise exceeds it once in e^10 components."""
 MEDIAN_OVER_MEAN = float(np.log(2.0))

@@ -8,6 +8,7 @@ places would find in noise alone, about ln n, is taken off.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -125,16 +126,16 @@ def find_family(
 
     `prior` is the standard deviation (a share) of a normal prior of the fundamental around the centre.
     """
-    best: Family | None = None
-    for width in WIDTHS:
+
+    def at_width(width: float) -> Family:
         grid = _grid(centre, tolerance, max(lines.step, width * shaft_hz), harmonics)
         parts = harmonic_evidence(lines, grid, shaft_hz, width, harmonics)
         places = max(1.0, 2.0 * tolerance * centre * harmonics / max(lines.step, width * shaft_hz))
         doubt = np.log(places) + 0.5 * ((grid / centre - 1.0) / prior) ** 2
         total = parts.sum(axis=0) - doubt
-        best = _stronger(best, _at(total, parts, grid))
-    assert best is not None
-    return best
+        return _at(total, parts, grid)
+
+    return reduce(_stronger, map(at_width, WIDTHS))
 
 
 def _grid(centre: float, tolerance: float, width: float, harmonics: int) -> Array:
@@ -148,9 +149,7 @@ def _at(total: Array, parts: Array, grid: Array) -> Family:
     return Family(np.maximum(total[bands, place], 0.0), parts[:, bands, place].T, grid[place])
 
 
-def _stronger(old: Family | None, new: Family) -> Family:
-    if old is None:
-        return new
+def _stronger(old: Family, new: Family) -> Family:
     wins = new.evidence > old.evidence
     return Family(
         np.where(wins, new.evidence, old.evidence),

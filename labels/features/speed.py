@@ -6,14 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labels.features.conditioning import Array, Conditioned, local_mean_power
+from labels.features.conditioning import FEWEST_BINS, Array, Conditioned, local_mean_power
 from labels.features.envelopes import EnvelopeSpectra
 from labels.features.families import Lines, find_family, harmonic_evidence, lines_in
 from labels.features.kinematics import Kinematics
 
 SPEED_TOLERANCE = 0.022
+"""The share by which the shaft may turn faster or slower than stated."""
 SHAFT_HARMONICS = 8
 SPECTRUM_FLOOR_ORDERS = 3.0
+"""Width, in orders of the shaft, of the blocks from which the floor under the lines of the vibration is taken."""
 SLIP_SPREAD = 0.007
 """Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle."""
 KNEE = 12.0
@@ -33,7 +35,7 @@ def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tupl
     """Lines of the raw spectrum over its local floor up to `top_hz`, and that excess (1, F)."""
     count = min(record.raw.size, int(top_hz / record.step) + 2)
     power = np.abs(record.raw[None, :count]) ** 2
-    block = max(24, int(SPECTRUM_FLOOR_ORDERS * shaft_hz / record.step))
+    block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * shaft_hz / record.step))
     floor = local_mean_power(power[:, 1:], min(block, max(2, count // 2)))
     excess = np.zeros_like(power)
     excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)

@@ -25,8 +25,11 @@ class Guess:
     spread: Trees
     reach: float
 
-    def tell(self, row: Array) -> tuple[float, float]:
-        """Correction factor of one `row` (F,) and the factor by which 90 % of all cases lie about it at most."""
+    def correction(self, row: Array) -> tuple[float, float]:
+        """Factor that corrects the quantity which one `row` (F,) describes, and the factor of its 90 % interval.
+
+        In 90 % of the training cases the truth lay between the corrected quantity divided by the second and times it.
+        """
         centre = float(self.centre.predict(row[None])[0])
         spread = max(float(self.spread.predict(row[None])[0]), 0.0) + SMALLEST_SPREAD
         return math.exp(centre), math.exp(self.reach * spread)

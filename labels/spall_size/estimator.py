@@ -13,13 +13,12 @@ from labels.spall_size.calibration import Calibration, Judgement
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.measurement import Measurement, leading_pairs, measure
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
 
 Array = NDArray[np.float64]
 
 LOAD_AXIS = -1  # y, or the only axis of a recording
 ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
-FEWEST_PASSES, FEWEST_SAMPLES_A_PASS = 6.0, 16.0
 LONGEST_EXTENT = math.pi
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
 
@@ -75,9 +74,9 @@ def _told(
     evidence: Evidence, measured: Measurement, judgement: Judgement, situation: Situation, trust: float
 ) -> SizeEstimate:
     bearing = situation.bearing()
-    factor, doubt = judgement.lag.tell(measured.row)
+    factor, doubt = judgement.lag.correction(measured.row)
     lag = min(measured.lag * factor, evidence.mean.period) / evidence.rate
-    arc_factor, arc_doubt = judgement.arc.tell(measured.row)
+    arc_factor, arc_doubt = judgement.arc.correction(measured.row)
     extent = min(measured.lag_arc * arc_factor, LONGEST_EXTENT)
     millimetres = bearing.raceway_radius(evidence.race) * 1e3
     more = math.floor((LONGEST_EXTENT - extent) / bearing.spacing)

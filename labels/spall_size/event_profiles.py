@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 EDGES = (-0.5, -0.35, -0.25, -0.17, -0.1, -0.05, -0.02, 0.02, 0.05, 0.1, 0.17, 0.25, 0.35, 0.5)
 PROFILED = (0, 1, 3)
 RIVALS = 3
+# Logarithms of the ratio of two lags: up to SAME they say the same, up to NEAR they may mean the same events.
+SAME, NEAR = 0.03, 0.3
 
 
 def profile_columns(mean: MeanPass, entry: Array, leave: Array, lag: Array) -> Array:
@@ -33,13 +35,13 @@ def rival_columns(pairs: Pairs, score: Array, best: int) -> list[float]:
     """Score of the best pair, then the score and log relative lag of the next ones that differ from it in lag."""
     columns = [float(score[best])]
     order = np.argsort(-score)
-    apart = np.abs(np.log(pairs.lag[order] / pairs.lag[best])) > 0.03
+    apart = np.abs(np.log(pairs.lag[order] / pairs.lag[best])) > SAME
     rivals = order[apart][:RIVALS]
     for k in range(RIVALS):
         if k < rivals.size:
             columns += [float(score[rivals[k]]), float(np.log(pairs.lag[rivals[k]] / pairs.lag[best]))]
         else:
             columns += [0.0, 0.0]
-    near = np.abs(np.log(pairs.lag / pairs.lag[best])) < 0.3
+    near = np.abs(np.log(pairs.lag / pairs.lag[best])) < NEAR
     weight = np.maximum(score, 0.0) ** 2 * near
     return [*columns, float((weight * np.log(pairs.lag / pairs.lag[best])).sum() / max(weight.sum(), 1e-12))]

@@ -23,15 +23,14 @@ Array = NDArray[np.float64]
 class Evidence:
     """What a record shows if its spall is on `race`: the passes, their mean and all pairs of candidates.
 
-    `rate` Hz; `deviation` is the standard deviation of the signal, `unit` the size of the numbers in `whitened`, both
-    in the unit of the signal.
+    `rate` Hz; `deviation` is the standard deviation of the signal, `unit` what 1 in the prewhitened signal stands for,
+    both in the unit of the signal.
     """
 
     race: str
     rate: float
     deviation: float
     unit: float
-    whitened: Array
     track: PassTrack
     alignment: Alignment
     mean: MeanPass
@@ -63,7 +62,7 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
         log_noise_share(signal),
     )
     pairs = candidate_pairs(mean, places, facts)
-    return Evidence(race, rate, float(np.std(signal)), found_free.unit, whitened, found[race], alignment, mean, pairs)
+    return Evidence(race, rate, float(np.std(signal)), found_free.unit, found[race], alignment, mean, pairs)
 
 
 def _predictability(signal: Array) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.event_profiles import profile_columns, rival_columns
+from labels.spall_size.event_profiles import NEAR, SAME, profile_columns, rival_columns
 from labels.spall_size.evidence import Evidence
 from labels.spall_size.pair_features import NAMES, Pairs
 from labels.spall_size.situation import Situation
@@ -20,7 +20,6 @@ LEADING = 16
 # Leading pairs differ in lag by more than this (logarithm): of those that say nearly the same the best stands for all.
 DISTINCT = 0.05
 CORES = [NAMES.index(f"{event}_core_all") for event in ("entry", "exit")]
-NEAR = 0.3  # logarithm of a lag's ratio
 
 
 @dataclass(frozen=True)
@@ -47,7 +46,7 @@ class Measurement:
 
 
 def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> LeadingPairs:
-    """At most sixteen pairs of `evidence` by `score` (P,); rows are longer if load and Hertz factor are known."""
+    """At most LEADING pairs of `evidence` by `score` (P,); rows are longer if load and Hertz factor are known."""
     pairs = evidence.pairs
     order = leading_order(pairs, score)
     entry, leave, lag = pairs.entry[order], pairs.exit[order], pairs.lag[order]
@@ -85,7 +84,7 @@ def measure(leading: LeadingPairs, rank: Array) -> Measurement:
     apart = np.log(leading.lag / leading.lag[best])
     weight = np.maximum(rank, 1e-6) ** 2 * (np.abs(apart) < NEAR)
     middle = float((weight * apart).sum() / weight.sum())
-    others = np.where(np.abs(apart) > 0.03, rank, -1.0)
+    others = np.where(np.abs(apart) > SAME, rank, -1.0)
     rival = int(np.argmax(others))
     standing = [
         float(rank[best]),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from physics.bearing import Bearing
 from physics.checks import require, require_not_negative, require_positive
 
-PLACEHOLDER_FACTOR = 1e10
+PLACEHOLDER_FACTOR = 1e10  # N/mⁿ
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,8 @@ class Situation:
 
     `load` (N) and `load_deflection` (N/mⁿ, the Hertz factor) make the size more accurate, `race` ("outer", "inner")
     spares finding it out; each is None if unknown. `polarity_known` is False if a push upwards may show as a negative
-    acceleration.
+    acceleration. Raises InvalidParameter for a shaft speed or a Hertz factor that is not above 0, a negative load,
+    another race or a bearing that cannot be.
     """
 
     balls: int
@@ -47,7 +48,7 @@ class Situation:
             self.rows,
             self.pitch_diameter,
             self.ball_diameter,
-            self.load_deflection or PLACEHOLDER_FACTOR,
+            PLACEHOLDER_FACTOR if self.load_deflection is None else self.load_deflection,
             self.exponent,
             self.contact_angle,
         )

@@ -13,6 +13,7 @@ Array = NDArray[np.float64]
 Interval = tuple[float, float]
 UNKNOWN: Interval = (math.nan, math.nan)
 NO_TIMES = np.zeros((0, 2))
+FEWEST_PASSES, FEWEST_SAMPLES_A_PASS = 6, 16  # TOO_SHORT and TOO_COARSE say these in words
 
 
 class SizeOutcome(Enum):

@@ -21,5 +21,9 @@ def release_arc(bearing: Bearing, race: str, load: float) -> float:
 
 
 def arc_with_static_release(lag_arc: float, bearing: Bearing, race: str, load: float) -> float:
-    """Arc of a spall (rad): that between the events plus twice the static release arc (MODEL.md, point 4)."""
+    """Arc of a spall (rad) from the `lag_arc` (rad) between its events under a radial `load`, N.
+
+    The ball is released one release arc behind the entry edge and takes load again one before the exit edge, so the
+    arc is that between the events plus twice the release arc.
+    """
     return lag_arc + 2.0 * release_arc(bearing, race, load)

@@ -20,7 +20,7 @@ from datagen.charts.scores import Score, score
 from datagen.cli import app
 from datagen.drawing.stability_map import draw_sheet, kind, kinds, stability_sheets
 from datagen.drawing.style import house_style, plt
-from datagen.drawing.work_precision import draw_work_precision, work_precision_png
+from datagen.drawing.work_precision import RINGED, draw_work_precision, work_precision_png
 from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.runs.progress import steps_told
@@ -389,6 +389,25 @@ def test_the_default_is_named_in_the_legend_and_small_errors_are_on_the_panel(sm
         plt.close(figure)
     assert named == ["modal (default)"]
     assert low == pytest.approx(1e-8)
+
+
+@pytest.mark.parametrize(("error", "edge"), [(12.0, 8.0), (1e-9, 1e-8)])
+def test_an_error_beyond_the_panel_is_ringed_on_its_edge_and_one_on_it_is_not(small_chart, error, edge):
+    score = small_chart.runs[0].score
+    runs = [
+        dataclasses.replace(small_chart.runs[0], real_time=speed, score=dataclasses.replace(score, acceleration=value))
+        for speed, value in ((3.0, 1e-3), (7.0, error))
+    ]
+    with house_style():
+        drawn = {}
+        for kept in (1, 2):
+            chart = dataclasses.replace(small_chart, runs=tuple(runs[:kept]), edges={})
+            figure = draw_work_precision(chart)
+            drawn[kept] = {line.get_label(): line.get_xydata().tolist() for line in figure.axes[1].lines}
+            plt.close(figure)
+    assert RINGED not in drawn[1]
+    assert drawn[2][RINGED] == [[7.0, edge]]
+    assert drawn[2][runs[0].name] == [[3.0, 1e-3], [7.0, edge]]
 
 
 def test_names_in_a_chart_do_not_lie_on_each_other(small_chart):

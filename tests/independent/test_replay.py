@@ -1,4 +1,7 @@
-"""The independent replay against MODEL's check values and closed forms: nothing here touches the packages."""
+"""The independent replay against closed forms and a third implementation; nothing here touches the packages.
+
+The third implementation's numbers stand in tests/authorities/independent_model.toml, too.
+"""
 
 import ast
 import json
@@ -78,7 +81,7 @@ def test_the_script_run_alone_on_a_text_writes_what_the_function_returns(tmp_pat
 
 
 @pytest.mark.parametrize(("name", "bpfo"), [("G0", 34.283), ("F0", 76.74)])
-def test_the_cage_turns_at_the_ball_pass_frequency_of_the_model_page(name, bpfo):
+def test_the_cage_turns_at_the_ball_pass_frequency_of_the_third_implementation(name, bpfo):
     parameters = reference_scene_json(name)["parameters"]
     passes = parameters["Nb"] * constant_slip(parameters)["nominal_speed"] / (2 * np.pi)
     assert passes == pytest.approx(bpfo, abs=5e-3 if name == "F0" else 5e-4)  # printed digits
@@ -92,7 +95,7 @@ def test_the_most_loaded_ball_of_the_healthy_gearbox_rig_carries_62_995_n():
 
 
 @pytest.mark.parametrize(("degrees", "kyy", "kxx"), [(0.0, 97.85e6, 61.42e6), (7.5, 97.84e6, 66.35e6)])
-def test_the_stiffness_of_the_healthy_gearbox_rig_is_that_of_the_model_page(degrees, kyy, kxx):
+def test_the_stiffness_of_the_healthy_gearbox_rig_is_that_of_the_third_implementation(degrees, kyy, kxx):
     k = stiffness(read_machine(reference_scene_json("G0")), np.radians(degrees))
     assert k[1, 1] == pytest.approx(kyy, abs=5e3)  # printed digits
     assert k[0, 0] == pytest.approx(kxx, abs=5e3)  # printed digits
@@ -106,7 +109,7 @@ def test_the_stiffness_of_the_healthy_gearbox_rig_is_that_of_the_model_page(degr
         ("F0", [464.1, 902.2, 1658.8, 1996.4, 9898.4, 9900.1]),
     ],
 )
-def test_the_linearised_natural_frequencies_are_those_of_the_model_page(name, expected):
+def test_the_linearised_natural_frequencies_are_those_of_the_third_implementation(name, expected):
     found = natural_frequencies(reference_scene_json(name))
     np.testing.assert_allclose(found, expected, atol=0.051)  # printed to 0.1 Hz (0.01 Hz below 200 Hz)
 
@@ -119,7 +122,7 @@ def test_the_linearised_natural_frequencies_are_those_of_the_model_page(name, ex
         ("F", "inner", 1.2e-3 / 18.5e-3, 55.0),
     ],
 )
-def test_a_ball_drops_into_a_deep_gap_as_far_as_the_model_page_says(machine, race, extent, drop_um):
+def test_a_ball_drops_into_a_deep_gap_as_far_as_in_the_third_implementation(machine, race, extent, drop_um):
     found = deep_gap(race, extent, machine).max() * 1e6
     assert found == pytest.approx(drop_um, abs=0.5 if race == "inner" else 0.05)  # printed digits
 

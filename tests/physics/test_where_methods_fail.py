@@ -223,7 +223,7 @@ def test_contacts_far_too_stiff_for_an_explicit_method_are_refused_and_named(ref
 def test_the_limiting_rate_of_a_lightly_damped_rig_is_its_fastest_mode(gearbox, reference_scene):
     rest = equilibrium(reference_scene("G0", 0.02), np.zeros(1))
     rate = fastest_rate(gearbox, "every mode", rest.stiffness[0], rest.damping[0])
-    assert rate == pytest.approx(2.0 * math.pi * 10548.1, rel=1e-4)  # MODEL's measured value, to a decimal
+    assert rate == pytest.approx(2.0 * math.pi * 10548.1, rel=1e-4)  # undamped mode of an independent model
 
 
 def test_the_limiting_rate_of_the_contact_modes_is_the_root_of_their_quadratic(gearbox):

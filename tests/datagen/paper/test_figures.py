@@ -1,4 +1,4 @@
-"""What the chapters find, against MODEL's check values, the paper's words and other ways to the same number."""
+"""What the chapters find, against an independent model, the paper's words and other ways to the same number."""
 
 import numpy as np
 import pytest

@@ -7,8 +7,8 @@ import pytest
 
 from datagen.drawing.style import house_style, plt
 from datagen.paper import question1_extended_profiles, question2_unequal_balls, question3_slip
-from datagen.paper.profile_search import Outcome, Profile, outcome, rough_profiles
-from datagen.paper.question1_extended_profiles import answer, chosen_title
+from datagen.paper.profile_search import CHOSEN, REFERENCE, SMOOTH, Outcome, Profile, outcome, profiles, rough_profiles
+from datagen.paper.question1_extended_profiles import answer
 from datagen.paper.question2_unequal_balls import machine_state, measure, unequal
 from datagen.paper.question3_slip import FADED, faded, lines_at, predicted_drop
 from datagen.paper.question3_slip import measure as measure_slip
@@ -20,7 +20,18 @@ SIXTH = 5
 @pytest.fixture(scope="module")
 def chosen():
     """The profile that the figures use, found in the grid by its name."""
-    return next(one for one in rough_profiles((2.0,), (8.0,), (4.0,)) if one.title == chosen_title())
+    return next(one for one in rough_profiles((2.0,), (8.0,), (4.0,)) if one.title == CHOSEN)
+
+
+def test_the_profiles_that_the_figures_name_are_in_the_grid():
+    assert {CHOSEN, REFERENCE, SMOOTH} <= {one.title for one in profiles()}
+
+
+def test_a_search_without_the_chosen_profile_has_no_table():
+    outcomes, _, _ = made_up_numbers()
+    others = [one for one in outcomes if one.profile.title != CHOSEN]
+    with pytest.raises(ValueError, match="8 µm about 4 µm, shortest wave 2 mm"):
+        question1_extended_profiles.rows(others)
 
 
 def few(profile, draws):
@@ -118,10 +129,11 @@ def test_the_first_faded_harmonic_is_the_first_10_db_down():
 def made_up_numbers():
     """Numbers in the shapes that the three questions' figures draw, not simulated."""
     generator = np.random.default_rng(0)
-    profiles = [*rough_profiles((1.0, 2.0), (4.0, 8.0), (4.0,)), Profile("reference", "reference profile G2r", ())]
+    others = (Profile("reference", REFERENCE, ()), Profile("smooth", SMOOTH, ()))
+    searched = [*rough_profiles((1.0, 2.0), (4.0, 8.0), (4.0,)), *others]
     outcomes = [
         Outcome(one, generator.normal(2.0, 3.0, (10, 13)), np.full(10, 6), generator.uniform(0.5, 9.0, 10))
-        for one in profiles
+        for one in searched
     ]
     shape = (len(question2_unequal_balls.DEVIATIONS_UM), 5, 13)
     sidebands = {
@@ -153,7 +165,7 @@ def test_the_figures_of_the_questions_have_their_panels():
 def test_the_tables_of_the_questions_have_a_row_for_every_case():
     outcomes, sidebands, slip = made_up_numbers()
     first = question1_extended_profiles.rows(outcomes)
-    assert len([row for row in first if row.quantity.startswith("harmonics 3 to 13 over the line spall's: ")]) == 5
+    assert len([row for row in first if row.quantity.startswith("harmonics 3 to 13 over the line spall's: ")]) == 6
     second = question2_unequal_balls.rows(sidebands, sidebands)
     assert len([row for row in second if row.where]) == 2 * len(question2_unequal_balls.DEVIATIONS_UM)
     third = question3_slip.rows(slip)

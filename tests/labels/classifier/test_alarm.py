@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from labels.classifier.alarm import CLEAR, CLEARNESS, NOISE_LIKE, Alarm, clearness, fit_alarm, logit
+from labels.classifier.alarm import CLEAR, CLEARNESS, NOISE_LIKE, Alarm, clearness, fit_alarm
+from labels.classifier.log_odds import logit
 from labels.features.table import FEATURE_NAMES
 
 

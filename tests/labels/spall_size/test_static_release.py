@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from labels.spall_size.situation import Situation
+from labels.spall_size.situation import PLACEHOLDER_FACTOR, Situation
 from labels.spall_size.static_release import (
     USUAL_SHARE_OF_PEAK,
     arc_with_static_release,
@@ -13,6 +13,7 @@ from labels.spall_size.static_release import (
     static_compression,
 )
 from physics import catalog
+from physics.checks import InvalidParameter
 
 GEARBOX = catalog.rig("gearbox").bearing
 
@@ -52,3 +53,11 @@ def test_a_situation_gives_both_races_unless_the_race_is_known():
     assert set(Situation(**known, race="inner").pass_periods()) == {"inner"}
     assert not Situation(**known, load=300.0).load_known
     assert Situation(**known, load=300.0, load_deflection=5e9).load_known
+
+
+@pytest.mark.parametrize("factor", [0.0, -5e9, math.nan])
+def test_a_hertz_factor_is_above_0_or_unknown(factor):
+    known = {"balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3, "shaft_speed": 44.0}
+    with pytest.raises(InvalidParameter, match="load_deflection"):
+        Situation(**known, load=300.0, load_deflection=factor)
+    assert Situation(**known).bearing().load_deflection == PLACEHOLDER_FACTOR

@@ -31,7 +31,7 @@ def tukey(race="outer", **changes):
 
 
 def hanging(race, bearing, psi):
-    """Drop at the angle ψ from a sharp edge, as the model page prints it."""
+    """Drop at ψ (rad) from a sharp edge, m: Rb − √(Rb² − R² sin²ψ) ∓ R (1 − cos ψ), − outer race, + inner race."""
     r, ball = bearing.raceway_radius(race), bearing.ball_radius
     return ball - np.sqrt(ball**2 - r**2 * np.sin(psi) ** 2) + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
 

@@ -26,7 +26,7 @@ def gap(depth):
 
 
 def hanging(race, psi):
-    """Drop at the angle ψ from a sharp edge, as the model page prints it."""
+    """Drop at ψ (rad) from a sharp edge, m: Rb − √(Rb² − R² sin²ψ) ∓ R (1 − cos ψ), − outer race, + inner race."""
     r = RACE[race]
     sag = BALL - np.sqrt(BALL**2 - r**2 * np.sin(psi) ** 2)
     return sag + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))

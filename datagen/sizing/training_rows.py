@@ -106,7 +106,7 @@ def _slim(evidence: Evidence) -> Evidence:
     pairs = replace(evidence.pairs, features=evidence.pairs.features.astype(np.float32))
     energy: Any = evidence.mean.energy.astype(np.float32)
     mean = replace(evidence.mean, energy=energy, waveform=nothing, sway=nothing, give=nothing)
-    return replace(evidence, whitened=nothing, mean=mean, pairs=pairs)
+    return replace(evidence, mean=mean, pairs=pairs)
 
 
 def trial(sized: SizedRecord, evidence: Evidence, heard: Heard) -> Trial:

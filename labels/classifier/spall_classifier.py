@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassifierMixin
+from threadpoolctl import threadpool_limits
 
 from labels.classifier.alarm import fit_alarm
 from labels.classifier.classes import CLASSES, HEALTHY, decide
@@ -61,6 +62,17 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         `records` (N,) are the records that the rows are of, each its own if None; `noisy` (N,) marks rows of a record
         to which noise was added.
         """
+        with threadpool_limits(1):  # trees this small are fitted faster alone than by threads that wait for each other
+            return self._fit(X, y, groups, records, noisy)
+
+    def _fit(
+        self,
+        X: Array,
+        y: NDArray[Any],
+        groups: NDArray[Any] | None,
+        records: NDArray[np.int64] | None,
+        noisy: NDArray[np.bool_] | None,
+    ) -> SpallClassifier:
         X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
         records = np.arange(len(y)) if records is None else np.asarray(records)

@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 LOCATIONS = ("none", "outer", "inner")
 DURATIONS, SHARES = (0.4, 0.8, 2.0, 10.0), (4 / 12, 4 / 12, 3 / 12, 1 / 12)
 """Lengths (s) and their shares, as in the transfer recipe."""
+PURPOSES = ("duration", "bearing", "paths", "floor", "noise", "background", "impulses")
 
 
 @dataclass(frozen=True)
@@ -41,22 +42,44 @@ class Train:
     machine: int
 
 
+@dataclass(frozen=True)
+class _Streams:
+    """Random numbers of a record: every purpose has a stream of its own, so that what is left out changes no other."""
+
+    seed: int
+    machine: int
+    record: int
+
+    def of_machine(self, purpose: str) -> np.random.Generator:
+        """The stream that all records of the machine share."""
+        return self._stream(0, purpose)
+
+    def of_record(self, purpose: str) -> np.random.Generator:
+        """The record's own stream."""
+        return self._stream(self.record + 1, purpose)
+
+    def _stream(self, scope: int, purpose: str) -> np.random.Generator:
+        key = (self.machine, scope, PURPOSES.index(purpose))
+        return np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=key))
+
+
 def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients | None = None) -> Train:
     """The record with that number of a virtual machine; the same numbers always give the same record."""
     ingredients = ingredients or Ingredients()
-    own = np.random.default_rng([seed, machine])
-    generator = np.random.default_rng([seed, machine, record + 1])
-    rate, duration = 25_600.0, float(generator.choice(DURATIONS, p=SHARES))
-    kinematics = _bearing(own, generator)
+    streams = _Streams(seed, machine, record)
+    own, generator = streams.of_machine, streams.of_record
+    rate, duration = 25_600.0, float(generator("duration").choice(DURATIONS, p=SHARES))
+    kinematics = _bearing(own("bearing"), generator("bearing"))
     location = LOCATIONS[record % len(LOCATIONS)]
-    paths = _paths(own if ingredients.sensor_paths else np.random.default_rng(seed), ingredients.sensor_paths)
-    floor = _floor(own if ingredients.machine_floor else generator)
+    paths = _paths(own("paths") if ingredients.sensor_paths else np.random.default_rng(seed), ingredients.sensor_paths)
+    floor = _floor((own if ingredients.machine_floor else generator)("floor"))
     size = int(rate * duration)
-    signal = floor * generator.standard_normal(size)
+    signal = floor * generator("noise").standard_normal(size)
     if ingredients.backgrounds:
-        signal += _background(own, generator, size, rate, kinematics)
+        signal += _background(own("background"), generator("background"), size, rate, kinematics)
     if location != "none":
-        force = _impulses(own, generator, size, rate, kinematics, location, ingredients.shaft_modulation)
+        modulated = ingredients.shaft_modulation
+        force = _impulses(own("impulses"), generator("impulses"), size, rate, kinematics, location, modulated)
         signal += fftconvolve(force, _ringing(paths, rate))[:size]
     return Train(signal, rate, kinematics, location, machine)
 
@@ -113,11 +136,11 @@ def _impulses(
     jitter = generator.uniform(0.002, 0.02)
     times = np.cumsum(period * (1.0 + jitter * generator.standard_normal(count))) - period * generator.uniform()
     turn = 2.0 * np.pi * kinematics.shaft_hz * times + generator.uniform(0.0, 2.0 * np.pi)
-    load = np.ones(count)
     if location == "inner":
         load = np.maximum(np.cos(turn) + own.uniform(-0.2, 0.8), 0.05)
-    elif modulated:
-        load = 1.0 + generator.uniform(0.0, 0.6) * np.cos(turn)
+    else:
+        depth = generator.uniform(0.0, 0.6)  # drawn for all, so that the heights below are the same either way
+        load = 1.0 + (depth if modulated else 0.0) * np.cos(turn)
     height = np.exp(generator.uniform(np.log(0.3), np.log(20.0))) * load
     height = height * np.exp(0.2 * generator.standard_normal(count))
     force = np.zeros(size)
@@ -132,11 +155,7 @@ def _background(
     """Shaft and mains tones, a gear mesh with sidebands, and random knocks; levels are the machine's."""
     time = np.arange(size) / rate
     total = np.zeros(size)
-    tones = [(order * kinematics.shaft_hz, _level(own, 0.01, 3.0) / order) for order in range(1, 11)]
-    tones += [(order * float(own.choice([50.0, 60.0])), _level(own, 0.003, 0.6) / order) for order in range(1, 5)]
-    teeth, mesh = int(own.integers(17, 42)), _level(own, 0.001, 5.0)
-    tones += [((teeth + side) * kinematics.shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
-    for frequency, amplitude in tones:
+    for frequency, amplitude in _tones(own, kinematics.shaft_hz):
         if frequency < rate / 2.0:
             total += amplitude * np.cos(2.0 * np.pi * frequency * time + generator.uniform(0.0, 2.0 * np.pi))
     knocks = np.zeros(size)
@@ -145,6 +164,15 @@ def _background(
         0.5 * generator.standard_normal(count)
     )
     return total + fftconvolve(knocks, _ringing(_paths(own, True), rate))[:size]
+
+
+def _tones(own: np.random.Generator, shaft_hz: float) -> list[tuple[float, float]]:
+    """Frequency (Hz) and amplitude of ten tones of the shaft, four of the mains and five of the gear mesh."""
+    tones = [(order * shaft_hz, _level(own, 0.01, 3.0) / order) for order in range(1, 11)]
+    mains = float(own.choice([50.0, 60.0]))
+    tones += [(order * mains, _level(own, 0.003, 0.6) / order) for order in range(1, 5)]
+    teeth, mesh = int(own.integers(17, 42)), _level(own, 0.001, 5.0)
+    return tones + [((teeth + side) * shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
 
 
 def _level(own: np.random.Generator, low: float, high: float) -> float:

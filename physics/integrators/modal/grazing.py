@@ -83,8 +83,8 @@ def _first_contradiction(
     contacts: Contacts, noted: Array, spall: int, place: int, step: float, arc: float, travel: float, looks: int
 ) -> float:
     """Share of the step at which a ball that starts at `arc` and covers `travel` first contradicts the contact set; 0
-    if none of the `looks` sees it."""
-    balls, law, track = contacts.balls, contacts.law, contacts.track
+    if it is seen at none of the `looks`, nor between two that it turns back between."""
+    balls, track = contacts.balls, contacts.track
     cage = int(track.spalls[spall, CAGE])
     depth, slope = path_under(track, spall, arc)
     begin, begin_rate = noted[cage, 0, place] + depth, step * noted[cage, 1, place] + slope * travel
@@ -92,15 +92,40 @@ def _first_contradiction(
     end, end_rate = balls[cage, COMPRESSION, place] + depth, step * balls[cage, CLOSING, place] + slope * travel
     c2 = 3.0 * (end - begin) - 2.0 * begin_rate - end_rate
     c3 = begin_rate + end_rate - 2.0 * (end - begin)
+    over_race = c3, c2, begin_rate, begin
     held = balls[cage, ACTIVE, place] > 0.5
-    for look in range(1, looks):
+    before, rate_before = 0.0, step * noted[cage, 1, place]
+    for look in range(1, looks + 1):
         share = look / looks
-        depth, slope = path_under(track, spall, arc + share * travel)
-        compression = ((c3 * share + c2) * share + begin_rate) * share + begin - depth
-        touching = compression > 0.0
-        if law.no_tension and touching:
-            rate = ((3.0 * c3 * share + 2.0 * c2) * share + begin_rate - slope * travel) / step
-            touching = law_force(law, compression, rate) > 0.0
-        if touching != held:
+        touching, rate = _touching_at(contacts, spall, step, arc, travel, over_race, share)
+        if rate_before * rate < 0.0 and (rate < 0.0) != held:
+            turn = before + (share - before) * rate_before / (rate_before - rate)
+            touching_there, _ = _touching_at(contacts, spall, step, arc, travel, over_race, turn)
+            if touching_there != held:
+                return turn
+        if touching != held and look < looks:
             return share
+        before, rate_before = share, rate
     return 0.0
+
+
+@njit_inline
+def _touching_at(
+    contacts: Contacts,
+    spall: int,
+    step: float,
+    arc: float,
+    travel: float,
+    over_race: tuple[float, float, float, float],
+    share: float,
+) -> tuple[bool, float]:
+    """Whether a ball touches at a share of the step, and its rate of compression (m a step) there; `over_race` are the
+    coefficients, from the cube down, of what its compression (m) would be over a smooth race."""
+    c3, c2, c1, c0 = over_race
+    depth, slope = path_under(contacts.track, spall, arc + share * travel)
+    compression = ((c3 * share + c2) * share + c1) * share + c0 - depth
+    rate = (3.0 * c3 * share + 2.0 * c2) * share + c1 - slope * travel
+    touching = compression > 0.0
+    if contacts.law.no_tension and touching:
+        touching = law_force(contacts.law, compression, rate / step) > 0.0
+    return touching, rate

@@ -21,7 +21,15 @@ from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides
 from physics.integrators.modal.choice import next_step
 from physics.integrators.modal.flow import OUTPUT, LinearFlow, set_rest
 from physics.integrators.modal.grazing import is_rough, mark_grazing
-from physics.integrators.modal.judgement import dipped, is_carried, judge, overshot, remember, set_tolerance, too_coarse
+from physics.integrators.modal.judgement import (
+    dipped,
+    is_carried,
+    judge,
+    misses_change,
+    remember,
+    set_tolerance,
+    too_coarse,
+)
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
@@ -235,7 +243,7 @@ def march_modal(
             if action != TAKE:
                 force = take_back(contacts, flow, memory, trial, action)
                 continue
-        elif too_coarse(contacts, grid, memory, step) or overshot(contacts, grid, memory, step):
+        elif too_coarse(contacts, grid, memory, step) or misses_change(contacts, grid, memory, step):
             force = take_back(contacts, flow, memory, trial, AGAIN)
             continue
         output.tally[STEPS] += 1

@@ -24,9 +24,24 @@ def test_a_ball_that_meets_a_bump_is_not_told_to_leave_it_at_the_same_instant():
     assert trace.unlocated_changes == 0
 
 
+def _shortened(drawn):
+    return dataclasses.replace(drawn.scene, cage=dataclasses.replace(drawn.scene.cage, duration=0.1))
+
+
+def test_a_contact_that_begins_before_the_steps_to_it_end_is_met_and_no_sample_is_passed_over():
+    drawn = _drawn(20270101, 3074)  # the bumps under another ball throw the ring to this one 5 µs early
+    scene = _shortened(drawn)
+    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    for accuracy in (3e-3, 1e-3, 1e-4):
+        trace = simulate(scene, drawn.rate, accuracy=accuracy)
+        error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
+        assert error <= trace.error_estimate <= accuracy
+        assert trace.acceleration.any(axis=1).all()
+
+
 def test_steps_to_the_end_of_a_contact_follow_the_bumps_behind_an_edge():
     drawn = _drawn(20261229, 4033)  # the film's force changes sides thrice between the edge and the loss of contact
-    scene = dataclasses.replace(drawn.scene, cage=dataclasses.replace(drawn.scene.cage, duration=0.1))
+    scene = _shortened(drawn)
     trace = simulate(scene, drawn.rate)
     exact = simulate(scene, drawn.rate, substeps=32, estimate_error=False)
     error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())

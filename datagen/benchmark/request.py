@@ -20,7 +20,7 @@ from labels.classifier.learners import LEARNERS
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
 LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
-SPOKEN = "module:Class, made without arguments, with predict_proba or predict; or module:function"
+SPOKEN = "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
 
 
 @dataclass(frozen=True)
@@ -86,6 +86,7 @@ def benchmark_of(
         tests,
         learner=asked.learner,
         estimator=own,
+        given=asked.estimator or "",
         takes_windows=asked.input == "windows",
         bandwidth=asked.bandwidth,
         speed_error=asked.speed_error,

@@ -46,7 +46,10 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Benchmark:
-    """What is learned from, what is tested on, and how; `estimator` is the user's own, None for ours, and `given` how it was named."""
+    """What is learned from, what is tested on, and how.
+
+    `estimator` is the user's own, None for ours, and `given` how it was named.
+    """
 
     train: Path
     tests: tuple[Path, ...]

@@ -19,7 +19,7 @@ from datagen.recipes.settings import Table
 PAGE = Path(__file__).with_name("recipe_keys.md")
 HEAD = """# Every key of a recipe
 
-Written by `docs/make_recipe_keys.py` from the settings themselves (`datagen/recipes/`), which a recipe is checked against;
+Written by `docs/make_recipe_keys.py` from the settings themselves (`datagen/recipes/`), by which recipes are checked.
 [datasets/README.md](../datasets/README.md) says how to write one. A unit is the end of a key and stands
 in its meaning. *Drawn* marks what may be drawn from a distribution, `{uniform = [4, 25]}` and the like, and must be in
 that range however it is drawn. A key without a default may be left out unless it is **required**; what holds then is in

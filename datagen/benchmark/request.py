@@ -14,7 +14,7 @@ from datagen.benchmark.training import SPEED_ERROR
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import load_own
-from datagen.places import require_folder
+from datagen.places import require_results_folder
 from labels.classifier.learners import LEARNERS
 
 INPUTS = ("features", "windows")
@@ -80,7 +80,7 @@ def benchmark_of(
         raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")
     _require_folders(train, tests, asked.input == "windows")
     if out is not None:
-        require_folder(out)
+        require_results_folder(out)
     return Benchmark(
         train,
         tests,

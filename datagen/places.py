@@ -9,6 +9,7 @@ from pathlib import Path
 from datagen.errors import BadInput
 
 OUT = "--out"
+MANIFEST = "manifest.json"
 
 
 def require_folder(folder: Path, field: str = OUT) -> None:
@@ -28,6 +29,14 @@ def require_folder(folder: Path, field: str = OUT) -> None:
         raise BadInput(
             f"cannot write into {nearest}", field=field, value=str(folder), allowed="a folder that you may write into"
         )
+
+
+def require_results_folder(folder: Path, field: str = OUT) -> None:
+    """Raise BadInput if results cannot be put into `folder`, or would be mixed with the files of a corpus there."""
+    require_folder(folder, field)
+    if (folder / MANIFEST).is_file():
+        problem = "this is the folder of a corpus, and results would be mixed with its files"
+        raise BadInput(problem, field=field, value=str(folder), allowed="a folder of its own")
 
 
 def require_file(path: Path, field: str = OUT) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
+from datagen.corpora.reading import AGAIN
 from datagen.runs.progress import for_people
 
 if TYPE_CHECKING:
@@ -20,8 +21,10 @@ def info_tables(info: Info) -> list[Table]:
 
 def _summary(info: Info) -> Table:
     table = Table(title=f"{info.name}: {info.title}" if info.title else info.name, show_header=False)
+    present = info.records - sum(info.missing_files.values())
     rows = {
-        "records": f"{info.records} of {info.asked} asked for; the recipe has {info.recipe_records}",
+        "records": f"{present} of {info.asked} asked for; the recipe has {info.recipe_records}",
+        **({"missing": _missing(info)} if info.missing_files else {}),
         "could not be made": str(info.failed),
         "virtual bearings": _bearings(info),
         "outside the model's range": f"{info.outside_validity} records",
@@ -35,6 +38,13 @@ def _summary(info: Info) -> Table:
     for name, text in rows.items():
         table.add_row(name, text)
     return table
+
+
+def _missing(info: Info) -> str:
+    """The shards that are gone, the first three by name, and how to mend it."""
+    names = list(info.missing_files)
+    said = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    return f"{said}, with {sum(info.missing_files.values())} records, which all else here still counts: {AGAIN}"
 
 
 def _bearings(info: Info) -> str:

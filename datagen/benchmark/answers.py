@@ -22,13 +22,13 @@ def estimator_name(estimator: Any) -> str:
     return str(getattr(estimator, "__name__", type(estimator).__name__))
 
 
-def class_probability(estimator: Any, table: Array) -> Array:
+def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
     """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator.
 
-    A class that it never saw has 0. Raises BadInput for names that are no classes, for another shape, and for numbers
-    that are no probabilities.
+    A class that it never saw has 0. Raises BadInput, which calls the estimator what the user has `given`, for names
+    that are no classes, for another shape, and for numbers that are no probabilities.
     """
-    name = estimator_name(estimator)
+    name = given or estimator_name(estimator)
     with own_code(name, "it failed to answer"):
         said, names = _answer(estimator, table)
     if len(said) != len(table) or said.ndim not in (1, 2):

@@ -46,12 +46,16 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Benchmark:
-    """What is learned from, what is tested on, and how; `estimator` is the user's own, None for ours."""
+    """What is learned from, what is tested on, and how.
+
+    `estimator` is the user's own, None for ours, and `given` how it was named.
+    """
 
     train: Path
     tests: tuple[Path, ...]
     learner: str = "all"
     estimator: Any | None = None
+    given: str = ""
     takes_windows: bool = False
     bandwidth: float | None = None
     speed_error: float = SPEED_ERROR
@@ -141,13 +145,13 @@ def _curve(benchmark: Benchmark, training: TrainingSet) -> dict[str, Any]:
     if not benchmark.curve:
         return {}
     own, windows = benchmark.estimator, benchmark.takes_windows
-    return {"learning_curve": learning_curve(training, benchmark.learner, own, windows)}
+    return {"learning_curve": learning_curve(training, benchmark.learner, own, windows, benchmark.given)}
 
 
 def _models(benchmark: Benchmark, training: TrainingSet) -> list[Model]:
     if benchmark.estimator is None:
         return train_models(training, benchmark.learner)
-    return [train_own(training, benchmark.estimator, benchmark.takes_windows)]
+    return [train_own(training, benchmark.estimator, benchmark.takes_windows, benchmark.given)]
 
 
 def _tested_records(benchmark: Benchmark, folder: Path, learned: pandas.DataFrame | None) -> pandas.DataFrame:

@@ -20,12 +20,13 @@ SEED = 31
 
 
 def learning_curve(
-    training: TrainingSet, learner: str, own: Any | None = None, takes_windows: bool = False
+    training: TrainingSet, learner: str, own: Any | None = None, takes_windows: bool = False, given: str = ""
 ) -> dict[str, list[dict[str, Any]]]:
     """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
     from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out.
 
-    The models are our `learner`, or with the user's `own` estimator copies of that, which must not be fitted yet.
+    The models are our `learner`, or with the user's `own` estimator copies of that, which must not be fitted yet;
+    `given` is its name in messages.
     """
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))
@@ -36,9 +37,9 @@ def learning_curve(
     curve: dict[str, list[dict[str, Any]]] = {}
     for count in sorted(counts):
         part = _part(training, np.isin(training.bearings, others[:count]))
-        fresh = None if own is None else copy_of(own)
+        fresh = None if own is None else copy_of(own, given)
         try:
-            models = train_models(part, learner) if fresh is None else [train_own(part, fresh, takes_windows)]
+            models = train_models(part, learner) if fresh is None else [train_own(part, fresh, takes_windows, given)]
         except BadInput:
             continue
         for model in models:

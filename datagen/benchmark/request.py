@@ -14,13 +14,13 @@ from datagen.benchmark.training import SPEED_ERROR
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import load_own
-from datagen.places import require_folder
+from datagen.places import require_results_folder
 from labels.classifier.learners import LEARNERS
 
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
 LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
-SPOKEN = "module:Class, made without arguments, with predict_proba or predict; or module:function"
+SPOKEN = "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
 
 
 @dataclass(frozen=True)
@@ -80,12 +80,13 @@ def benchmark_of(
         raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")
     _require_folders(train, tests, asked.input == "windows")
     if out is not None:
-        require_folder(out)
+        require_results_folder(out)
     return Benchmark(
         train,
         tests,
         learner=asked.learner,
         estimator=own,
+        given=asked.estimator or "",
         takes_windows=asked.input == "windows",
         bandwidth=asked.bandwidth,
         speed_error=asked.speed_error,

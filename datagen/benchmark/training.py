@@ -51,13 +51,14 @@ class Model:
     """Anything that gives probabilities (N, 5) of CLASSES, with the alarm at which a spall is called: one probability,
     or one that depends on the row.
 
-    `takes_windows` if it wants raw windows instead of features.
+    `takes_windows` if it wants raw windows instead of features; `given` is how the user named their own in the command.
     """
 
     name: str
     estimator: Any
     alarm: Alarm | float
     takes_windows: bool = False
+    given: str = ""
 
     def alarms(self, table: Array) -> Array:
         """Probability (N,) of a spall at which each row is called."""
@@ -67,7 +68,7 @@ class Model:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
         starts = range(0, max(len(table), 1), ROWS_AT_A_TIME)
         return np.concatenate(
-            [class_probability(self.estimator, table[start : start + ROWS_AT_A_TIME]) for start in starts]
+            [class_probability(self.estimator, table[start : start + ROWS_AT_A_TIME], self.given) for start in starts]
         )
 
 
@@ -131,24 +132,24 @@ def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
     )
 
 
-def copy_of(own: Any) -> Any:
-    """A copy of the user's estimator as it was made; raises BadInput if there can be none."""
+def copy_of(own: Any, given: str = "") -> Any:
+    """A copy of the user's estimator as it was made, called what is `given`; raises BadInput if there can be none."""
     from sklearn.base import clone
 
-    with own_code(estimator_name(own), "it cannot be copied"):
+    with own_code(given or estimator_name(own), "it cannot be copied"):
         return clone(own, safe=False)
 
 
-def train_own(training: TrainingSet, own: Any, takes_windows: bool) -> Model:
-    """The user's estimator, fitted if it can be; its spalls are called at even odds.
+def train_own(training: TrainingSet, own: Any, takes_windows: bool, given: str = "") -> Model:
+    """The user's estimator, fitted if it can be; its spalls are called at even odds. `given` is its name in messages.
 
     Raises BadInput if it cannot be fitted, or answers something else than our classes to the first rows.
     """
     name = estimator_name(own)
     if hasattr(own, "fit"):
-        with own_code(name, "it failed to learn"):
+        with own_code(given or name, "it failed to learn"):
             own.fit(training.table, training.classes)
-    model = Model(name, own, EVEN, takes_windows)
+    model = Model(name, own, EVEN, takes_windows, given)
     if len(training.table):
         model.probability(training.table[:ROWS_TO_TRY])
     return model

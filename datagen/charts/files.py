@@ -9,7 +9,7 @@ from pathlib import Path
 
 from datagen.charts.measure import Chart
 from datagen.corpora.atomic import write_results
-from datagen.places import require_folder
+from datagen.places import require_results_folder
 from datagen.plain import plain_json
 
 COLUMNS = (
@@ -32,7 +32,7 @@ COLUMNS = (
 
 def chart_folder(folder: Path) -> Path:
     """The folder to write into, made if need be; raises BadInput if that cannot be."""
-    require_folder(folder)
+    require_results_folder(folder)
     write_results(folder, {})
     return folder
 

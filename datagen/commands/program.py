@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from datagen.commands.usage import Program
 from datagen.errors import BadInput
 from datagen.places import require_file
 from physics.outcome import SimulationFailed
@@ -21,7 +22,7 @@ FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 app = typer.Typer(
     name="spallgen",
-    help="Simulated vibration of rolling bearings with raceway spalls, as labelled corpora.",
+    cls=Program,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -32,6 +33,23 @@ app = typer.Typer(
 JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write the results to this file too.")]
 CorpusFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a corpus.")]
 Command = Callable[..., None]
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        from datagen.records.versions import program_versions
+
+        print(f"spallgen {program_versions()['spallgen']}")
+        raise typer.Exit
+
+
+@app.callback()
+def spallgen(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Simulated vibration of rolling bearings with raceway spalls, as labelled corpora."""
 
 
 def command(example: str, name: str | None = None) -> Callable[[Command], Command]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
-from datagen.places import require_folder
+from datagen.places import require_results_folder
 
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
@@ -48,7 +48,7 @@ def size(
     from datagen.sizing.score import score_sizes
 
     if out is not None:
-        require_folder(out)
+        require_results_folder(out)
     sizes = parse_known_sizes(known_size or ())
     scores = score_sizes(folder, estimator, load_known, split, workers, sizes)
     write_json(json_file, scores)

@@ -1,4 +1,4 @@
-"""What a corpus holds and what it cost, from its manifest and index alone."""
+"""What a corpus holds and what it cost, from its manifest and index; shards are not opened, only missed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from datagen.corpora.manifest import Manifest
 from datagen.corpus import Corpus
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
@@ -35,6 +36,7 @@ class Info:
     `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
     records by two labels at once, `bearings_in_split` virtual bearings; `refused` are the impossible draws.
+    `missing_files` says how many records each shard held that is gone; all else is told as if they were there.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Info:
     record_bytes: float
     bearings: int
     outside_validity: int
+    missing_files: dict[str, int]
     bearings_in_split: dict[str, int]
     counts: dict[str, dict[str, int]]
     crossed: dict[str, dict[str, dict[str, int]]]
@@ -82,6 +85,7 @@ def corpus_info(folder: Path) -> Info:
         record_bytes=manifest.bytes / max(len(table), 1),
         bearings=int(table["bearing_id"].nunique()),
         outside_validity=int((table["validity"] != "").sum()),
+        missing_files=_missing(folder, corpus.manifest),
         bearings_in_split=_counts(table.drop_duplicates("bearing_id")["split"]),
         counts={name: _counts(table[name]) for name in COUNTED},
         crossed={f"{one} x {other}": _crossed(table, one, other) for one, other in CROSSED},
@@ -90,6 +94,11 @@ def corpus_info(folder: Path) -> Info:
         identity=manifest.identity.to_dict(),
         made_with=manifest.made_with,
     )
+
+
+def _missing(folder: Path, manifest: Manifest) -> dict[str, int]:
+    """Records of each shard whose file is not there; no file is opened."""
+    return {shard.file: shard.records for shard in manifest.shards if not (folder / shard.file).is_file()}
 
 
 def _counts(column: pandas.Series) -> dict[str, int]:

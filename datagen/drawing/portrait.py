@@ -49,6 +49,12 @@ class Portrait:
         return self.clean if self.sensor is None else self.sensor
 
     @property
+    def recorded_words(self) -> str:
+        """What the recorded acceleration is called beside the clean one."""
+        bare = self.background is not None and not self.background.any()
+        return "as recorded" if bare else "with background"
+
+    @property
     def has_parts(self) -> bool:
         """True if the record has a background and is known with and without it."""
         return self.sensor is not None and self.background is not None and bool(self.background.any())

@@ -70,9 +70,8 @@ def _draw_signal(axes: Axes, portrait: Portrait, part: slice, scale: float) -> N
     clean = portrait.undisturbed
     noisy = clean is not None and not np.array_equal(clean, portrait.acceleration)
     if noisy or clean is None:
-        axes.plot(
-            time, portrait.acceleration[part, 1], color=GREY if noisy else BLUE, linewidth=0.7, label="with background"
-        )
+        color, label = GREY if noisy else BLUE, portrait.recorded_words
+        axes.plot(time, portrait.acceleration[part, 1], color=color, linewidth=0.7, label=label)
     if clean is not None:
         axes.plot(time, clean[part, 1], color=BLUE, linewidth=0.8, label="clean")
 
@@ -155,7 +154,7 @@ def draw_spectrogram(axes: Axes, portrait: Portrait) -> None:
             )  # fmt: skip
     axes.set(ylim=(0.0, top * 1e-3), ylabel="kHz")
     axes.set_xlabel("time (ms); dashed: modes along y at the middle of the close-up" if lines else "time (ms)")
-    whose = "with background" if portrait.clean is None else "clean"
+    whose = portrait.recorded_words if portrait.clean is None else "clean"
     axes.set_title(f"Spectrogram, {whose}, {DYNAMIC_RANGE_DB:.0f} dB")
 
 

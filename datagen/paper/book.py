@@ -13,7 +13,7 @@ from datagen.drawing.style import png_of
 from datagen.errors import BadInput
 from datagen.paper.chapter import Chapter
 from datagen.paper.tables import csv_text, page
-from datagen.places import require_folder
+from datagen.places import require_results_folder
 from datagen.plain import plain_json
 
 CHAPTERS = {
@@ -48,7 +48,7 @@ def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) ->
     For each chapter name.png and name.csv, and for all paper.json and README.md. Raises BadInput if the folder cannot
     be made or written into, before anything is computed, and where it is full.
     """
-    require_folder(out)
+    require_results_folder(out)
     write_results(out, {})
     chapters = []
     for key in keys:

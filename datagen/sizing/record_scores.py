@@ -40,7 +40,7 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.
     in_time, in_arc = _events(told, sized.truth, period, situation.bearing().spacing)
     plain = EnvelopeLagRule().estimate(sized.acceleration, sized.rate, _with_race(situation, told, labels))
     static = math.nan
-    if told.found and situation.load_known and situation.load is not None:
+    if told.found and told.race in RACES and situation.load_known and situation.load is not None:
         static = arc_with_static_release(told.lag_arc, situation.bearing(), told.race, situation.load)
     return ScoredRecord(
         **_labels(labels), **_told(told), pass_period=period,

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.plain import plain_json
+from datagen.records.versions import program_versions
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = (
@@ -128,6 +129,47 @@ def test_bad_input_ends_with_2_and_one_clear_message_and_writes_nothing(
     assert words in told
     assert "Traceback" not in told
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("frobnicate", "frobnicate: there is no such command; allowed: catalog, chart, check,"),
+        ("generat", 'generat: there is no such command, did you mean "generate"?; allowed: '),
+        ("--bogus", "--bogus: there is no such option; allowed: --version, --help"),
+        ("--version=3", "--version: it takes no value; allowed: --version"),
+        ("generate", "RECIPE: it must be given; allowed: RECIPE: Recipe file, its folder, or name of a dataset"),
+        ("generate a", "--out: it must be given; allowed: --out DIR: Folder of the corpus"),
+        ("generate a --limt 3", '--limt: there is no such option, did you mean "--limit"?; allowed: --out, --limit, '),
+        ("size a --blin", '--blin: there is no such option, did you mean "--blind"?; allowed: --estimator, '),
+        ("generate a --out b --limit abc", '--limit = "abc"; allowed: a whole number'),
+        ("generate a --out b --limit=1.5", '--limit = "1.5"; allowed: a whole number'),
+        ("generate a --out b --limit", "--limit: its value is missing; allowed: a whole number"),
+        ("check a --remake -1", '--remake = "-1"; allowed: a whole number from 0'),
+        ("classify --train a --test b --reject 7", '--reject = "7"; allowed: a number from 0 to 1'),
+        ("classify --train a --test b --bandwidth q", '--bandwidth = "q"; allowed: a number'),
+        ("size a --blind=3", "--blind: it takes no value; allowed: --blind"),
+        ("generate a b --out c", "generate: got unexpected extra argument(s) (b); allowed: "),
+    ],
+)
+def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_allowed(line: str, told: str) -> None:
+    code, shown, said = run(*line.split())
+    assert code == 2
+    assert shown == ""
+    assert said.startswith(f"error: {told}")
+    assert said.count("\n") == 1
+
+
+def test_the_version_is_told() -> None:
+    code, shown, _ = run("--version")
+    assert code == 0
+    assert shown == f"spallgen {program_versions()['spallgen']}\n"
+
+
+def test_without_a_command_the_help_is_shown() -> None:
+    _, shown, told = run()
+    assert "Commands:" in shown + told
+    assert "error" not in shown + told
 
 
 def test_a_misspelt_setting_of_a_recipe_is_named_with_the_nearest_known(tiny_recipe: Path, tmp_path: Path) -> None:

@@ -50,6 +50,15 @@ def refused(tiny_recipe, tiny_corpus, monkeypatch):
     return run
 
 
+@pytest.mark.parametrize("command", ["size", "paper", "chart", "classify"])
+def test_results_are_not_put_among_the_files_of_a_corpus(command, refused, copy):
+    before = sorted(copy.rglob("*"))
+    told = refused(FOLDERS[command], copy)
+    assert f'--out = "{copy}": this is the folder of a corpus' in told
+    assert told.endswith("allowed: a folder of its own\n")
+    assert sorted(copy.rglob("*")) == before
+
+
 @pytest.mark.parametrize("command", FOLDERS)
 def test_a_file_is_no_folder(command, refused, tmp_path):
     (tmp_path / "file").write_text("mine")

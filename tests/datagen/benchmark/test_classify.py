@@ -62,6 +62,8 @@ def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
         "        return np.tile(self.shares, (len(X), 1))\n"
         "def always_outer(table):\n"
         "    return np.full(len(table), 'line outer')\n"
+        "def of_two(table, rate):\n"
+        "    return None\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     for module in ("own_estimators", "own_curves"):
@@ -240,6 +242,12 @@ def test_a_function_that_names_classes_is_scored_too(classify, inputs):
     said = {prediction["always_outer"]["location"] for prediction in results["tests"][0]["predictions"]}
     assert said <= {"outer", "rejected"}
     assert scores["confusion"]["counts"][2][2] == 0  # no inner record is called inner
+
+
+def test_ones_own_code_is_named_in_messages_as_it_was_given(classify):
+    done, _ = classify("--estimator", "own_estimators:of_two")
+    assert done.exit_code == 2
+    assert '--estimator = "own_estimators:of_two": it failed to answer: TypeError: of_two() missing 1' in done.output
 
 
 @pytest.mark.parametrize(

@@ -118,3 +118,17 @@ def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:
         "record: extent": Refused(3, "too long"),
         "machine: other": Refused(1, "no idea"),
     }
+
+
+def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(copy: Path) -> None:
+    assert corpus_info(copy).missing_files == {}
+    entry = read_manifest(copy).shards[1]
+    (copy / entry.file).unlink()
+    found = corpus_info(copy)
+    assert found.missing_files == {entry.file: entry.records}
+    shown = io.StringIO()
+    console = Console(file=shown, width=300)
+    for table in info_tables(found):
+        console.print(table)
+    assert f"{14 - entry.records} of 14 asked for" in shown.getvalue()
+    assert f"{entry.file}, with {entry.records} records, which all else here still counts: generate" in shown.getvalue()

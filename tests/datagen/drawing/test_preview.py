@@ -12,7 +12,7 @@ from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, plt
-from datagen.drawing.time_panels import _lanes, draw_spectrogram, vertical_modes
+from datagen.drawing.time_panels import _lanes, draw_close_up, draw_spectrogram, vertical_modes
 from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.recipes.recipe import load_recipe
@@ -170,6 +170,28 @@ def test_the_sheet_says_where_its_modes_are_taken(portrait):
         said = axes.get_xlabel()
         plt.close(figure)
     assert said.endswith("dashed: modes along y at the middle of the close-up")
+
+
+@pytest.mark.parametrize(
+    ("background", "clean", "whose"),
+    [
+        (0.0, False, "as recorded"),
+        (0.1, False, "with background"),
+        (None, False, "with background"),
+        (0.0, True, "clean"),
+    ],
+)
+def test_panels_speak_of_a_background_only_where_there_may_be_one(background, clean, whose, portrait):
+    known = None if background is None else np.full((8192, 2), background)
+    drawn = portrait("line, outer", clean, noise=0.0, background=known)
+    with house_style():
+        figure, (above, below) = plt.subplots(2)
+        draw_spectrogram(above, drawn)
+        draw_close_up(below, drawn)
+        title, names = above.get_title(loc="left"), below.get_legend_handles_labels()[1]
+        plt.close(figure)
+    assert title.startswith(f"Spectrogram, {whose}, ")
+    assert names[0] == whose
 
 
 def test_the_load_of_a_ball_on_a_full_turn_peaks_at_stribecks_value_below_the_shaft(portrait):

@@ -18,6 +18,7 @@ from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.sizing.estimators import find_estimator
 from datagen.sizing.own_estimator import OwnEstimator
+from datagen.sizing.record_scores import score_record
 from datagen.sizing.score import score_sizes
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from labels.spall_size.situation import Situation
@@ -72,6 +73,19 @@ def test_estimates_and_refusals_of_one_pass() -> None:
     silent = SizeEstimate(SizeOutcome.NO_PASSES, "constant")
     whole = replace(GOOD, extent=np.float32(0.1), candidates=np.array([0.1, 0.2]), lag_interval=[1, math.inf])
     assert [asked(one) for one in (GOOD, silent, whole)] == [GOOD, silent, whole]
+
+
+def test_an_estimate_of_the_least_that_is_required_is_scored_where_the_load_is_known() -> None:
+    least = SizeEstimate(SizeOutcome.ESTIMATED, "constant", extent=0.1, extent_mm=1.0)
+    labels = dict.fromkeys(("recording", "channel", "bearing_id", "rig", "profile", "split"), "word") | {
+        "record": 3, "location": "outer", "rate_hz": 1000.0, "extent": 0.1, "snr_db": math.nan, "speed_rpm": 900.0,
+        "load_n": 500.0, "extent_mm": 1.0, "extent_spacing": 0.2, "bpfo": 5.0,
+    }  # fmt: skip
+    loaded = replace(MACHINE, load=500.0, load_deflection=1e10)
+    record = SizedRecord(3, 1000.0, np.zeros((400, 2)), None, labels, loaded, None)
+    row = score_record(record, OwnEstimator("mine:Sizer", Saying(least), ""))
+    assert (row.extent, row.found_race) == (0.1, "")
+    assert math.isnan(row.static_arc)
 
 
 def test_what_it_raises_is_told_with_its_line() -> None:

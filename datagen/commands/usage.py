@@ -1,0 +1,128 @@
+"""Command lines that cannot be read: told in one line with option, value and what is allowed, like other bad input."""
+
+from __future__ import annotations
+
+import inspect
+import types
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import typer
+from typer.core import TyperGroup
+
+from datagen.errors import BadInput
+from datagen.recipes.spelling import nearest
+
+UNREADABLE: Any = typer.BadParameter.__mro__[1]
+"""What typer raises for any command line that it cannot read; some of its versions bring their own click."""
+KINDS = {int: "a whole number", float: "a number", Path: "a path", str: "a text"}
+
+
+class Program(TyperGroup):
+    """The group of all commands; raises BadInput for a command line that cannot be read."""
+
+    def make_context(self, info_name: str | None, args: list[str], *more: Any, **extra: Any) -> Any:
+        """The context of a run with these `args`; those of the command are kept for messages."""
+        self._given = [str(part) for part in args]
+        with self._told():
+            return super().make_context(info_name, args, *more, **extra)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command of the context."""
+        with self._told():
+            return super().invoke(ctx)
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        try:
+            yield
+        except UNREADABLE as problem:
+            if type(problem).__name__ == "NoArgsIsHelpError":  # nothing is wrong, and the help is shown
+                raise
+            print_error(self._explained(problem))
+            raise typer.Exit(2) from None
+
+    def _explained(self, problem: Any) -> BadInput:
+        """What is wrong with the command line, as bad input."""
+        context, parameter = problem.ctx, getattr(problem, "param", None)
+        command = context.command if context is not None else self.commands.get(self._given[0], self)
+        if parameter is not None:
+            return _of_parameter(problem, command, parameter, self._given)
+        if getattr(problem, "option_name", None):
+            return _of_option(problem, command)
+        if command is self:
+            word = next(part for part in self._given if not part.startswith("-"))
+            problem = f"there is no such command{_meant(nearest(word, self.commands))}"
+            return BadInput(problem, field=word, allowed=", ".join(self.commands))
+        said = problem.format_message().rstrip(".")
+        return BadInput(said[:1].lower() + said[1:], field=str(context.info_name), allowed=_usage(context))
+
+
+def print_error(problem: BadInput) -> None:
+    """Say on standard error what cannot be used."""
+    typer.echo(f"error: {problem}", err=True)
+
+
+def _of_parameter(problem: Any, command: Any, parameter: Any, given: Sequence[str]) -> BadInput:
+    """An option or argument whose value is missing or cannot be."""
+    is_option = parameter.param_type_name == "option"
+    word = parameter.metavar or parameter.name.upper()
+    name = parameter.opts[0] if is_option else word
+    if type(problem).__name__ == "MissingParameter":
+        shown = f"{name} {word}" if is_option else word
+        return BadInput("it must be given", field=name, allowed=f"{shown}: {parameter.help.rstrip('.')}")
+    return BadInput(field=name, value=_value(parameter.opts, given), allowed=_allowed(command, parameter.name))
+
+
+def _of_option(problem: Any, command: Any) -> BadInput:
+    """An option that there is not, that lacks its value or that takes none."""
+    if hasattr(problem, "possibilities"):
+        names = [name for parameter in command.params for name in (*parameter.opts, *parameter.secondary_opts)]
+        known = [name for name in names if name.startswith("--")]
+        near = _meant(nearest(problem.option_name, known))
+        allowed = ", ".join([*known, "--help"])
+        return BadInput(f"there is no such option{near}", field=problem.option_name, allowed=allowed)
+    parameter = next(one for one in command.params if problem.option_name in (*one.opts, *one.secondary_opts))
+    if parameter.is_flag:
+        return BadInput("it takes no value", field=problem.option_name, allowed=problem.option_name)
+    return BadInput("its value is missing", field=problem.option_name, allowed=_allowed(command, parameter.name))
+
+
+def _meant(known: str | None) -> str:
+    return "" if known is None else f', did you mean "{known}"?'
+
+
+def _usage(context: Any) -> str:
+    """How the command of the context is written, in one line."""
+    return str(context.command.get_usage(context)).removeprefix("Usage: ")
+
+
+def _value(names: Sequence[str], given: Sequence[str]) -> str | None:
+    """The last value given for the option of these `names`, as it was written; None if it is not found."""
+    found = None
+    for place, part in enumerate(given):
+        name, equals, value = part.partition("=")
+        if name in names:
+            found = value if equals else next(iter(given[place + 1 :]), None)
+    return found
+
+
+def _allowed(command: Any, name: str) -> str:
+    """What the parameter `name` of a command's function takes, in words, from its annotation."""
+    function = inspect.unwrap(command.callback)
+    kind, *notes = get_args(get_type_hints(function, include_extras=True)[name])
+    plain = next((kind for kind in _kinds(kind) if kind in KINDS), str)
+    note = next((note for note in notes if hasattr(note, "min")), None)
+    low, high = (note.min, note.max) if note is not None else (None, None)
+    if low is not None and high is not None:
+        return f"{KINDS[plain]} from {low:g} to {high:g}"
+    return KINDS[plain] + (f" from {low:g}" if low is not None else "")
+
+
+def _kinds(kind: Any) -> tuple[Any, ...]:
+    """The kinds that an annotation such as `list[int] | None` is made of."""
+    if get_origin(kind) in (Union, types.UnionType, list):
+        return tuple(inner for part in get_args(kind) for inner in _kinds(part))
+    return (kind,)

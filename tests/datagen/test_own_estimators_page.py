@@ -1,0 +1,67 @@
+"""The examples of docs/own_estimators.md, run as they stand on the page, and its tables."""
+
+import re
+import shlex
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.marked_tables import write_marked
+from labels.classifier.classes import CLASSES
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = (DOCS / "own_estimators.md").read_text(encoding="utf-8")
+BLOCKS = dict(re.findall(r"^```python\n# (\w+)\.py\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
+LINES = re.findall(r"^```bash\n(.*?)\n```$", PAGE, re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def where_the_examples_are(tmp_path, monkeypatch):
+    """A user's folder with the modules of the page; records shorter than are judged otherwise count."""
+    for name, text in BLOCKS.items():
+        (tmp_path / f"{name}.py").write_text(text)
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
+    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
+
+
+@pytest.fixture
+def divided(copy):
+    """A copy of the tiny corpus in which every fourth bearing is of the split test."""
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index["split"] = np.where(index["bearing_id"].isin(sorted(index["bearing_id"].unique())[::4]), "test", "train")
+    index.to_csv(copy / "index.csv", index=False)
+    return copy
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_every_example_runs_as_it_stands(line, divided, where_the_examples_are):
+    command = re.sub(r"out/\w+", str(divided), line).removeprefix("spallgen ")
+    done = CliRunner().invoke(app, [*shlex.split(command), "--json", "result.json"], catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+
+
+def test_the_page_has_an_example_of_each_kind_and_a_command_for_each_module():
+    assert [re.search(r"--estimator (\w+):", line).group(1) for line in LINES] == list(BLOCKS)
+    assert sum("--input windows" in line for line in LINES) == 1
+    assert sum(line.startswith("spallgen size") for line in LINES) == 1
+
+
+def test_the_page_names_the_classes_in_their_order():
+    assert f"    {', '.join(CLASSES)}\n" in PAGE
+
+
+def test_the_tables_are_those_that_the_script_writes(load_script, tmp_path):
+    script = load_script("make_own_estimators")
+    copy = tmp_path / "page.md"
+    copy.write_text(PAGE, encoding="utf-8")
+    for name, text in script.tables().items():
+        write_marked(copy, name, script.__file__, text)
+    assert copy.read_text(encoding="utf-8") == PAGE, "run: python docs/make_own_estimators.py"

@@ -28,7 +28,6 @@ from datagen.runs.plan import plan_shards
 from datagen.runs.progress import Lines
 from datagen.runs.task import ShardRow, make_shard
 from datagen.runs.workers import Engine
-from physics.outcome import Outcome, SimulationFailed
 
 ALONE = Engine(workers=1)
 Contents = Callable[[Path], dict[int, str]]
@@ -254,18 +253,8 @@ def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
     assert "the disk is full" in run.problem
 
 
-def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(
-    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import datagen.runs.task
-    from datagen.records.record import make_record
-
-    def failing(scenario: Any, stored: tuple[str, ...]) -> Any:
-        if scenario.record == 3:
-            raise SimulationFailed(Outcome.NOT_FINITE, "the response stopped being finite")
-        return make_record(scenario, stored)
-
-    monkeypatch.setattr(datagen.runs.task, "make_record", failing)
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(tiny: Recipe, tmp_path: Path) -> None:
     for _ in range(2):  # the second run has nothing to do and says the same
         run = generate(tiny, tmp_path / "out", engine=ALONE)
         assert (run.asked, run.made) == (14, 13)

@@ -334,3 +334,20 @@ def test_lz4_is_refused_before_anything_is_written(tiny: Recipe, tmp_path: Path)
     with pytest.raises(BadInput, match="lz4"):
         generate(recipe, tmp_path / "out", engine=ALONE)
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_record_that_failed_earlier_is_no_failure_of_a_run_that_does_not_ask_for_it(
+    tiny: Recipe, tmp_path: Path
+) -> None:
+    assert [failure.record for failure in generate(tiny, tmp_path / "out", limit=4, engine=ALONE).failed] == [3]
+    later = generate(tiny, tmp_path / "out", records=[1], engine=ALONE)
+    assert later.complete
+    assert later.failed == ()
+
+
+def test_the_rate_of_a_run_that_goes_on_counts_only_its_own_records(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = Lines(clock=iter([0.0, 4.0]).__next__)
+    for done in (10, 12):
+        lines.advance(done, 20)
+    assert capsys.readouterr().err.splitlines()[-1] == "12 of 20 records, 0.50 records/s, 16 s left"

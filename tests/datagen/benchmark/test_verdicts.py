@@ -142,3 +142,13 @@ def test_the_race_named_is_the_likelier_one_even_where_no_spall_is_called():
     said = judged(["outer", "inner"] * 2, sure + unsure).verdicts[1]
     assert said.race.tolist() == ["outer", "inner"] * 2
     assert said.location.tolist() == ["outer", "inner", "none", "none"]
+
+
+def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
+    labels, rows = corpus(["none"] * 5 + ["outer"])
+    labels["bearing_id"] = ["one", "one", "two", "three", "three", "faulty"]
+    spall = np.array([0.9, 0.9, 0.1, 0.1, 0.9, 0.9])
+    model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 6))])), 0.5)
+    found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
+    assert (found["healthy"], found["false_alarms"]) == (5, 3)
+    assert (found["healthy_bearings"], found["alarming_bearings"]) == (3, 2)

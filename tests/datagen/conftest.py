@@ -16,11 +16,13 @@ import pytest
 
 from datagen.corpora.shard import finished_shards
 from datagen.recipes.recipe import Recipe, load_recipe
-from datagen.records.record import Record
+from datagen.records.record import Record, make_record
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
+from datagen.scenarios.scenario import Scenario
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable
+from physics.outcome import Outcome, SimulationFailed
 from physics.spall import Spall
 
 RATE, SAMPLES, ROWS, BALLS = 1000.0, 200, 2, 5
@@ -115,6 +117,18 @@ def copy(tiny_corpus: Path, tmp_path: Path) -> Path:
 def expected(tiny_corpus: Path, contents: Contents) -> dict[int, str]:
     """Hash of the decoded arrays of every shard of the tiny corpus."""
     return contents(tiny_corpus)
+
+
+@pytest.fixture
+def record_3_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The record 3 of any recipe cannot be simulated; the others can."""
+
+    def failing(scenario: Scenario, stored: tuple[str, ...]) -> Record:
+        if scenario.record == 3:
+            raise SimulationFailed(Outcome.NOT_FINITE, "the response stopped being finite")
+        return make_record(scenario, stored)
+
+    monkeypatch.setattr("datagen.runs.task.make_record", failing)
 
 
 def plain_labels(index: int, spall: Spall | None) -> dict[str, Any]:

@@ -25,9 +25,12 @@ from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.runs.progress import steps_told
 from physics.integrators.general_purpose import BALL_BY_BALL, CONTACT_KERNEL, PAIRS, integrate_compiled
+from physics.integrators.methods import METHODS
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
+from physics.response.stability import longest_stable_step
 from physics.simulate import simulate
+from physics.statics.load_distribution import equilibrium
 
 RATE = 65536.0
 PNG = b"\x89PNG\r\n"
@@ -426,3 +429,14 @@ def test_names_in_a_chart_do_not_lie_on_each_other(small_chart):
     assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
     assert not any(box.overlaps(panel.get_window_extent()) for box in boxes)
     assert {"model: impulse train", "model: quasi-static"} <= set(named)
+
+
+def test_an_edge_is_the_speed_at_the_longest_stable_step_however_fine_the_run_it_is_told_from():
+    scene, name = reference_scene("F1", 0.1), "runge_kutta4"
+    # A step of one sample at ten times real time, or of a quarter of it at 2.5 times: the same cost a step.
+    runs = [Run("method", name, f"{steps} steps", 0.1, 0.01 * steps, 10.0 / steps, None, "") for steps in (1, 4)]
+    one, four = (measuring._edges(scene, RATE, [run])[name] for run in runs)
+    assert one == pytest.approx(four, rel=1e-12)
+    rest = equilibrium(scene, np.zeros(1))
+    longest = longest_stable_step(scene.rig, METHODS[name], rest.stiffness[0], rest.damping[0])
+    assert one == pytest.approx(10.0 * longest / (1.0 / RATE), rel=1e-12)

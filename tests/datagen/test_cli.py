@@ -193,3 +193,12 @@ def test_json_of_results_has_null_where_a_number_is_not_finite() -> None:
         "a": [1, None],
         "2": {"b": None},
     }
+
+
+@pytest.mark.usefixtures("record_3_fails")
+def test_generate_ends_with_1_and_names_the_record_that_could_not_be_made(tiny_recipe: Path, tmp_path: Path) -> None:
+    code, shown, told = run("generate", tiny_recipe, "--out", tmp_path / "out", "--limit", 4, "--workers", 1)
+    assert code == 1
+    assert "3 of 4 records are in" in shown
+    assert "record 3 could not be made: " in told
+    assert "the response stopped being finite" in told

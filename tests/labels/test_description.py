@@ -105,3 +105,11 @@ def test_a_cage_without_random_slip_slips_by_what_it_is_told(make_scene):
     scene = make_scene()
     values = label_values(dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, mean_slip=0.01)))
     assert (values["mean_slip"], values["slip_deviation"]) == (0.01, 0.0)
+
+
+def test_the_four_orders_of_the_bearing_are_told_each_by_its_own_label(make_scene):
+    values, ratio = label_values(make_scene()), 7.12 / 38.75  # ball and pitch diameter of the Koyo 1205
+    assert values["ftf"] == pytest.approx(0.5 * (1.0 - ratio), rel=1e-12)
+    assert values["bpfo"] == pytest.approx(12.0 * 0.5 * (1.0 - ratio), rel=1e-12)
+    assert values["bpfi"] == pytest.approx(12.0 * 0.5 * (1.0 + ratio), rel=1e-12)
+    assert values["bsf"] == pytest.approx(0.5 / ratio * (1.0 - ratio**2), rel=1e-12)

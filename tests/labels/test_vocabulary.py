@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from labels.schema import CONDITIONS, LABEL, LOCATIONS
+from labels.schema import CONDITIONS, LABEL, LOCATIONS, MEASURED
 from labels.vocabulary import ALIASES, FAULT_TYPE, SEVERITY, common_row
 
 # The terms of bearing-datasets 0.3.0, modules schema and units.
@@ -55,3 +55,20 @@ def test_a_healthy_record_has_no_fault_place_and_no_size():
     assert (row["fault_type"], row["fault_location"], row["fault_origin"]) == ("normal", "none", "none")
     assert (row["fault_severity"], row["fault_severity_level"], row["fault_size_mm"]) == ("none", 0, 0.0)
     assert (row["native_label"], row["sensor_at_fault"]) == ("healthy", False)
+
+
+def test_every_column_takes_the_value_of_its_own_label():
+    row = common_row(labels(), "y")
+    own = {
+        "fs": 65536.0, "speed_rpm": 420.0, "load": 346.0, "fault_size_mm": 0.8, "bearing_id": "gearbox-3",
+        "bearing_model": "koyo_1205", "bpfo": 4.9, "bpfi": 7.1, "bsf": 2.6, "ftf": 0.41,
+    }  # fmt: skip
+    assert {column: row[column] for column in own} == own
+
+
+def test_what_is_not_known_of_a_recording_is_said_to_be_unknown():
+    columns = ("sensor_mounting", "speed_profile", "fault_origin")
+    simulated, measured = common_row(labels(), "y"), common_row(labels(model=MEASURED, recording="r7"), "y")
+    assert [simulated[column] for column in columns] == ["pedestal", "constant", "artificial"]
+    assert [measured[column] for column in columns] == ["unknown"] * 3
+    assert (measured["recording_id"], measured["signal_id"]) == ("r7", "r7_y")

@@ -77,3 +77,15 @@ def test_the_mains_of_a_machine_have_one_frequency():
         assert frequencies == [mains, 2.0 * mains, 3.0 * mains, 4.0 * mains]
         seen.add(mains)
     assert seen == {50.0, 60.0}
+
+
+@pytest.mark.parametrize(("location", "fewest", "most"), [("outer", 3.528, 3.6), ("inner", 5.4, 5.472)])
+def test_impulses_come_at_the_ball_pass_order_of_their_race(location, fewest, most):
+    # Nine balls, a diameter ratio of 0.2: the cage turns at 0.5 (1 − 0.2) = 0.4 of the shaft less a slip of up to 2 %,
+    # so 3.528 to 3.6 balls pass the outer race in a turn of the shaft, and what is left of nine the inner one.
+    bearing, turns = Kinematics(9, 0.2, 2.4, 25.0), 20 * 25
+    for seed in range(5):
+        own, generator = np.random.default_rng(seed), np.random.default_rng(seed + 100)
+        force = _impulses(own, generator, 20 * 25_600, 25_600.0, bearing, location, True)
+        # Jitter of 2 % a period adds up to one impulse more or less in 3000; one more is lost at either end.
+        assert fewest * turns - 4 <= np.count_nonzero(force) <= most * turns + 4

@@ -39,3 +39,11 @@ def test_what_is_no_class_of_ours_is_unknown_and_not_scored():
     assert true_class({"condition": "unknown", "location": "outer"}) == "unknown"
     assert true_location({"location": "outer"}) == "outer"
     assert true_location({"location": "ball"}) == "unknown"
+
+
+def test_an_unknown_contact_angle_is_taken_as_none():
+    with_angle = GEOMETRY | {"speed_rpm": 1800.0}
+    without = known_kinematics(with_angle | {"contact_angle": math.nan})
+    assert without == known_kinematics(with_angle)
+    # 9 / 2 (1 − 7.94 / 39.04)
+    assert without.bpfo == pytest.approx(3.5848, abs=1e-4)

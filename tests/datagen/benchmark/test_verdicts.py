@@ -134,3 +134,21 @@ def test_the_rows_of_a_record_agree_on_its_alarm():
     table[1, FEATURE_NAMES.index(CLEARNESS)] = 1.0
     _, _, alarm = vote(model, table, np.array([0, 0]), np.array([0]))
     assert alarm[0] == pytest.approx(0.5)  # the logits of 0.2 and 0.8 cancel
+
+
+def test_the_race_named_is_the_likelier_one_even_where_no_spall_is_called():
+    sure = [[0.2, 0.8, 0.0, 0.0, 0.0], [0.2, 0.0, 0.8, 0.0, 0.0]]
+    unsure = [[0.9, 0.06, 0.04, 0.0, 0.0], [0.9, 0.04, 0.06, 0.0, 0.0]]
+    said = judged(["outer", "inner"] * 2, sure + unsure).verdicts[1]
+    assert said.race.tolist() == ["outer", "inner"] * 2
+    assert said.location.tolist() == ["outer", "inner", "none", "none"]
+
+
+def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
+    labels, rows = corpus(["none"] * 5 + ["outer"])
+    labels["bearing_id"] = ["one", "one", "two", "three", "three", "faulty"]
+    spall = np.array([0.9, 0.9, 0.1, 0.1, 0.9, 0.9])
+    model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 6))])), 0.5)
+    found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
+    assert (found["healthy"], found["false_alarms"]) == (5, 3)
+    assert (found["healthy_bearings"], found["alarming_bearings"]) == (3, 2)

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 import pytest
 import scipy.io
 import xarray
 from typer.testing import CliRunner
 
 from datagen.cards.croissant import croissant_text
-from datagen.cards.facts import corpus_facts
+from datagen.cards.facts import _solved, corpus_facts
 from datagen.cards.origin_text import origin_text
 from datagen.cards.report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.toml_text import toml_text
@@ -224,3 +225,12 @@ def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_cor
     assert done.exit_code == 2
     assert "no manifest.json" in done.stderr
     assert not (tmp_path / "none").exists()
+
+
+def test_the_spread_of_errors_is_told_by_quantiles_and_what_is_unknown_is_counted() -> None:
+    errors = np.concatenate([np.arange(101.0), [np.nan] * 3])
+    table = pandas.DataFrame({"model": "m", "method": "n", "step": 1e-5, "error_estimate": errors})
+    (found,) = _solved(table)
+    # Quantiles of 0, 1, … 100.
+    assert (found.median_error, found.error_95_percent, found.largest_error) == pytest.approx((50.0, 95.0, 100.0))
+    assert (found.records, found.errors_unknown) == (104, 3)

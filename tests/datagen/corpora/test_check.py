@@ -15,6 +15,9 @@ from datagen.corpora.netcdf import netcdf_bytes
 from datagen.corpora.shard import file_hash, label_columns, shard_path, sidecar_path
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
 
 Change = Callable[[xarray.Dataset], xarray.Dataset]
 
@@ -141,3 +144,18 @@ def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
 def test_a_folder_without_manifest_is_no_corpus(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match=r"no manifest\.json"):
         check_corpus(tmp_path)
+
+
+def test_a_bearing_in_two_splits_is_found(copy: Path) -> None:
+    lines = [line.split(",") for line in (copy / "index.csv").read_text().splitlines()]
+    bearing, split = lines[0].index("bearing_id"), lines[0].index("split")
+    moved = next(row for row in lines[1:] if [other[bearing] for other in lines].count(row[bearing]) > 1)
+    moved[split] = "test" if moved[split] == "train" else "train"
+    (copy / "index.csv").write_text("".join(f"{','.join(row)}\n" for row in lines))
+    assert f"the records of bearing {moved[bearing]} are in more than one split" in check_corpus(copy).problems
+
+
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_record_that_could_not_be_made_is_told_once_and_is_not_missing(tiny: Recipe, tmp_path: Path) -> None:
+    assert not generate(tiny, tmp_path / "out", limit=4, engine=Engine(workers=1)).complete
+    assert only_problem(tmp_path / "out") == "1 records could not be made; failed.jsonl says why"

@@ -138,10 +138,14 @@ def test_a_dataset_made_by_the_format_breaks_none_of_its_rules(dataset: xarray.D
         ("acceleration", np.nan, "acceleration has 1 values that are not finite"),
         ("condition", "broken", 'condition has the value "broken"'),
         ("condition", "extended", "condition and extent_spacing disagree"),
+        ("extent_spacing", 1.0, "condition and extent_spacing disagree"),  # of a line spall
         ("location", "none", "condition and location disagree"),
         ("spalls", 2, "condition and spalls"),
         ("pass_record", 77, "a ball pass belongs to no record"),
         ("exit_time", 0.0, "not in the order entry, deepest point, exit"),
+        ("release_time", 0.039, "a release lies outside its pass"),  # which lasts from 0.04 to 0.06 s
+        ("release_time", 0.061, "a release lies outside its pass"),
+        ("regain_time", 0.044, "contact is regained before it is lost"),  # at 0.045 s
         ("time", 0.5, "time is not 0"),
     ],
 )

@@ -93,6 +93,8 @@ def test_cost_and_size_are_given_a_record(info: Info) -> None:
     assert info.record_seconds == info.worker_seconds / 12
     assert info.record_bytes == info.bytes / 12
     assert info.record_bytes > 0
+    assert info.signal_seconds == pytest.approx(12 * 655 / 32768)  # 0.02 s in whole samples
+    assert info.made_per_second * info.worker_seconds == pytest.approx(info.signal_seconds)
 
 
 def test_every_numeric_label_has_its_range(info: Info) -> None:

@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from datagen.recipes.recipe import load_recipe
-from datagen.records.record import make_record
+from datagen.records.record import _missed, make_record
 from datagen.scenarios.sampling import draw_scenario
 from labels.description import label_values
 from physics.simulate import simulate
@@ -78,3 +79,12 @@ def test_changes_of_contact_that_could_not_be_located_are_told(scenario, monkeyp
 
     monkeypatch.setattr("datagen.records.record.simulate", crowded)
     assert "3 changes of contact crowd within single steps" in make_record(scenario).labels["validity"]
+
+
+def test_an_error_below_what_noise_hides_is_no_missed_accuracy(monkeypatch):
+    tame = draw_scenario(load_recipe("gearbox_rig"), 0)
+    trace = replace(simulate(tame.scene, tame.rate), error_estimate=0.02)
+    level = float(np.sqrt(np.mean(trace.acceleration**2)))
+    for hidden, told in ((0.03, False), (0.01, True), (0.0, True)):
+        monkeypatch.setattr("datagen.records.record.allowed_error", lambda _, least=hidden * level: (1e-3, least))
+        assert ("was not reached: it may be 0.02 off" in _missed(tame, trace)) is told

@@ -28,7 +28,6 @@ from datagen.runs.plan import plan_shards
 from datagen.runs.progress import Lines
 from datagen.runs.task import ShardRow, make_shard
 from datagen.runs.workers import Engine
-from physics.outcome import Outcome, SimulationFailed
 
 ALONE = Engine(workers=1)
 Contents = Callable[[Path], dict[int, str]]
@@ -254,18 +253,8 @@ def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
     assert "the disk is full" in run.problem
 
 
-def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(
-    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import datagen.runs.task
-    from datagen.records.record import make_record
-
-    def failing(scenario: Any, stored: tuple[str, ...]) -> Any:
-        if scenario.record == 3:
-            raise SimulationFailed(Outcome.NOT_FINITE, "the response stopped being finite")
-        return make_record(scenario, stored)
-
-    monkeypatch.setattr(datagen.runs.task, "make_record", failing)
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(tiny: Recipe, tmp_path: Path) -> None:
     for _ in range(2):  # the second run has nothing to do and says the same
         run = generate(tiny, tmp_path / "out", engine=ALONE)
         assert (run.asked, run.made) == (14, 13)
@@ -345,3 +334,20 @@ def test_lz4_is_refused_before_anything_is_written(tiny: Recipe, tmp_path: Path)
     with pytest.raises(BadInput, match="lz4"):
         generate(recipe, tmp_path / "out", engine=ALONE)
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_record_that_failed_earlier_is_no_failure_of_a_run_that_does_not_ask_for_it(
+    tiny: Recipe, tmp_path: Path
+) -> None:
+    assert [failure.record for failure in generate(tiny, tmp_path / "out", limit=4, engine=ALONE).failed] == [3]
+    later = generate(tiny, tmp_path / "out", records=[1], engine=ALONE)
+    assert later.complete
+    assert later.failed == ()
+
+
+def test_the_rate_of_a_run_that_goes_on_counts_only_its_own_records(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = Lines(clock=iter([0.0, 4.0]).__next__)
+    for done in (10, 12):
+        lines.advance(done, 20)
+    assert capsys.readouterr().err.splitlines()[-1] == "12 of 20 records, 0.50 records/s, 16 s left"

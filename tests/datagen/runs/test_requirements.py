@@ -12,9 +12,15 @@ from typer.testing import CliRunner
 from datagen.cli import app
 from datagen.drawing.preview import recipe_portrait
 from datagen.errors import BadInput
-from datagen.recipes.recipe import load_recipe
-from datagen.runs.plan import plan_shards
-from datagen.runs.requirements import lowest_rate, memory_bytes, record_memory, require_possible_rates
+from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.runs.plan import plan_shards, stored_bytes
+from datagen.runs.requirements import (
+    lowest_rate,
+    memory_bytes,
+    record_memory,
+    require_possible_rates,
+    require_room,
+)
 from datagen.scenarios.sampling import draw_scenario
 
 TEXT = """name = "a"
@@ -117,3 +123,43 @@ def test_memory_grows_with_the_rate_that_is_simulated_and_with_what_is_stored(tm
     raw = scenario.samples * 24 * 4  # a float32 for each of 24 balls
     assert forces - plain == pytest.approx(4.0 * raw)
     assert plan_shards(recipe, 1)[0].raw_bytes < plain < memory_bytes()
+
+
+def test_a_container_has_the_memory_that_it_is_allowed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("datagen.runs.requirements.CONTAINER_LIMIT", tmp_path / "memory.max")
+    whole = memory_bytes()
+    (tmp_path / "memory.max").write_text("1000000\n")
+    assert memory_bytes() == 1e6
+    (tmp_path / "memory.max").write_text(f"{2.0 * whole:.0f}\n")
+    assert memory_bytes() == whole
+    (tmp_path / "memory.max").write_text("max\n")
+    assert memory_bytes() == whole
+
+
+def test_a_record_takes_memory_for_every_simulated_sample(tmp_path: Path) -> None:
+    (tmp_path / "recipe.toml").write_text(TEXT)
+    scenario = draw_scenario(load_recipe(tmp_path / "recipe.toml"), 0)
+    # 10548 Hz four times a period need 42192 Hz, twice the rate; 220 bytes a sample, and four copies of what is stored.
+    simulated = 220.0 * 2.0 * scenario.samples
+    assert record_memory(scenario, ()) == pytest.approx(simulated + 4.0 * stored_bytes(scenario, (), "none"))
+
+
+def test_the_largest_shard_allowed_fits_beside_the_record_that_is_being_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 4e6)
+
+    def require(size: int) -> Recipe:
+        text = TEXT.replace("records = 3", "records = 300") + f"[store]\nrecords_per_shard = {size}\n"
+        (tmp_path / "recipe.toml").write_text(text)
+        recipe = load_recipe(tmp_path / "recipe.toml")
+        require_room(recipe, plan_shards(recipe, 300), tmp_path)
+        return recipe
+
+    with pytest.raises(BadInput) as caught:
+        require(300)
+    most = int(re.findall(r"at most (\d+)", str(caught.value))[0])
+    recipe = require(most)
+    shard = plan_shards(recipe, 1)[0]
+    record = record_memory(draw_scenario(recipe, 0), shard.stored)
+    assert most * 4.0 * shard.raw_bytes + record <= 4e6 < (most + 1) * 4.0 * shard.raw_bytes + record

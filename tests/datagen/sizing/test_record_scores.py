@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from datagen.sizing.record_scores import score_record
-from datagen.sizing.sized_records import SizedRecord
+from datagen.sizing.sized_records import SizedRecord, nominal_period
+from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -59,3 +61,23 @@ def test_the_plain_rule_divides_by_the_pass_of_the_race_that_was_told_or_else_of
     # A ball covers one spacing (30 degrees) of a race in a pass; a burst's peak lies within a few samples of its start.
     expected = math.radians(30.0) * LAG / MACHINE.pass_periods()[race]
     assert scored.envelope_arc == pytest.approx(expected, rel=0.05)
+
+
+def test_event_times_that_equal_the_truth_match_every_event_and_shifted_ones_none() -> None:
+    first = 0.01 * np.arange(1.0, 8.0)
+    truth = EventTruth(first, first + LAG, np.zeros(7, dtype=np.bool_))
+    sized = replace(record_at("inner"), truth=truth)
+    times = np.column_stack([truth.first, truth.last])
+    exact = score_record(sized, Says(replace(TOLD, event_times=times)))
+    for scores in (exact.events_in_time, exact.events_in_arc):
+        assert (scores.matched, scores.precision, scores.recall) == (14, 1.0, 1.0)  # two events of each of seven passes
+    # LAG is 1.5 ms, far above both tolerances: entries told where the exits are, and exits elsewhere, match nothing.
+    shifted = score_record(sized, Says(replace(TOLD, event_times=times + LAG)))
+    assert (shifted.events_in_time.matched, shifted.events_in_arc.matched) == (0, 0)
+
+
+@pytest.mark.parametrize(("location", "order"), [("outer", "bpfo"), ("inner", "bpfi"), ("none", "bpfo")])
+def test_the_nominal_period_is_that_of_the_balls_over_the_race_of_the_spall(location: str, order: str) -> None:
+    labels = {"location": location, "speed_rpm": 1800.0, "bpfo": 4.9, "bpfi": 7.1}
+    # 30 turns a second
+    assert nominal_period(labels) == pytest.approx(1.0 / (30.0 * {"bpfo": 4.9, "bpfi": 7.1}[order]))

@@ -62,3 +62,23 @@ def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored
     # other one's for the clean record.
     after = [1.04 * (1 / 1.02) ** 0.05 - 1.0, 1.0 - 0.97 * (1 / 1.02) ** 0.05, 1.02 * (1 / 0.97) ** 0.05 - 1.0]
     assert found["arc_error_with"] == pytest.approx(sum(after) / 3)
+
+
+@pytest.mark.parametrize(("silent", "met"), [(40, True), (39, True), (20, False)])
+def test_silence_where_there_is_no_event_is_met_from_95_per_cent_up(
+    scored: Callable[..., ScoredRecord], silent: int, met: bool
+) -> None:
+    nothing = {"race": "none", "true_lag": math.nan, "extent_spacing": 0.0, "true_extent": 0.0}
+    unsized = {"outcome": "no_passes", "lag": math.nan, "extent": math.nan, "candidates": ()}
+    records = [scored(**nothing, **(unsized if k < silent else {})) for k in range(40)]
+    (figure,) = [one for one in summarise(records, True)["figures"] if one.name.startswith("abstention")]
+    assert (figure.value, figure.count, figure.met) == (pytest.approx(silent / 40), 40, met)
+
+
+@pytest.mark.parametrize(("error", "met"), [(0.0, True), (0.04, True), (0.06, False)])
+def test_the_lag_of_clean_records_is_met_up_to_5_per_cent_of_error(
+    scored: Callable[..., ScoredRecord], error: float, met: bool
+) -> None:
+    records = [scored(snr_db=math.inf, lag=0.004 * (1.0 + error))]
+    (figure,) = [one for one in summarise(records, True)["figures"] if one.name == "lag error, clean"]
+    assert (figure.value, figure.met) == (pytest.approx(error), met)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from labels.classifier.liveness import STOPPED, WHITE, is_dead, liveness
+from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, is_dead, liveness
 from labels.features.analysis import analyse
 from labels.features.kinematics import bearing_kinematics
 
@@ -96,3 +96,12 @@ def test_a_sensor_without_signal_is_dead():
     assert not is_dead(noise)
     assert not is_dead(np.concatenate([np.zeros(5000), noise]))
     assert is_dead(np.concatenate([noise, [np.nan]]))
+
+
+def test_one_line_at_the_speed_of_the_shaft_is_no_turning_shaft_and_two_are():
+    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
+    one, other = (5e-3 * np.cos(2.0 * np.pi * KNOWN.shaft_hz * k * TIME) for k in (1, 2))
+    assert found(noise + one).evidence < TURNING_EVIDENCE
+    assert found(noise + one).reason == STOPPED
+    assert found(noise + one + other).evidence > TURNING_EVIDENCE
+    assert found(noise + one + other).reason == ""

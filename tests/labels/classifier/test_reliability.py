@@ -29,3 +29,9 @@ def test_probabilities_under_equal_priors_are_calibrated_whatever_the_prevalence
     # The fewest records of a bin are about 50 positives, whose weight is ten: 1.5 % over all bins.
     assert calibration_error(positive, probability, equal_priors(positive)) < 0.03
     assert equal_priors(positive).sum() == pytest.approx(positive.size)
+
+
+def test_a_certainty_is_of_the_last_bin():
+    curve = reliability(np.array([True, False, True]), np.array([1.0, 0.05, 0.95]))
+    assert curve["records"] == [1.0, 2.0]
+    assert curve["predicted"] == pytest.approx([0.05, 0.975])

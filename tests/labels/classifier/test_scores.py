@@ -141,3 +141,12 @@ def test_the_exact_interval_of_a_count_is_that_of_the_binomial_test(count, total
     found, share = exact_interval(count, total), binomtest(count, total).proportion_ci()
     assert (found.low, found.high) == pytest.approx((share.low, share.high), rel=1e-9)
     assert found.value == count / total
+
+
+def test_rows_of_one_record_make_no_interval_narrower():
+    right, value = np.random.default_rng(1).random(20) < 0.5, np.arange(20.0)
+    (one,) = accuracy_against(value, right, bins=1)
+    groups = np.repeat(np.arange(20), 10)
+    (ten,) = accuracy_against(np.repeat(value, 10), np.repeat(right, 10), bins=1, groups=groups)
+    assert (ten["records"], ten["accuracy"]) == (200, one["accuracy"])
+    assert (ten["low"], ten["high"]) == pytest.approx((one["low"], one["high"]))

@@ -134,3 +134,12 @@ def test_corpora_without_extended_spalls_leave_that_question_out():
     lines = ~np.char.startswith(classes, "extended")
     classifier = SpallClassifier("logistic").fit(table[lines], classes[lines], groups[lines])
     assert classifier.predict_proba(table)[:, 3:].max() == 0.0
+
+
+@pytest.mark.parametrize(("length", "never"), [("extended", slice(1, 3)), ("line", slice(3, 5))])
+def test_spalls_of_a_length_that_was_never_seen_are_never_called(length, never):
+    classes = np.array(["healthy", f"{length} outer", f"{length} inner"])[np.arange(150) % 3]
+    table = np.random.default_rng(0).standard_normal((150, len(FEATURE_NAMES)))
+    probability = SpallClassifier("logistic").fit(table, classes, np.arange(150) // 2).predict_proba(table)
+    assert probability[:, never].max() == 0.0
+    np.testing.assert_allclose(probability.sum(axis=1), 1.0, rtol=1e-12)  # up to rounding

@@ -61,3 +61,12 @@ def test_a_hertz_factor_is_above_0_or_unknown(factor):
     with pytest.raises(InvalidParameter, match="load_deflection"):
         Situation(**known, load=300.0, load_deflection=factor)
     assert Situation(**known).bearing().load_deflection == PLACEHOLDER_FACTOR
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_spall_is_longer_than_its_events_are_apart_by_a_release_arc_at_either_edge(race):
+    # A sharp spall whose ball is released one release arc behind the entry and loaded again one before the exit.
+    entry, exit_ = 0.1, 0.25
+    release = entry + release_arc(GEARBOX, race, 346.0)
+    regain = exit_ - release_arc(GEARBOX, race, 346.0)
+    assert arc_with_static_release(regain - release, GEARBOX, race, 346.0) == pytest.approx(exit_ - entry)

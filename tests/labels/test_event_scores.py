@@ -32,3 +32,8 @@ def test_scores_add_up_and_nothing_gives_nothing():
 
 def test_a_tolerance_in_arc_is_a_share_of_the_pass():
     assert tolerance_of_arc(0.1, 0.02, 0.5) == pytest.approx(0.004)
+
+
+def test_an_event_at_the_very_tolerance_is_matched():
+    assert match_events(np.array([1.0]), np.array([1.5]), 0.5).matched == 1
+    assert match_events(np.array([1.0]), np.array([1.5]), np.nextafter(0.5, 0.0)).matched == 0

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from labels.load_dips import load_dips
+from labels.load_dips import _first_and_last_crossing, load_dips
 from labels.truth import ball_passes
 from physics.imperfections import Imperfections, Waviness
 from physics.paths.passages import passages
@@ -86,3 +86,10 @@ def test_short_waves_under_a_long_spall_are_part_of_the_due_load(make_scene, mon
     assert np.isfinite(dense).any()
     for times, dense_times in zip(found[2:], dense, strict=True):
         assert times == pytest.approx(dense_times, abs=1e-3 * (leave - entry).max(), nan_ok=True)
+
+
+def test_a_load_that_only_rises_and_then_falls_has_no_dip():
+    above = np.array([-1.0, 1.0, 1.0, -1.0])
+    assert np.isnan(_first_and_last_crossing(np.arange(4.0), above)).all()
+    # Upside down it falls half-way through the first step and rises half-way through the last.
+    assert _first_and_last_crossing(np.arange(4.0), -above) == (0.5, 2.5)

@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -216,3 +217,30 @@ def test_release_and_regain_shorten_the_lag_by_about_twice_the_static_release_an
     shortening = (1.0 - share) / (2.0 * release / extent)
     assert settled.sum() > 10
     assert np.all((shortening > 0.9) & (shortening < 1.3))  # the range measured by the independent model
+
+
+def test_a_slow_cage_leaves_no_ball_out_that_is_in_a_long_spall_when_the_record_begins(make_scene):
+    spall = Spall("outer", 1, 4.71, 3.0, 4e-6)
+    scene = make_scene(spall)
+    # A fifth of slip, the most there is: a ball takes 1.25 times as long to cross the spall as without.
+    for start in np.linspace(0.0, scene.rig.bearing.spacing, 9):
+        slow = replace(scene, cage=replace(scene.cage, mean_slip=0.2, start_angle=start))
+        inside = [b for b in range(1, 13) if abs(arc_of_ball(slow, spall, b, np.zeros(1))[0]) < 1.499]
+        table = ball_passes(slow, None, 0.3)
+        assert set(inside) <= set(table.ball[table.entry_time < 0.0].tolist())
+
+
+def test_a_pass_cut_by_an_end_of_the_record_tells_neither_fall_nor_rise_of_its_load(make_scene):
+    # Shallow, so that balls keep contact, and long, so that some are inside when the record begins and when it ends.
+    spall = Spall("outer", 1, 4.71, 0.45, 4e-6, 0.1, 0.1)
+    scene = make_scene(spall, duration=0.3)
+    for end in np.linspace(0.2, 0.3, 6):
+        touching = ContactChanges(
+            np.zeros(0), np.zeros(0, np.int16), np.zeros(0, np.int16), np.zeros(0, bool), np.ones((2, 12), dtype=bool)
+        )
+        table = ball_passes(scene, touching, end)
+        cut = (table.entry_time < 0.0) | (table.exit_time > end)
+        assert cut.any()
+        assert np.isnan(table.fall_time[cut]).all()
+        assert np.isnan(table.rise_time[cut]).all()
+        assert np.isfinite(table.fall_time[~cut]).any()

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import _edges, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.models import SIMPLER_MODELS
@@ -206,3 +207,19 @@ def test_impulses_of_an_inner_spall_are_modulated_by_the_load_zone(reference_sce
     phase = (np.arange(envelope.size) * 256 / RATE) % turn / turn
     down, up = np.abs(phase - 0.5) > 0.3, np.abs(phase - 0.5) < 0.2
     assert envelope[down].max() > 5.0 * envelope[up].max()  # the spall is at the bottom at t = 0
+
+
+def test_the_quasi_static_state_moves_as_fast_as_its_positions_change(reference_scene):
+    trace = simulate(reference_scene("G1", 0.02), RATE, model="quasi-static", keep_state=True)
+    position, velocity = np.split(trace.state, 2, axis=1)
+    central = (position[2:] - position[:-2]) * RATE / 2.0  # over two samples
+    assert np.abs(central).max() > 0.0
+    np.testing.assert_allclose(velocity[1:-1], central, rtol=1e-9, atol=1e-12)  # rounding
+
+
+def test_contact_changes_between_samples_lie_half_way():
+    touching = np.zeros((4, 1, 2), dtype=bool)
+    touching[2:, 0, 1] = True
+    changes = changes_between_samples(touching, 10.0)
+    assert changes.time.tolist() == [0.15]  # samples at 0.1 and 0.2 s
+    assert (changes.row.tolist(), changes.ball.tolist(), changes.made.tolist()) == ([1], [2], [True])

@@ -249,3 +249,9 @@ def test_a_normal_distribution_is_cut_off_at_what_is_allowed(tmp_path: Path) -> 
     assert defect.depth_um is not None
     assert defect.depth_um.quantile(0.0) >= 0.0
     assert defect.depth_um.to_toml() == {"normal": [1.0, 5.0], "low": 0.0, "high": 1e4}
+
+
+def test_all_records_of_a_machine_may_be_healthy_before_it_is_damaged(tmp_path: Path) -> None:
+    recipe = load_recipe(write(tmp_path, ("depth_um = 12", "depth_um = 12\nhealthy_records = 2")))
+    assert recipe.part[0].defect is not None
+    assert recipe.part[0].defect.healthy_records == recipe.part[0].records_per_machine == 2

@@ -225,3 +225,18 @@ def test_the_example_on_the_datasets_page_is_a_recipe(folder: Path) -> None:
     assert recipe.background.recording is not None
     assert recipe.background.recording.samples == SAMPLES
     assert recipe.background.snr_band_hz == (1000.0, 5000.0)
+
+
+def test_a_recording_exactly_as_long_as_a_record_is_taken(folder: Path) -> None:
+    shortest = round(0.1 * 32768)
+    text = RECORDING.format(file="exact.npy") + "rate_hz = 32768"
+    np.save(folder / "exact.npy", np.linspace(-0.5, 0.5, shortest))
+    assert load(folder, text).part[0].background.recording.samples == shortest
+    np.save(folder / "exact.npy", np.linspace(-0.5, 0.5, shortest - 1))
+    with pytest.raises(BadInput, match="recordings are not repeated"):
+        load(folder, text)
+
+
+def test_a_noise_band_may_end_at_half_the_rate(tmp_path: Path) -> None:
+    text = "[part.background]\nwhite_rms_m_s2 = 1\nsnr_band_hz = [1000, 16384]"
+    assert load(tmp_path, text).part[0].background.snr_band_hz == (1000.0, 16384.0)

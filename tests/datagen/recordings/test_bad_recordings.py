@@ -76,6 +76,7 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
             "envelope_band_hz = [101.0, 105.0]: holds none of the lines in the spectrum of 100 samples of a.mat",
         ),
         ('location = "none"\nextent_mm = 1', "a healthy bearing has no defect"),
+        ('location = "none"\nspalls = 2', "a healthy bearing has no defect"),
         ('location = "outer"\ncondition = "healthy"', "a healthy bearing has no defect"),
         (
             'location = "outer"\ncondition = "extended"\nextent_mm = 1\nbearing = "skf_6205"',
@@ -231,3 +232,10 @@ def test_a_file_that_changes_during_the_import_is_noticed(
     with pytest.raises(BadInput, match=r"a\.mat: the file has changed while it was imported"):
         bring(GOOD)
     assert not (tmp_path / "corpus").exists()
+
+
+def test_a_cut_of_sixteen_samples_is_the_shortest(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    told = refusal(bring, GOOD + "cut_s = 0.015\n", tmp_path)
+    assert "cut_s = 0.015; allowed: 0.016 to 0.4 s, the length of a.mat" in told
+    assert len(bring(GOOD + "cut_s = 0.016\n").labels) == 25  # of 400 samples

@@ -165,3 +165,9 @@ def test_drawn_balls_that_do_not_fit_are_redrawn_and_counted() -> None:
 def test_a_drawn_machine_comes_back_from_the_text_of_its_scenario() -> None:
     (scenario,) = draw(1, **BEARING, **RIG)
     assert Scenario.from_json(scenario.to_json()) == scenario
+
+
+def test_factors_of_the_diameters_scale_those_of_the_catalogue() -> None:
+    (rig,) = rigs(rig="gearbox", factors={"pitch_diameter": 1.1, "ball_diameter": 0.9})
+    assert rig.bearing.pitch_diameter == pytest.approx(1.1 * 38.75e-3)  # of the Koyo 1205
+    assert rig.bearing.ball_diameter == pytest.approx(0.9 * 7.12e-3)

@@ -49,3 +49,14 @@ def test_a_doubtful_load_that_is_carried_after_all_is_accepted() -> None:
     doubtful = scene(1e3, factor=2e-4)
     assert farthest_rest(doubtful) > CERTAIN_REACH
     require_equilibrium(doubtful)
+
+
+def test_the_bound_grows_by_six_roughnesses_of_the_floor_and_with_the_unbalance_as_with_load() -> None:
+    smooth = scene(100.0, depth=1e-5)
+    rough = replace(smooth, spalls=(replace(smooth.spalls[0], roughness=2e-6),))
+    side = math.cos(smooth.rig.bearing.spacing / 2.0)
+    assert farthest_rest(rough) - farthest_rest(smooth) == pytest.approx(6.0 * 2e-6 / side)
+    unbalanced = replace(smooth, operation=Operation(100.0, 40.0, unbalance_force=60.0))
+    assert farthest_rest(unbalanced) == pytest.approx(farthest_rest(smooth))
+    swinging = replace(smooth, operation=Operation(100.0, 40.0, load_fluctuation=1.5))
+    assert farthest_rest(swinging) == pytest.approx(farthest_rest(smooth))

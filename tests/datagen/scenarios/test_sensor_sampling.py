@@ -172,3 +172,10 @@ def test_two_columns_go_to_x_and_y_from_one_place(tmp_path: Path) -> None:
     assert taken is not None
     assert taken.starts[0] == taken.starts[1]
     assert np.array_equal(taken.samples, recording[taken.starts[0] : taken.starts[0] + scenarios[0].samples])
+
+
+def test_each_wheel_of_a_gear_mesh_has_its_own_teeth_and_modulation() -> None:
+    gears = {"teeth": 32, "other_teeth": 49, "amplitude_m_s2": 1, "modulation": 0.1, "other_modulation": 0.3}
+    mesh = draw_scenario(recipe(background={"gear_mesh": gears}), 0).background.gear_mesh
+    assert mesh is not None
+    assert (mesh.teeth, mesh.other_teeth, mesh.modulation, mesh.other_modulation) == (32, 49, 0.1, 0.3)

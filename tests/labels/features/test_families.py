@@ -100,3 +100,14 @@ def test_high_multiples_of_the_mains_cover_no_more_of_the_axis_than_low_ones_by_
 def test_a_band_so_silent_that_its_running_sum_falls_by_rounding_has_lines_of_no_strength():
     falling = Lines(1e6 - 1e-10 * np.arange(2001.0)[None, :], 0.5)
     assert line_strength(falling, 100.0, 0.02) == 0.0
+
+
+def test_a_band_says_nothing_of_frequencies_that_it_is_too_narrow_to_hold():
+    record = condition(np.random.default_rng(6).standard_normal(40_000), 20_000.0)
+    spectra = envelope_spectra(record, 25.0, 4000.0, 600.0)
+    frequency = np.arange(spectra.excess.shape[1]) * spectra.step
+    for (low, high), excess in zip(spectra.edges, spectra.excess, strict=True):
+        width = (high - low) * record.bandwidth
+        assert (excess[frequency > 0.85 * width] == 1.0).all()
+        assert excess[frequency < 0.8 * width].std() > 0.5  # that of noise is 1
+    assert spectra.edges[-1].tolist() == [0.875, 1.0]  # an eighth of 9.5 kHz, far below 4 kHz

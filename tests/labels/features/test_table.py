@@ -86,3 +86,11 @@ def test_the_page_of_features_is_written_from_the_table():
     page = (Path(__file__).parents[3] / "docs" / "features.md").read_text(encoding="utf-8")
     for feature in FEATURES:
         assert f"| `{feature.name}` | {feature.dimension} | {feature.sentence} |" in page
+
+
+def test_a_sensor_mounted_the_other_way_round_gives_the_same_features(impulse_train):
+    generator = np.random.default_rng(3)
+    skewed = impulse_train(KNOWN.bpfo) + generator.exponential(1.0, 20_000)
+    values = features(skewed, 20_000.0, KNOWN)
+    assert named(values)["skewness"] > 0.3  # an exponential has 2, in a sum of three parts of like size
+    np.testing.assert_allclose(features(-skewed, 20_000.0, KNOWN), values, rtol=1e-9, atol=1e-12)  # rounding

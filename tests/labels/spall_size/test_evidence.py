@@ -12,7 +12,7 @@ from labels.spall_size.event_shapes import SHAPES, event_shapes
 from labels.spall_size.evidence import gather_evidence
 from labels.spall_size.mean_pass import MeanPass, mean_pass
 from labels.spall_size.pair_features import NAMES
-from labels.spall_size.pass_track import track_passes
+from labels.spall_size.pass_track import CELLS, PassTrack, track_passes
 from labels.spall_size.prewhitening import prewhitened
 from labels.spall_size.running_energy import RunningEnergy
 
@@ -157,3 +157,23 @@ def test_bands_of_the_mean_pass_do_not_ring(pulse_train):
     middle, far = mean.energy.shape[1] // 2, 60
     # A Gaussian band of 0.03 of the rate is 5.3 samples wide in time: nothing but rounding is left 60 samples off.
     assert np.all(mean.energy[:, middle + far] < 1e-12 * mean.energy[:, middle])
+
+
+@pytest.mark.parametrize(("weight", "passes"), [((1.0, 1.0, 0.0, 0.0), 2.0), ((1.0, 0.5), 1.8), ((0.3,) * 5, 5.0)])
+def test_passes_count_by_their_weight(weight, passes):
+    # (Σ w)² / Σ w²: the number of equal passes whose mean is as exact.
+    noise = np.random.default_rng(0).standard_normal(2000)
+    place = 300.0 * (1.0 + np.arange(len(weight)))
+    assert mean_pass(noise, noise, Alignment(place, np.array(weight)), 200.0).passes == pytest.approx(passes)
+
+
+def test_a_pass_half_as_loud_weighs_a_quarter():
+    period, loud = 400, np.where(np.arange(20) % 5 == 2, 0.5, 1.0)
+    energy = np.zeros(20 * period)
+    energy[200 + period * np.arange(20)] = loud**2
+    pattern = np.zeros(CELLS)
+    pattern[CELLS // 2] = 1.0
+    track = PassTrack((200.0 + period * np.arange(20)) / RATE, period / RATE, pattern, 1.0)
+    found = aligned(energy, RATE, track)
+    assert found.place == pytest.approx(200.0 + period * np.arange(20), abs=1e-6)
+    assert found.weight == pytest.approx(loud**2)

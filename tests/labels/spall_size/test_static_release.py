@@ -70,3 +70,8 @@ def test_a_spall_is_longer_than_its_events_are_apart_by_a_release_arc_at_either_
     release = entry + release_arc(GEARBOX, race, 346.0)
     regain = exit_ - release_arc(GEARBOX, race, 346.0)
     assert arc_with_static_release(regain - release, GEARBOX, race, 346.0) == pytest.approx(exit_ - entry)
+
+
+def test_a_bearing_without_load_has_no_release_arc_to_be_computed():
+    known = {"balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3, "shaft_speed": 44.0}
+    assert not Situation(**known, load=0.0, load_deflection=5e9).load_known

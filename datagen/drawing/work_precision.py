@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 WIDTH, HEIGHT, DPI = 9.4, 7.2, 150
 METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
 MODEL_MARKERS = ("*", "P", "X", "D")
-RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": PURPLE}
+RIVAL_COLOURS = {"RK45": ORANGE, "DOP853": VERMILLION, "LSODA": GREEN, "Radau": PURPLE, "RK4": INK}
 # On the contact kernel and ball by ball.
 RIVAL_STYLES = {"compiled": ("-", "-"), "numbalsoda": ("-.", "-."), "SciPy": ("--", ":")}
 WORST_SHOWN, BEST_SHOWN = 8.0, 1e-8

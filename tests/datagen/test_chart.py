@@ -20,11 +20,23 @@ from datagen.charts.scores import Score, score
 from datagen.cli import app
 from datagen.drawing.stability_map import draw_sheet, kind, kinds, stability_sheets
 from datagen.drawing.style import house_style, plt
-from datagen.drawing.work_precision import RINGED, draw_work_precision, work_precision_png
+from datagen.drawing.work_precision import (
+    RINGED,
+    RIVAL_COLOURS,
+    RIVAL_STYLES,
+    draw_work_precision,
+    work_precision_png,
+)
 from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.runs.progress import steps_told
-from physics.integrators.general_purpose import BALL_BY_BALL, CONTACT_KERNEL, PAIRS, integrate_compiled
+from physics.integrators.general_purpose import (
+    BALL_BY_BALL,
+    CONTACT_KERNEL,
+    PAIRS,
+    integrate_by_fixed_steps,
+    integrate_compiled,
+)
 from physics.integrators.methods import METHODS
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
@@ -183,6 +195,30 @@ def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(p
     loose, fewer = integrate_compiled(scene, pair, kind_of_slope, start, RATE, samples, 1e-4)
     assert fewer < evaluations
     assert not np.array_equal(loose, states)
+
+
+@pytest.mark.parametrize("kind_of_slope", [BALL_BY_BALL, CONTACT_KERNEL])
+def test_fixed_steps_through_changes_of_contact_reach_the_same_response_slowly(kind_of_slope):
+    scene = reference_scene("F1", 0.03)
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False)
+    start, size = entrants.start_of(scene), np.sqrt(np.mean(exact.acceleration**2))
+
+    def error(substeps):
+        states = integrate_by_fixed_steps(scene, kind_of_slope, start, RATE, exact.time.size, substeps)
+        return np.sqrt(np.mean((of_states(scene, RATE, states).acceleration - exact.acceleration) ** 2)) / size
+
+    coarse, fine = error(16), error(64)
+    # Over a jump of force any method is of order 1: a quarter of the step, a quarter of the error, or a little less.
+    assert coarse / 16.0 < fine < coarse / 2.5
+    assert fine < 1e-3
+
+
+def test_every_rival_has_a_colour_and_a_style():
+    for one in entrants.contestants(reference_scene("F1", 0.03), quick=False):
+        if one.group in (entrants.COMPILED, entrants.SCIPY):
+            kind, solver = one.name.split(",")[0].split()
+            assert solver in RIVAL_COLOURS
+            assert kind in RIVAL_STYLES
 
 
 @pytest.mark.parametrize("kind_of_slope", [BALL_BY_BALL, CONTACT_KERNEL])

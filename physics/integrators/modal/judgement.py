@@ -15,14 +15,15 @@ from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
     BUDGET,
+    CELL,
     GRADED,
     LEFT,
-    NO_BALL,
     ON_GRID,
     ON_WAY,
     PACE,
     SHORTEST,
     SQUARES,
+    TIME,
     TOLERANCE,
     TRIED,
     UNITS,
@@ -46,9 +47,9 @@ LEAST_SPENT, MOST_SPENT, BUDGET_SAMPLES = 0.25, 8.0, 512
 # Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
 UNIT_ERROR = 0.29
 # A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
-# as this many. Another is planned if a ball's momentum turns out to be wrong by more than the tolerance, at least this
-# share of a step ahead.
-CHANGE_SHARE, CHANGE_FACTOR, LEAST_LEFT = 0.3, 3.0, 0.01
+# as this many; it is planned anew if the film's force at its ball turns out to be wrong by more than the tolerance, and
+# the time by no more than this share of the last step.
+CHANGE_SHARE, CHANGE_FACTOR, MOST_MISSED = 0.3, 3.0, 0.5
 # A step is taken back if its error exceeds the tolerance this many times. The next may be twice or half as long again
 # if it stays below these shares of it, since the error grows by the fifth power of the length, and has to be shorter
 # by LESS if it exceeds the tolerance.
@@ -167,49 +168,25 @@ def too_coarse(contacts: Contacts, grid: Stride, memory: Memory, step: float) ->
 
 @njit_inner
 def misses_change(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
-    """Plan another contact change where the `step` (s) on the way to one went past it, and give the one ahead up where
-    it is not reached at its time; True if the step is to be taken back.
+    """Plan the contact change at the end of the `step` (s) anew if its ball is not near zero compression; True if the
+    step went past the change and is to be taken back.
 
-    Changes are located in trial steps through them, whose force is not smooth.
+    The change was located in a trial step through it, whose force was not smooth. Without tension a loss is no jump.
     """
     clock, marks, balls, law = memory.clock, memory.marks, contacts.balls, contacts.law
-    if marks[TRIED] >= MOST_CHANGES_PER_STEP:
+    if clock[LEFT] - step > SMALLEST_STEP_SHARE * grid.interval or marks[TRIED] >= MOST_CHANGES_PER_STEP:
         return False
-    earliest, late = NO_BALL, 0.0
-    for cage in range(balls.shape[0]):
-        for j in range(balls.shape[2]):
-            past = _past(balls, law, cage, j)
-            if past > late and _missed(law, balls[cage, COMPRESSION, j], past) > clock[TOLERANCE]:
-                earliest, late = cage * balls.shape[2] + j, past
-    if earliest != NO_BALL:
-        marks[TRIED] += 1
-        losing, speed = of_ball(balls, ACTIVE, earliest) > 0.5, of_ball(balls, CLOSING, earliest)
-        meet_change(law, grid, memory, max(step - late, LEAST_LEFT * step), earliest, losing, speed, step)
-        return True
-    ahead = -_past(balls, law, marks[BALL] // balls.shape[2], marks[BALL] % balls.shape[2])
-    at_end = clock[LEFT] - step <= SMALLEST_STEP_SHARE * grid.interval
-    if at_end and ahead > 0.0 and _missed(law, of_ball(balls, COMPRESSION, marks[BALL]), ahead) > clock[TOLERANCE]:
-        marks[TRIED] += 1
-        marks[BALL] = NO_BALL  # from here on it is looked for again
-    return False
-
-
-@njit_inline
-def _past(balls: Array, law: Law, cage: int, place: int) -> float:
-    """How long ago (s) a ball was at zero compression on its way out of the contact set's state; below zero, how long
-    it still has to go. Zero if it goes the other way, and for a loss without tension, which makes no jump of force.
-    """
-    rate, held = balls[cage, CLOSING, place], balls[cage, ACTIVE, place] > 0.5
-    if rate == 0.0 or (rate < 0.0) != held or (held and law.no_tension):
-        return 0.0
-    return balls[cage, COMPRESSION, place] / rate
-
-
-@njit_inline
-def _missed(law: Law, compression: float, time: float) -> float:
-    """Momentum (N s) of a ball that is at this compression (m) so long (s) from the change of its contact."""
-    far = abs(compression)
-    return (law.damping + law.stiffness * law_power(law, far) * time) * far
+    compression, rate = of_ball(balls, COMPRESSION, marks[BALL]), of_ball(balls, CLOSING, marks[BALL])
+    losing = of_ball(balls, ACTIVE, marks[BALL]) > 0.5
+    if law.damping * abs(compression) <= clock[TOLERANCE] or (losing and law.no_tension):
+        return False
+    late = compression / rate if (rate < 0.0) == losing and rate != 0.0 else math.inf
+    next_sample = (marks[CELL] // UNITS + 1) * grid.interval
+    if abs(late) > MOST_MISSED * step or clock[TIME] + step - late >= next_sample:
+        return False
+    marks[TRIED] += 1
+    clock[LEFT] = step - late
+    return late > 0.0
 
 
 @njit_pasted

@@ -46,7 +46,7 @@ def warm_up() -> None:
 
     With an empty cache and two processors, a second process compiles the march, which takes as long as all else.
     """
-    if nothing_cached() and len(os.sched_getaffinity(0)) > 1:
+    if nothing_cached() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():
             _use_kernels_beside_the_march(_scene())
     try:

@@ -13,8 +13,8 @@ from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.benchmark.votes import averaged, joined
-from labels.classifier.alarm import logit
 from labels.classifier.classes import decide, location_probability
+from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import STRENGTHS, Rule
 from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
@@ -128,7 +128,7 @@ def vote(
     margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
     missing = ~np.isfinite(votes[:, 0])
     votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
-    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), 0.5 * (1.0 + np.tanh(0.5 * alarm))
+    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), probability_of(alarm)
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

@@ -5,10 +5,23 @@ import math
 
 import numpy as np
 import pytest
-from kernels import foretell, is_rough, reading, through_end, through_middle, turn
+from kernels import (
+    foretell,
+    is_rough,
+    mark_grazing,
+    note_motion,
+    press,
+    reading,
+    reset_contact,
+    set_time,
+    through_end,
+    through_middle,
+    turn,
+)
 from scipy.linalg import expm
 
 from physics.assembly import assemble
+from physics.contact.forces import COMPRESSION
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.modal.flow import (
     AMPLITUDES,
@@ -403,6 +416,45 @@ def test_a_ball_that_changes_sides_and_back_within_a_step_is_not_passed_over(nam
     here, there = (np.lexsort((changes.time, changes.ball, changes.row)) for changes in (found, fine))
     assert np.array_equal(found.ball[here], fine.ball[there])
     assert np.abs(found.time[here] - fine.time[there]).max() < 0.1 / RATE  # of changes, not of their pairs
+
+
+def test_a_ball_that_touches_between_two_looks_at_a_rough_path_is_seen(reference_scene):
+    scene = reference_scene("F2r", 0.2)
+    spall, bearing, step = scene.spalls[0], scene.rig.bearing, 1.0 / RATE
+    contacts, generator = assemble(scene), np.random.default_rng(1)
+    noted, suspects = np.zeros((1, 2, contacts.balls.shape[2])), np.zeros((1, contacts.balls.shape[2]))
+    shares, tried = np.linspace(0.0, 1.0, 65), 0
+
+    def compression(share, across, ball):
+        set_time(contacts, begin + share * step)
+        press(contacts, 0.0, across, 0.0, 0.0)
+        return contacts.balls[0, COMPRESSION, ball]
+
+    while tried < 60:
+        begin = generator.uniform(0.0, 0.19)
+        angles = scene.cage.angle(np.array([begin])) + bearing.spacing * np.arange(bearing.balls) - spall.angle
+        inside = np.abs((angles + np.pi) % (2.0 * np.pi) - np.pi) < 0.45 * spall.extent
+        if not inside.any():
+            continue
+        ball = int(inside.argmax())
+        course = np.array([compression(share, -1e-5, ball) for share in shares])
+        top, ends = course[1:-1].max(), max(course[0], course[-1])
+        if top <= ends:
+            continue
+        # The rings are moved until the ball is apart at both ends of the step and touches for an instant on the way.
+        lift = generator.uniform(0.05, 0.5) * (top - ends)
+        summit = shares[1 + course[1:-1].argmax()]
+        yielding = (compression(summit, -1.01e-5, ball) - compression(summit, -1e-5, ball)) / -1e-7
+        across = -1e-5 + (lift - top) / yielding
+        apart = compression(0.0, across, ball) <= 0.0
+        reset_contact(contacts)
+        note_motion(contacts.balls, noted)
+        if not apart or compression(1.0, across, ball) > 0.0:
+            continue
+        suspects[:] = 0.0
+        mark_grazing(contacts, noted, begin, step, suspects)
+        assert 0.0 < suspects[0, ball] < 1.0
+        tried += 1
 
 
 def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_scene):

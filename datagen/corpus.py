@@ -18,9 +18,7 @@ from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import Manifest, read_manifest
-from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.corpora.open_shards import OpenShards
-from datagen.corpora.reading import reading
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:
@@ -32,8 +30,9 @@ class Corpus:
     """A corpus in a folder: a sequence of (acceleration (T, axes) in m/s², labels), in the order of the record indices.
 
     Simulated records have the axes x and y, imported ones those that were recorded.
-    Fit for `torch.utils.data.DataLoader` as it is, and for several threads. As a context manager it closes its files at
-    the end of the block. Raises BadInput if the folder holds no corpus.
+    Fit for `torch.utils.data.DataLoader` as it is, and for several threads; corpora of one folder share their files. As
+    a context manager it closes them at the end of the block; close it before you open a shard by other means, as HDF5
+    2.2.0 may crash on texts of a file that is open twice. Raises BadInput if the folder holds no corpus.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -107,10 +106,11 @@ class Corpus:
     def dataset(self, record: int) -> xarray.Dataset:
         """Everything stored of one record: signals, labels, scenario, its ball passes and its defects."""
         import xarray
+        from xarray.backends import NetCDF4DataStore
 
         shard, position = self._place(record)
-        path = self.folder / shard
-        with ONE_AT_A_TIME, reading(self.folder, shard), xarray.open_dataset(path, engine="netcdf4") as opened:
+        with self._shards.reading(shard) as file:
+            opened = xarray.open_dataset(NetCDF4DataStore(file))
             tables = {"ball_pass": "pass_record", "defect": "defect_record"}
             own = {
                 table: np.flatnonzero(opened[column].values == record)

@@ -1,12 +1,18 @@
-"""The shard files of a corpus that were read last, kept open behind one door."""
+"""The shard files that were read last, kept open behind one door: each is open once in a process, whoever reads it.
+
+HDF5 2.2.0 crashes when texts are read from a file that was opened twice, once its first handle is closed: both share
+what belongs to that handle.
+"""
 
 from __future__ import annotations
 
+import itertools
 import os
 import weakref
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,22 +23,78 @@ if TYPE_CHECKING:
     import netCDF4
 
 OPEN_FILES = 32
+_numbers = itertools.count()
+
+
+@dataclass
+class _OpenFile:
+    """An open `file`, the `state` of the path when it was opened, and the numbers of the OpenShards that read it."""
+
+    file: netCDF4.Dataset
+    state: tuple[int, int, int]
+    readers: set[int] = field(default_factory=set)
+
+
+class _OpenFiles:
+    """The open files of one process by their paths, those read last at the end."""
+
+    def __init__(self) -> None:
+        self.files: OrderedDict[Path, _OpenFile] = OrderedDict()
+        self.process = os.getpid()
+
+    def opened(self, path: Path, reader: int) -> netCDF4.Dataset:
+        """The file at a path, opened again if another one has taken its place; OSError if it cannot be."""
+        import netCDF4
+
+        found = os.stat(path)
+        state = found.st_ino, found.st_size, found.st_mtime_ns
+        if path in self.files and self.files[path].state != state:
+            self._close(path)
+        if path not in self.files:
+            file = netCDF4.Dataset(path)
+            file.set_auto_mask(False)
+            self.files[path] = _OpenFile(file, state)
+            if len(self.files) > OPEN_FILES:
+                self._close(next(iter(self.files)))
+        self.files[path].readers.add(reader)
+        self.files.move_to_end(path)
+        return self.files[path].file
+
+    def read_by(self, reader: int) -> list[Path]:
+        """Paths of the files that a reader has had opened."""
+        return [path for path in tuple(self.files) if reader in self.files[path].readers]
+
+    def leave(self, reader: int) -> None:
+        """Close the files that nobody else reads."""
+        for path in self.read_by(reader):
+            self.files[path].readers.discard(reader)
+            if not self.files[path].readers:
+                self._close(path)
+
+    def _close(self, path: Path) -> None:
+        self.files.pop(path).file.close()
+
+
+_open_files = [_OpenFiles()]
+
+
+def _of_this_process() -> _OpenFiles:
+    """The open files of this process: after a fork its own, while those of its parent are neither used nor closed."""
+    if _open_files[-1].process != os.getpid():
+        _open_files.append(_OpenFiles())
+    return _open_files[-1]
 
 
 class OpenShards:
-    """The shard files read last, kept open. Each process opens its own, also after a fork or a pickle.
+    """A reader of the shards of a corpus. Each process opens its own files, also after a fork or a pickle.
 
     netCDF4 crashes when an open file is left to the garbage collector, so they are closed by hand before that.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self._start()
-
-    def _start(self) -> None:
-        self.files: OrderedDict[str, netCDF4.Dataset] = OrderedDict()
-        self.owner = os.getpid()
-        self.closer = weakref.finalize(self, _close_all, self.files, self.owner)
+        self._number = next(_numbers)
+        self._closer = weakref.finalize(self, _leave, self._number)
 
     @contextmanager
     def reading(self, shard: str) -> Iterator[netCDF4.Dataset]:
@@ -42,31 +104,22 @@ class OpenShards:
         file cannot be read, whether by opening it or by what is done in the block.
         """
         with ONE_AT_A_TIME, reading(self.folder, shard):
-            yield self._opened(shard)
+            yield _of_this_process().opened((self.folder / shard).absolute(), self._number)
 
-    def _opened(self, shard: str) -> netCDF4.Dataset:
-        import netCDF4
-
-        if self.owner != os.getpid():
-            self._start()
-        if shard not in self.files:
-            file = netCDF4.Dataset(self.folder / shard)
-            file.set_auto_mask(False)
-            self.files[shard] = file
-            if len(self.files) > OPEN_FILES:
-                self.files.popitem(last=False)[1].close()
-        self.files.move_to_end(shard)
-        return self.files[shard]
+    @property
+    def open_files(self) -> list[Path]:
+        """Paths of the files that are open for this reader."""
+        with ONE_AT_A_TIME:
+            return _of_this_process().read_by(self._number)
 
     def close(self) -> None:
-        """Close all."""
-        _close_all(self.files, self.owner)
+        """Close all but those that others read too; they open again when needed."""
+        _leave(self._number)
 
     def __reduce__(self) -> tuple[type[OpenShards], tuple[Path]]:
         return OpenShards, (self.folder,)
 
 
-def _close_all(files: OrderedDict[str, netCDF4.Dataset], owner: int) -> None:
+def _leave(reader: int) -> None:
     with ONE_AT_A_TIME:
-        while files and os.getpid() == owner:
-            files.popitem()[1].close()
+        _of_this_process().leave(reader)

@@ -136,6 +136,10 @@ def _check_shape(spall: SpallSettings, profile: str, where: str) -> None:
         raise refuse(f"{where} has no size", "extent_deg", f"one of {', '.join(EXTENTS)}")
     if spall.depth_um is None:
         raise refuse(f"{where} has no depth", "depth_um")
+    if max(spall.depth_um.stated()) == 0.0 and (spall.roughness_um is None or max(spall.roughness_um.stated()) == 0.0):
+        raise refuse(
+            f"{where} with neither depth nor roughness is none", "depth_um", "above 0, or a roughness_um above 0"
+        )
     _check_tapers(spall)
 
 

@@ -43,6 +43,8 @@ class ProfileTable(Table):
             raise _refused("angle_deg must rise")
         if min(self.depth_um) < 0.0 or max(self.depth_um) > DEEPEST_UM:
             raise _refused(f"depth_um must lie from 0 to {DEEPEST_UM:g}")
+        if max(self.depth_um) == 0.0:
+            raise _refused("depth_um is 0 throughout: this is no spall")
         if self.extent_deg > 180.0:
             raise _refused(f"the table covers {self.extent_deg:g} degrees; allowed: at most 180")
         return self

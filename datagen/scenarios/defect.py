@@ -76,6 +76,7 @@ def _draw_shape(settings: SpallSettings, race: str, profile: str, bearing: Beari
     roughness = pick.number(settings.roughness_um or Fixed(0.0), 1e6)
     if profile == "table" and settings.table is not None:
         return _measured_spall(race, settings.table)
+    require(depth > 0.0 or roughness > 0.0, "a spall with neither depth nor roughness is none", "depth")
     return Spall(race, 1, 0.0, extent, depth, entry, exit_, profile, roughness)
 
 

@@ -38,6 +38,7 @@ def test_a_table_is_centred_and_converted_to_si(tmp_path: Path) -> None:
         (HEAD + '1,2\n\n2,"3\n3,4\n', "pit.csv, line 4: not a row of a CSV table: unexpected end of data"),
         ("\n" + HEAD + "1,2\n\n2,deep\n", "line 5: 2,deep is not two numbers"),
         (HEAD + "1,2\n1,3\n", "must rise"),
+        (HEAD + "1,0\n2,0\n", "0 throughout"),
         (HEAD + "1,2\n2,-3\n", "0 to 10000"),
         (HEAD + "1,2\n2,nan\n", "finite"),
         (HEAD + "0,2\n200,2\n", "at most 180"),

@@ -265,6 +265,19 @@ def test_impossible_draws_are_redrawn_and_counted_with_their_reason() -> None:
         assert scenario.condition == "line"
 
 
+def test_a_spall_with_neither_depth_nor_roughness_is_drawn_again() -> None:
+    scenarios = draw(40, defect=LINE | {"depth_um": {"choice": [0, 12]}, "roughness_um": {"choice": [0, 1]}})
+    spalls = [spall for scenario in scenarios for spall in scenario.scene.spalls]
+    assert {(spall.depth > 0.0, spall.roughness > 0.0) for spall in spalls} == {
+        (True, True),
+        (True, False),
+        (False, True),
+    }
+    redraws = [redraw for scenario in scenarios for redraw in scenario.redraws]
+    assert redraws
+    assert all((redraw.field, "neither depth" in redraw.reason) == ("depth", True) for redraw in redraws)
+
+
 def test_an_impossible_machine_is_redrawn_once_for_all_its_records() -> None:
     machine = {"rig": "gearbox", "ball_diameter_mm": {"uniform": [8, 12]}}
     scenarios = draw(20, machine=machine, records_per_machine=2)

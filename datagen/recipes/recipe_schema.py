@@ -6,15 +6,25 @@ import json
 import re
 from typing import Any
 
+from pydantic.json_schema import GenerateJsonSchema
+
+from datagen.recipes.distribution import Distribution
 from datagen.recipes.recipe import Recipe
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 NULL = {"type": "null"}
 
 
+class _AsWritten(GenerateJsonSchema):
+    """Defaults as a recipe writes them."""
+
+    def encode_default(self, dft: Any) -> Any:
+        return dft.to_toml() if isinstance(dft, Distribution) else super().encode_default(dft)
+
+
 def recipe_schema() -> dict[str, Any]:
     """JSON Schema of a recipe; each kind of setting, such as "a number from 0", is defined once."""
-    raw = Recipe.model_json_schema()
+    raw = Recipe.model_json_schema(schema_generator=_AsWritten)
     kinds: dict[str, Any] = {}
     defined = {name: _tidy(table, kinds) for name, table in raw.pop("$defs").items()}
     return {"$schema": DIALECT} | _tidy(raw, kinds) | {"$defs": dict(sorted((defined | kinds).items()))}

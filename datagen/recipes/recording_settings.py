@@ -24,6 +24,11 @@ Channel = Annotated[str, Field(min_length=1)]
 LEARNT = ("sha256", "samples", "rate_hz")
 
 
+def _without_default(schema: dict[str, Any]) -> None:
+    """Take the default away, which only stands for what is found on reading, and which no recipe may state."""
+    schema.pop("default", None)
+
+
 class RecordingSettings(Table):
     """A file in the recipe's folder (.mat, .npz, .npy, .csv, .wav, .nc), sampled at the rate of the records.
 
@@ -32,7 +37,7 @@ class RecordingSettings(Table):
 
     file: Annotated[str, Field(min_length=1)]
     """Name of the file, as seen from the recipe's folder."""
-    rate_hz: Annotated[float, Field(gt=0.0)] = 0.0
+    rate_hz: Annotated[float, Field(gt=0.0, json_schema_extra=_without_default)] = 0.0
     """Sampling rate of the recording, Hz; needed unless the file states it (.wav, or a variable rate_hz)."""
     channels: tuple[Channel, ...] | None = Field(default=None, min_length=1, max_length=2, strict=False)
     """Variable of the one channel, or of x and y, written as in the SPEC of an import; the only one if not given."""
@@ -40,9 +45,9 @@ class RecordingSettings(Table):
     """Layout of a text table."""
     gain_m_s2: Annotated[Distribution, Between(0.0)] = Fixed(1.0)
     """Acceleration for one unit of the file, m/s²; of whole numbers in .wav, for the full scale."""
-    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] = ""
+    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", json_schema_extra=_without_default)] = ""
     """SHA-256 of the file, found on reading; a recipe that states it accepts no other file."""
-    samples: Annotated[int, Field(ge=1)] = 0
+    samples: Annotated[int, Field(ge=1, json_schema_extra=_without_default)] = 0
     """Samples of the recording, found on reading."""
     path: SkipJsonSchema[str] = Field(default="", exclude=True)
     """Where the file was found, not part of the recipe; empty where only what was learnt of it is at hand."""

@@ -36,7 +36,7 @@ def accepts(schema: dict[str, Any], value: Any) -> bool:
         "minimum": lambda low: value >= low,
         "exclusiveMinimum": lambda low: value > low,
         "maximum": lambda high: value <= high,
-        "pattern": lambda text: True,
+        "pattern": lambda text: re.search(text, value) is not None,
         "minLength": lambda length: len(value) >= length,
         "maxLength": lambda length: len(value) <= length,
         "minItems": lambda length: len(value) >= length,
@@ -95,6 +95,16 @@ def test_every_key_has_a_description_and_no_null() -> None:
     assert undescribed == []
     assert '"null"' not in schema_text()
     assert ": null" not in schema_text()
+
+
+def test_every_default_is_a_value_that_a_recipe_may_give() -> None:
+    refused = [
+        (name, key, value["default"])
+        for name, table in SCHEMA["$defs"].items()
+        for key, value in table.get("properties", {}).items()
+        if "default" in value and not accepts(value, value["default"])
+    ]
+    assert refused == []
 
 
 def test_a_key_carries_the_unit_that_its_description_states_and_no_other() -> None:

@@ -1,7 +1,7 @@
 """The shard files that were read last, kept open behind one door: each is open once in a process, whoever reads it.
 
 HDF5 2.2.0 crashes when texts are read from a file that was opened twice, once its first handle is closed: both share
-what belongs to that handle.
+what belongs to that handle. A process that was forked has the handles of its parent, so none is open during a fork.
 """
 
 from __future__ import annotations
@@ -36,14 +36,22 @@ class _OpenFile:
 
 
 class _OpenFiles:
-    """The open files of one process by their paths, those read last at the end."""
+    """The open files of this process by their paths, those read last at the end."""
 
     def __init__(self) -> None:
         self.files: OrderedDict[Path, _OpenFile] = OrderedDict()
-        self.process = os.getpid()
+        self.blocks = 0  # that read one of them now, all in the thread that holds ONE_AT_A_TIME
 
-    def opened(self, path: Path, reader: int) -> netCDF4.Dataset:
+    @contextmanager
+    def reading(self, path: Path, reader: int) -> Iterator[netCDF4.Dataset]:
         """The file at a path, opened again if another one has taken its place; OSError if it cannot be."""
+        self.blocks += 1
+        try:
+            yield self._opened(path, reader)
+        finally:
+            self.blocks -= 1
+
+    def _opened(self, path: Path, reader: int) -> netCDF4.Dataset:
         import netCDF4
 
         found = os.stat(path)
@@ -71,22 +79,31 @@ class _OpenFiles:
             if not self.files[path].readers:
                 self._close(path)
 
+    def before_fork(self) -> None:
+        """Close all files that are not read at this moment, and let nobody open one."""
+        ONE_AT_A_TIME.acquire()
+        while self.files and not self.blocks:
+            self._close(next(iter(self.files)))
+
+    def after_fork(self) -> None:
+        """Let files be opened again, on either side."""
+        ONE_AT_A_TIME.release()
+
     def _close(self, path: Path) -> None:
         self.files.pop(path).file.close()
 
 
-_open_files = [_OpenFiles()]
-
-
-def _of_this_process() -> _OpenFiles:
-    """The open files of this process: after a fork its own, while those of its parent are neither used nor closed."""
-    if _open_files[-1].process != os.getpid():
-        _open_files.append(_OpenFiles())
-    return _open_files[-1]
+_open_files = _OpenFiles()
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(
+        before=_open_files.before_fork,
+        after_in_parent=_open_files.after_fork,
+        after_in_child=_open_files.after_fork,
+    )
 
 
 class OpenShards:
-    """A reader of the shards of a corpus. Each process opens its own files, also after a fork or a pickle.
+    """A reader of the shards of a corpus, also after a fork or a pickle.
 
     netCDF4 crashes when an open file is left to the garbage collector, so they are closed by hand before that.
     """
@@ -103,14 +120,15 @@ class OpenShards:
         Take what is read out of the block, never the file: another thread may close it then. Raises BadInput if the
         file cannot be read, whether by opening it or by what is done in the block.
         """
-        with ONE_AT_A_TIME, reading(self.folder, shard):
-            yield _of_this_process().opened((self.folder / shard).absolute(), self._number)
+        path = (self.folder / shard).absolute()
+        with ONE_AT_A_TIME, reading(self.folder, shard), _open_files.reading(path, self._number) as file:
+            yield file
 
     @property
     def open_files(self) -> list[Path]:
         """Paths of the files that are open for this reader."""
         with ONE_AT_A_TIME:
-            return _of_this_process().read_by(self._number)
+            return _open_files.read_by(self._number)
 
     def close(self) -> None:
         """Close all but those that others read too; they open again when needed."""
@@ -122,4 +140,4 @@ class OpenShards:
 
 def _leave(reader: int) -> None:
     with ONE_AT_A_TIME:
-        _of_this_process().leave(reader)
+        _open_files.leave(reader)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import shutil
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import netCDF4
@@ -14,7 +15,7 @@ import numpy as np
 import pytest
 from xarray.backends import NetCDF4DataStore
 
-from datagen.corpora.open_shards import OpenShards
+from datagen.corpora.open_shards import OpenShards, _open_files
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.recordings.formats.reading import read_arrays
@@ -107,6 +108,38 @@ def test_corpora_that_open_read_and_close_the_same_files_in_any_order_do_no_harm
             assert corpus.scenario(record) == texts[record]
     for corpus in corpora:
         corpus.close()
+
+
+def read_text(corpus: Corpus, record: int) -> dict[str, object]:
+    corpus.waveform(record)
+    return corpus.scenario(record)
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system does not fork")
+def test_forked_processes_read_what_their_parent_reads_and_so_does_it_afterwards(tiny_corpus: Path) -> None:
+    # While the parent's files stayed open, processes that opened and closed larger ones again crashed.
+    with Corpus(tiny_corpus) as corpus:
+        texts = [read_text(corpus, record) for record in range(14)]
+        records = [*range(14)] * 20
+        with ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as pool:
+            found = list(pool.map(read_text, [corpus] * len(records), records))
+        assert found == [texts[record] for record in records]
+        assert [corpus.scenario(record) for record in range(14)] == texts
+
+
+def test_a_file_that_is_being_read_stays_open_during_a_fork(tiny_corpus: Path) -> None:
+    shards = OpenShards(tiny_corpus)
+    shard = min(f"shards/{path.name}" for path in (tiny_corpus / "shards").glob("*.nc"))
+    with shards.reading(shard) as file:
+        _open_files.before_fork()
+        _open_files.after_fork()
+        assert file.isopen()
+    _open_files.before_fork()
+    _open_files.after_fork()
+    assert not shards.open_files
+    with shards.reading(shard) as file:
+        assert file.isopen()
+    shards.close()
 
 
 def test_a_shard_that_was_made_again_is_opened_again(tiny_corpus: Path, tmp_path: Path) -> None:

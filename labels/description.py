@@ -13,6 +13,8 @@ from physics.spall import Spall, is_extended
 from physics.validity import assess
 
 SIZES = ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness")
+# Of Gauss: they integrate a polynomial of the seventh degree exactly.
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 def label_values(scene: Scene) -> dict[str, object]:
@@ -84,11 +86,10 @@ def slip_values(cage: CagePath) -> dict[str, float]:
         return {"mean_slip": cage.mean_slip, "slip_deviation": 0.0}
     start, end = cage.angle(np.array([0.0, cage.duration]))
     mean = 1.0 - (end - start) / (cage.duration * cage.nominal_speed)
-    # Slip is a cubic between knots, so that four points of Gauss give its square exactly.
+    # Slip is a cubic between knots, so that four points give its square exactly.
     inner = cage.knot_times[(cage.knot_times > 0.0) & (cage.knot_times < cage.duration)]
     edges = np.concatenate([[0.0], inner, [cage.duration]])
-    point, weight = np.polynomial.legendre.leggauss(4)
     half = np.diff(edges)[:, None] / 2.0
-    slip = 1.0 - cage.speed(edges[:-1, None] + half * (1.0 + point)) / cage.nominal_speed
-    variance = float((half * weight * (slip - mean) ** 2).sum()) / cage.duration
+    slip = 1.0 - cage.speed(edges[:-1, None] + half * (1.0 + POINTS)) / cage.nominal_speed
+    variance = float((half * WEIGHTS * (slip - mean) ** 2).sum()) / cage.duration
     return {"mean_slip": float(mean), "slip_deviation": math.sqrt(variance)}

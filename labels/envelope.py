@@ -64,15 +64,15 @@ def band_envelope(signal: Array, rate: float, band: Band) -> Array:
     if not 0.0 <= low < high <= rate / 2.0:
         raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
     frequency = np.fft.rfftfreq(signal.size, 1.0 / rate)
-    inside = (frequency >= low) & (frequency <= high)
-    if not inside.any():
+    first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")
+    if first == end:
         raise ValueError(
             f"band {low:g} to {high:g} Hz holds no component of {signal.size} samples at {rate:g} Hz, "
             f"which lie {rate / signal.size:g} Hz apart"
         )
-    both_signs = (frequency > 0.0) & (frequency < rate / 2.0)
+    both_signs = (frequency[first:end] > 0.0) & (frequency[first:end] < rate / 2.0)
     analytic = np.zeros(signal.size, dtype=np.complex128)
-    analytic[: frequency.size] = fft.rfft(signal) * np.where(inside, np.where(both_signs, 2.0, 1.0), 0.0)
+    analytic[first:end] = fft.rfft(signal)[first:end] * np.where(both_signs, 2.0, 1.0)
     return np.abs(fft.ifft(analytic))
 
 

@@ -20,6 +20,8 @@ def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None 
 
     Over `band` (Hz, edges included), or from 0 to half the `rate` (Hz) if None.
     """
+    if not noise.any():
+        return math.nan
     powers = [float(part.var()) if band is None else band_power(part, rate, band) for part in (signal, noise)]
     tiny = float(np.finfo(np.float64).tiny)
     if powers[1] <= ROUNDING * float(np.mean(noise**2)):
@@ -36,8 +38,8 @@ def band_power(signal: Array, rate: float, band: Band) -> float:
     if not 0.0 <= low < high <= rate / 2.0:
         raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
     frequency = np.arange(signal.size // 2 + 1) * (rate / signal.size)
-    inside = np.flatnonzero((frequency >= low) & (frequency <= high) & (frequency > 0.0))
-    power = 2.0 * np.abs(fft.rfft(signal)[inside] / signal.size) ** 2
-    if signal.size % 2 == 0:
-        power[inside == signal.size // 2] /= 2.0
+    first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")
+    power = 2.0 * np.abs(fft.rfft(signal)[max(first, 1) : end] / signal.size) ** 2
+    if signal.size % 2 == 0 and end == frequency.size:
+        power[-1:] /= 2.0
     return float(power.sum())

@@ -54,10 +54,9 @@ def ball_passes(scene: Scene, changes: ContactChanges | None, duration: float) -
     A pass cut by an end of the record is kept with `complete` False; its release is the first one seen. Without
     `changes` nothing is known of contact: no release, no regain, `loaded` False.
     """
-    tables = [_passes_over(scene, changes, duration, defect) for defect in range(len(scene.spalls))]
+    tables = [_no_passes(), *(_passes_over(scene, changes, duration, defect) for defect in range(len(scene.spalls)))]
     joined = {
-        field.name: np.concatenate([getattr(table, field.name) for table in (_no_passes(), *tables)])
-        for field in fields(PassTable)
+        field.name: np.concatenate([getattr(table, field.name) for table in tables]) for field in fields(PassTable)
     }
     order = np.lexsort((joined["ball"], joined["row"], joined["entry_time"]))
     return PassTable(**{name: column[order] for name, column in joined.items()})
@@ -74,9 +73,7 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
     loaded = np.zeros(ball.size, np.bool_)
     if changes is not None:
-        for number in np.unique(ball):
-            own = ball == number
-            release[own], regain[own], loaded[own] = _contact_events(changes, row, number, entry[own], leave[own])
+        release, regain, loaded = _contact_events(changes, row, ball, entry, leave)
     ended = np.isnan(release) | np.isfinite(regain)
     kept = loaded & np.isnan(release) & (entry >= 0.0) & (leave <= duration)
     fall, rise = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
@@ -123,20 +120,33 @@ def _following(entries: Passages, later: Passages) -> Array:
 
 
 def _contact_events(
-    changes: ContactChanges, row: int, ball: int, entry: Array, leave: Array
+    changes: ContactChanges, row: int, ball: Index, entry: Array, leave: Array
 ) -> tuple[Array, Array, Truth]:
-    """Release (N,) and regain (N,) in s and `loaded` (N,) of one ball (from 1) in its passes `entry` to `leave`."""
-    own = (changes.row == row) & (changes.ball == ball)
-    time, made = changes.time[own], changes.made[own]
-    losses, makings = time[~made], time[made]
-    states = np.append(changes.initial[row - 1, ball - 1], made)
-    touched = states[np.searchsorted(time, np.maximum(entry, 0.0), side="left")]
-    first_loss = np.searchsorted(losses, entry, side="left")
-    last_loss = np.searchsorted(losses, leave, side="right") - 1
-    made_within = np.searchsorted(makings, leave, side="right") > np.searchsorted(makings, entry, side="left")
+    """Release (N,), regain (N,), s, and `loaded` (N,) of `ball` (N,), from 1, of `row` in passes `entry` to `leave`."""
+    own = changes.row == row
+    balls = np.arange(1, changes.initial.shape[1] + 1)
+    # How a ball begins counts as its change before all others.
+    when = _instants(np.append(balls, changes.ball[own]), np.append(np.full(balls.size, -np.inf), changes.time[own]))
+    order = np.argsort(when, kind="stable")
+    when, made = when[order], np.append(changes.initial[row - 1], changes.made[own])[order]
+    losses, makings = when[~made], when[made]
+    begin, end = _instants(ball, entry), _instants(ball, leave)
+    touched = made[np.searchsorted(when, _instants(ball, np.maximum(entry, 0.0)), side="left") - 1]
+    first_loss = np.searchsorted(losses, begin, side="left")
+    last_loss = np.searchsorted(losses, end, side="right") - 1
+    made_within = np.searchsorted(makings, end, side="right") > np.searchsorted(makings, begin, side="left")
     released = touched & (last_loss >= first_loss)
     release, regain = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
-    release[released] = losses[first_loss[released]]
+    release[released] = losses[first_loss[released]].imag
     ended_by = np.searchsorted(makings, losses[last_loss[released]], side="right")
-    regain[released] = np.append(makings, np.nan)[ended_by]
+    # Balls count from 1: that of the added instant has no pass.
+    ending = np.append(makings, 0.0)[ended_by]
+    regain[released] = np.where(ending.real == ball[released], ending.imag, np.nan)
     return release, regain, touched | made_within
+
+
+def _instants(ball: NDArray[np.integer], time: Array) -> NDArray[np.complex128]:
+    """Instants (N,) of balls as ball + i time: complex numbers are sorted by their real part, then by the other one."""
+    instants = np.empty(time.size, dtype=np.complex128)
+    instants.real, instants.imag = ball, time
+    return instants

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -94,7 +94,7 @@ def write_shard(
             refused=refused or {},
         )
         write_atomically(shard_path(folder, shard), content)
-    write_atomically(sidecar_path(folder, shard), json.dumps(asdict(sidecar), allow_nan=False).encode())
+    write_atomically(sidecar_path(folder, shard), json.dumps(sidecar, default=vars, allow_nan=False).encode())
     return sidecar
 
 

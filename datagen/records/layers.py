@@ -33,13 +33,17 @@ def background_layers(scenario: Scenario, signal: Array) -> Layers:
     return layers if factor == 1.0 else {name: factor * layer for name, layer in layers.items()}
 
 
+def noise_along_y(layers: Layers, samples: int) -> Array:
+    """The sum of all layers along y (T,), m/s²; zeros without any."""
+    return sum((layer[:, 1] for layer in layers.values()), np.zeros(samples))
+
+
 def _scale(scenario: Scenario, signal: Array, layers: Layers) -> float:
     target = scenario.noise_target
     if target is None or not layers:
         return 1.0
-    noise = sum(layers.values(), np.zeros_like(signal))
     band = None if target.whole else scenario.noise_band
-    ratio = signal_to_noise(signal[:, 1], noise[:, 1], scenario.rate, band)
+    ratio = signal_to_noise(signal[:, 1], noise_along_y(layers, len(signal)), scenario.rate, band)
     return 1.0 if np.isnan(ratio) else float(10.0 ** ((ratio - target.ratio_db) / 20.0))
 
 
@@ -49,30 +53,30 @@ def _white(scenario: Scenario) -> Array | None:
 
 
 def _pink(scenario: Scenario) -> Array | None:
-    generator, samples, rate = scenario.generator("pink_noise"), scenario.samples, scenario.rate
-    return if_given(scenario.background.pink, lambda noise: pink_noise(generator, noise, samples, rate))
+    samples, rate, stream = scenario.samples, scenario.rate, scenario.generator
+    return if_given(scenario.background.pink, lambda noise: pink_noise(stream("pink_noise"), noise, samples, rate))
 
 
 def _shaft_harmonics(scenario: Scenario) -> Array | None:
-    generator, samples, rate = scenario.generator("shaft_harmonics"), scenario.samples, scenario.rate
+    samples, rate, stream = scenario.samples, scenario.rate, scenario.generator
     speed, layer = scenario.scene.operation.shaft_speed, scenario.background.shaft_harmonics
-    return if_given(layer, lambda tones: shaft_harmonics(generator, tones, speed, samples, rate))
+    return if_given(layer, lambda tones: shaft_harmonics(stream("shaft_harmonics"), tones, speed, samples, rate))
 
 
 def _gear_mesh(scenario: Scenario) -> Array | None:
-    generator, samples, rate = scenario.generator("gear_mesh"), scenario.samples, scenario.rate
+    samples, rate, stream = scenario.samples, scenario.rate, scenario.generator
     speed, layer = scenario.scene.operation.shaft_speed, scenario.background.gear_mesh
-    return if_given(layer, lambda gears: gear_mesh(generator, gears, speed, samples, rate))
+    return if_given(layer, lambda gears: gear_mesh(stream("gear_mesh"), gears, speed, samples, rate))
 
 
 def _mains_hum(scenario: Scenario) -> Array | None:
-    generator, samples, rate = scenario.generator("mains_hum"), scenario.samples, scenario.rate
-    return if_given(scenario.background.mains_hum, lambda hum: mains_hum(generator, hum, samples, rate))
+    samples, rate, stream = scenario.samples, scenario.rate, scenario.generator
+    return if_given(scenario.background.mains_hum, lambda hum: mains_hum(stream("mains_hum"), hum, samples, rate))
 
 
 def _impulses(scenario: Scenario) -> Array | None:
-    generator, samples, rate = scenario.generator("impulses"), scenario.samples, scenario.rate
-    return if_given(scenario.background.impulses, lambda knocks: impulses(generator, knocks, samples, rate))
+    samples, rate, stream = scenario.samples, scenario.rate, scenario.generator
+    return if_given(scenario.background.impulses, lambda knocks: impulses(stream("impulses"), knocks, samples, rate))
 
 
 def _recording(scenario: Scenario) -> Array | None:

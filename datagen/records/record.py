@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpora.format import profile_grid
-from datagen.records.layers import Layers, background_layers
+from datagen.records.layers import Layers, background_layers, noise_along_y
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -184,9 +184,11 @@ def _chaos(trace: Trace) -> str:
 def _missed(scenario: Scenario, trace: Trace) -> str:
     """That the response may be less exact than was asked for; empty if it is not, or chaotic."""
     accuracy, least = allowed_error(scenario)
+    if trace.chaotic or not trace.error_estimate > accuracy:
+        return ""
     size = float(np.sqrt(np.mean(trace.acceleration**2)))
     allowed = max(accuracy, least / size if size > 0.0 else 0.0)
-    if trace.chaotic or not trace.error_estimate > allowed:
+    if trace.error_estimate <= allowed:
         return ""
     return f"the accuracy asked for, {allowed:.2g}, was not reached: it may be {trace.error_estimate:.2g} off"
 
@@ -204,8 +206,8 @@ def _unlocated(trace: Trace) -> str:
 def sensor_labels(scenario: Scenario, signal: NDArray[np.float64], layers: Layers, clipped: float) -> dict[str, Any]:
     """Labels of chain and background of a record with this sensor `signal` (T, 2) and these layers, m/s²."""
     chain = scenario.chain
-    noise = sum(layers.values(), np.zeros_like(signal))
-    ratios = [signal_to_noise(signal[:, 1], noise[:, 1], scenario.rate, band) for band in (None, scenario.noise_band)]
+    along, noise = np.ascontiguousarray(signal[:, 1]), noise_along_y(layers, len(signal))
+    ratios = [signal_to_noise(along, noise, scenario.rate, band) for band in (None, scenario.noise_band)]
     levels = {name: float(np.sqrt(np.mean(layer[:, 1] ** 2))) for name, layer in layers.items()}
     return {
         "snr_db": ratios[0],

@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
-import numpy as np
-
 from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, DefectSettings, SpallSettings
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.profile_table import ProfileTable
@@ -57,7 +55,7 @@ def _draw_all(
         shape = _draw_shape(settings, race, profile, bearing, pick)
         if item == 0:
             rows = _rows(word, bearing, pick)
-        rough = _draw_roughness(shape, bearing, load, draw.stream("roughness", item))
+        rough = _draw_roughness(shape, bearing, load, draw, item)
         for row in rows:
             yield replace(rough, row=row, angle=angle % TURN)
 
@@ -103,10 +101,11 @@ def _draw_taper(
     return pick.number(share or Fixed(DEFAULT_TAPER_SHARE[profile])) * extent
 
 
-def _draw_roughness(spall: Spall, bearing: Bearing, load: float, generator: np.random.Generator) -> Spall:
+def _draw_roughness(spall: Spall, bearing: Bearing, load: float, draw: Draw, item: int) -> Spall:
     if spall.roughness == 0.0:
         return spall
     width = contact_width(bearing, spall.race, bearing.stribeck_peak_load(load)) if spall.profile == "tukey" else None
+    generator = draw.stream("roughness", item)
     values = draw_roughness(generator, bearing, spall.race, spall.extent, spall.roughness, width)
     return replace(spall, roughness_values=values)
 

@@ -44,7 +44,7 @@ class Draw:
                 return number
             return self._design.refine(dimension, self.place, self._points, number)
 
-        return Picker(self.stream(purpose, item).random, refine, self.turns)
+        return Picker(lambda: self.stream(purpose, item), refine, self.turns)
 
     @cached_property
     def turns(self) -> Turns:

@@ -44,15 +44,13 @@ def draw_background(settings: BackgroundSettings, rate: float, draw: Draw) -> Ba
     )
 
 
-def draw_stretch(settings: RecordingSettings | None, samples: int, generator: np.random.Generator) -> Stretch | None:
-    """What a record of `samples` takes of the recording, at a random place; None if there is no recording.
+def draw_stretch(settings: RecordingSettings, samples: int, draw: Draw) -> Stretch:
+    """What a record of `samples` takes of the recording, at a random place.
 
     Raises InvalidParameter if the recording is too short, BadInput if it is not at hand.
     """
-    if settings is None:
-        return None
     recording = settings.load()
-    first, second = draw_starts(generator, recording.shape[0], samples)
+    first, second = draw_starts(draw.stream("recording"), recording.shape[0], samples)
     starts = (first, first if recording.shape[1] == 2 else second)
     axes = [recording[start : start + samples, min(k, recording.shape[1] - 1)] for k, start in enumerate(starts)]
     content = np.ascontiguousarray(np.stack(axes, axis=1), dtype="<f4").tobytes()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,46 +16,49 @@ DEGREES_PER_RADIAN = math.degrees(1.0)
 Refine = Callable[[int, float], float]
 
 
-def unrefined(position: int, number: float) -> float:
-    """The number as it comes."""
-    return number
-
-
 class Picker:
     """Draws setting after setting; each takes exactly one number, whatever its distribution and even if it is absent.
 
     So fixing a setting that was drawn moves no other, and a table may grow at its end without moving what was there.
-    `refine` turns the number at a position (from 0) into that of a design; `turns` gives balanced settings their value.
+    `open_stream` gives the generator of the numbers, asked for when the first of them counts; `refine` turns the number
+    at a position (from 0) into that of a design; `turns` gives balanced settings their value.
     """
 
     def __init__(
-        self, next_number: Callable[[], float], refine: Refine = unrefined, turns: Turns | None = None
+        self, open_stream: Callable[[], np.random.Generator], refine: Refine, turns: Turns | None = None
     ) -> None:
-        self._next_number = next_number
+        self._open_stream = open_stream
         self._refine = refine
         self._turns = turns
         self._position = -1
+        self._passed_over = 0
 
-    @classmethod
-    def of(cls, generator: np.random.Generator) -> Picker:
-        """A picker fed by a generator."""
-        return cls(generator.random)
+    @cached_property
+    def _generator(self) -> np.random.Generator:
+        return self._open_stream()
 
     def value(self, setting: Distribution | None) -> Any:
         """A value in the setting's own unit, or None where the setting is not given."""
-        number = float(self._next_number())
-        self._position += 1
         if setting is None or isinstance(setting, Fixed):
+            self._pass_over()
             return None if setting is None else setting.value
         if isinstance(setting, Balanced) and self._turns is not None:
+            self._pass_over()
             return self._turns.take(setting)
-        return setting.quantile(self._refine(self._position, number))
+        return setting.quantile(self.share())
+
+    def _pass_over(self) -> None:
+        """Take the next number, which does not count, with the first after it that does."""
+        self._position += 1
+        self._passed_over += 1
 
     def share(self) -> float:
         """The number itself, in [0, 1)."""
-        number = float(self._next_number())
         self._position += 1
-        return self._refine(self._position, number)
+        if self._passed_over:
+            self._generator.random(self._passed_over)
+            self._passed_over = 0
+        return self._refine(self._position, self._generator.random())
 
     def number(self, setting: Distribution, per_unit: float = 1.0) -> float:
         """A number, divided by `per_unit` (how many of the setting's units make one SI unit)."""

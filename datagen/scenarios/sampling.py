@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-
+from datagen.optional import if_given
 from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Recipe
@@ -54,13 +53,11 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
     scene = Scene(
         rig=rig,
         operation=operation,
-        cage=slip.path(duration, slip.start_angle, draw.stream("slip")),
+        cage=slip.path(duration, slip.start_angle, draw),
         spalls=_spalls(draw, machine, place, operation.load),
         imperfections=machine.imperfections,
         contact_law=contact_law,
-        second_cage=slip.path(duration, slip.second_start_angle, draw.stream("slip", 1))
-        if machine.separate_cages
-        else None,
+        second_cage=slip.path(duration, slip.second_start_angle, draw, 1) if machine.separate_cages else None,
     )
     require_equilibrium(scene)
     background = recipe.background_of(part)
@@ -76,7 +73,7 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
         slip_correlation_time=slip.correlation_time,
         chain=machine.chain,
         background=machine.background,
-        stretch=draw_stretch(background.recording, machine.samples, draw.stream("recording")),
+        stretch=if_given(background.recording, lambda one: draw_stretch(one, machine.samples, draw)),
         noise_target=draw_noise_target(background, draw.picker("noise_target")),
         snr_band=background.snr_band_hz or machine.envelope_band,
         redraws=redraws,
@@ -142,10 +139,11 @@ class _Slip:
     start_angle: float
     second_start_angle: float
 
-    def path(self, duration: float, start_angle: float, generator: np.random.Generator) -> CagePath:
-        """A cage's path over `duration` (s), its knots drawn from `generator`."""
+    def path(self, duration: float, start_angle: float, draw: Draw, item: int = 0) -> CagePath:
+        """The path of cage `item` (from 0) over `duration` (s), its knots drawn from its own stream."""
         if self.deviation == 0.0:
             return CagePath(self.nominal_speed, duration, start_angle, self.mean_slip)
+        generator = draw.stream("slip", item)
         step, start, values = draw_slip_knots(generator, self.deviation, self.correlation_time, duration)
         return CagePath(self.nominal_speed, duration, start_angle, self.mean_slip, step, start, values)
 

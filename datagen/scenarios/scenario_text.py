@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import zlib
-from dataclasses import asdict, fields
+from dataclasses import fields
 from typing import Any
 
 from datagen.errors import BadInput
@@ -137,7 +137,7 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         "rig_details": {name: getattr(rig, name) for name in RIG_DETAILS},
         "contact_law": scene.contact_law,
         "sampling": sampling_data(scenario),
-        "accuracy": asdict(scenario.accuracy),
+        "accuracy": vars(scenario.accuracy),
         "slip": _slip(scene.cage, scenario),
         "second_cage": scene.second_cage
         and {"start_angle": scene.second_cage.start_angle} | _slip(scene.second_cage, scenario),
@@ -146,8 +146,8 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         "ball_deviation": [list(row) for row in scene.imperfections.ball_deviation],
         "chain": chain_data(scenario.chain),
         "background": background_data(scenario),
-        "seeds": asdict(scenario.seeds) | {"rule": RULE, "scopes": list(SCOPES), "purposes": list(PURPOSES)},
-        "redraws": [asdict(redraw) for redraw in scenario.redraws],
+        "seeds": vars(scenario.seeds) | {"rule": RULE, "scopes": list(SCOPES), "purposes": list(PURPOSES)},
+        "redraws": [vars(redraw) for redraw in scenario.redraws],
         "rules": SCENE_RULES,
     }
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import zlib
-from dataclasses import asdict
 from typing import Any
 
 from datagen.optional import if_given
@@ -88,7 +87,7 @@ def background_data(scenario: Scenario) -> Data:
     target = scenario.noise_target
     return {
         "layers": {name: values | {"rule": LAYER_RULES[name]} for name, values in layers.items()},
-        "noise_target": if_given(target, asdict),
+        "noise_target": if_given(target, vars),
         "snr_band_hz": if_given(scenario.snr_band, list),
         "rule": SUM_RULE,
     }
@@ -151,7 +150,7 @@ def _impulses(layer: Impulses) -> Data:
 
 
 def _recording(stretch: Stretch, gain: float) -> Data:
-    named = {key: value for key, value in asdict(stretch).items() if key != "content"}
+    named = {key: value for key, value in vars(stretch).items() if key != "content"}
     content = base64.b64encode(zlib.compress(stretch.content, 1)).decode("ascii")
     return named | {"starts": list(stretch.starts), "gain_m_s2": gain, "content": content}
 

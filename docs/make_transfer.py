@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.stats import binomtest
 
 from datagen.marked_tables import write_marked
-from labels.classifier.scores import FEWEST_A_SIDE
+from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, paired_difference
 
 PAGE = Path(__file__).with_name("transfer.md")
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
@@ -142,6 +143,51 @@ def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
     return lines
 
 
+def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
+    """What is lost against the first report without an ingredient, by all learners together: balanced accuracy over
+    outer and inner, paired by record; and the learners' false alarms over all healthy records."""
+    full = next(iter(reports.values()))
+    learners = [name for name in full["tests"][0]["models"] if name != "rule"]
+    head = "minus full recipe, on recordings | on simulated machines | false alarms, recordings | simulated"
+    lines = [f"| learned from | {head} |", "|---|---|---|---|---|"]
+    for name, report in reports.items():
+        if report is full:
+            continue
+        cells = []
+        for imported in (True, False):
+            truth, own, record = called(report, learners, imported)
+            lost = paired_difference(
+                balanced_accuracy, truth, own, called(full, learners, imported)[1], strata=truth, groups=record
+            )
+            cells.append(f"{lost.value:+.3f} [{lost.low:+.3f}, {lost.high:+.3f}]")
+        cells += [learners_alarms(report, learners, imported) for imported in (True, False)]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def called(
+    report: dict[str, Any], models: list[str], imported: bool
+) -> tuple[NDArray[np.str_], NDArray[np.str_], NDArray[np.str_]]:
+    """True race, what is called, and which record it is, of all faults but odd ones, one row a record and model."""
+    rows = [
+        (entry["truth"], entry[model]["location"], f"{test['corpus']} {entry['record']}")
+        for test in report["tests"]
+        if test["imported"] == imported
+        for entry in test["predictions"]
+        if entry["truth"] in ("outer", "inner") and entry["recording"] not in ODD
+        for model in models
+    ]
+    truth, own, record = zip(*rows, strict=True)
+    return np.array(truth), np.array(own), np.array(record)
+
+
+def learners_alarms(report: dict[str, Any], models: list[str], imported: bool) -> str:
+    """Fewest and most false alarms of the models, of so many healthy records."""
+    tests = [test["models"] for test in report["tests"] if test["imported"] == imported]
+    counts = [sum(test[model]["false_alarms"] for test in tests) for model in models]
+    return f"{min(counts)} to {max(counts)} of {sum(test[models[0]]['healthy'] for test in tests)}"
+
+
 def _has_faults(test: dict[str, Any]) -> bool:
     return bool(test["locations"]["outer"] + test["locations"]["inner"])
 
@@ -185,6 +231,8 @@ def main(paths: list[str]) -> None:
     for name, found in (("ablation", ablations), ("background", backgrounds)):
         if found:
             tables[name] = ablation_table(found)
+    if ablations:
+        tables["left out"] = left_out_table(ablations)
     for name, lines in tables.items():
         write_marked(PAGE, name, __file__, "\n".join(lines))
 

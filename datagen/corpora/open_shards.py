@@ -120,7 +120,7 @@ class OpenShards:
         Take what is read out of the block, never the file: another thread may close it then. Raises BadInput if the
         file cannot be read, whether by opening it or by what is done in the block.
         """
-        path = (self.folder / shard).absolute()
+        path = (self.folder / shard).resolve()
         with ONE_AT_A_TIME, reading(self.folder, shard), _open_files.reading(path, self._number) as file:
             yield file
 

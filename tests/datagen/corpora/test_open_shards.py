@@ -87,6 +87,16 @@ def test_a_file_is_open_once_however_many_corpora_read_it(tiny_corpus: Path) -> 
     assert not file.isopen()
 
 
+def test_a_file_that_is_reached_by_two_paths_is_open_once(tiny_corpus: Path, tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(tiny_corpus, target_is_directory=True)
+    one, other = OpenShards(tiny_corpus), OpenShards(tmp_path / "link")
+    shard = min(f"shards/{path.name}" for path in (tiny_corpus / "shards").glob("*.nc"))
+    with one.reading(shard) as file, other.reading(shard) as same:
+        assert same is file
+    one.close()
+    other.close()
+
+
 def test_everything_of_a_record_is_read_through_the_file_that_is_open(
     tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -152,3 +153,18 @@ def test_a_folder_that_is_no_corpus_is_refused(tmp_path: Path) -> None:
     (tmp_path / "manifest.json").write_text('{"name": 3')
     with pytest.raises(BadInput, match="not a manifest"):
         Corpus(tmp_path)
+
+
+def test_all_shards_open_as_one_lazy_dataset_as_the_readme_says(
+    corpus: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    code = next(block for block in re.findall(r"```python\n(.*?)```", readme, re.DOTALL) if "open_mfdataset" in block)
+    (tmp_path / "quickstart-corpus").symlink_to(corpus.folder.absolute(), target_is_directory=True)
+    monkeypatch.chdir(tmp_path)
+    names = {"xarray": xarray}
+    exec(code, names)
+    with names["whole"] as whole:
+        assert sorted(whole["record"].values) == list(range(14))
+        opened = whole["acceleration"].sel(record=3).dropna("time").values
+    assert np.array_equal(opened, corpus.waveform(3))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import sys
+
 from datagen.commands import (
     catalog,
     chart,
@@ -23,4 +26,7 @@ COMMANDS = (generate, import_recordings, check, info, preview, report, paper, ch
 
 def main() -> None:
     """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input) or 130 (Ctrl-C)."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # of an encoding that may lack ≤ and its like
+            stream.reconfigure(errors="replace")
     app()

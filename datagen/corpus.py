@@ -22,6 +22,7 @@ from datagen.corpora.open_shards import OpenShards
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:
+    import netCDF4
     import pandas
     import xarray
 
@@ -37,8 +38,9 @@ class Corpus:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
+        self._root = self.folder.absolute()  # the caller may change its directory
         self.manifest: Manifest = read_manifest(self.folder)
-        self._shards = OpenShards(self.folder)
+        self._shards = OpenShards(self._root)
 
     def __enter__(self) -> Corpus:
         return self
@@ -49,7 +51,7 @@ class Corpus:
     @cached_property
     def labels(self) -> pandas.DataFrame:
         """All labels, one row a record, columns as in labels.schema, plus the record's `shard` and `position` in it."""
-        return read_index(self.folder)
+        return read_index(self._root)
 
     @cached_property
     def _places(self) -> dict[int, tuple[str, int]]:
@@ -69,7 +71,8 @@ class Corpus:
         record dimension; BadInput if the record or the signal is not in the corpus."""
         shard, position = self._place(record)
         with self._shards.reading(shard) as file:
-            if variable not in file.variables:
+            _require_at_its_place(file, record, position, shard)
+            if variable not in file.variables or file.variables[variable].dimensions[:1] != ("record",):
                 known = ", ".join(name for name, held in file.variables.items() if held.dimensions[:1] == ("record",))
                 raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
             found: NDArray[Any] = file.variables[variable][position]
@@ -82,6 +85,7 @@ class Corpus:
         if axis not in axes:
             raise BadInput(f"record {record} has no such axis", shard, "axis", axis, ", ".join(axes))
         with self._shards.reading(shard) as file:
+            _require_at_its_place(file, record, position, shard)
             found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
         return found.astype(np.float64)
 
@@ -92,6 +96,9 @@ class Corpus:
             return [str(name) for name in file.variables["axis"][:]]
 
     def _place(self, record: int) -> tuple[str, int]:
+        if isinstance(record, bool | np.bool_) or record != int(record):
+            allowed = "a record index, such as those in labels[mask].record"
+            raise BadInput("no index of a record", str(self.folder), "record", record, allowed)
         try:
             return self._places[int(record)]
         except KeyError:
@@ -110,6 +117,7 @@ class Corpus:
 
         shard, position = self._place(record)
         with self._shards.reading(shard) as file:
+            _require_at_its_place(file, record, position, shard)
             opened = xarray.open_dataset(NetCDF4DataStore(file))
             tables = {"ball_pass": "pass_record", "defect": "defect_record"}
             own = {
@@ -117,7 +125,9 @@ class Corpus:
                 for table, column in tables.items()
                 if column in opened
             }
-            return opened.isel(own | {"record": position}).load()
+            found = opened.isel(own | {"record": position}).load()
+        found.set_close(None)  # the file is not the caller's to close
+        return found
 
     def scenario(self, record: int) -> dict[str, Any]:
         """The scenario of one record: every number that is needed to simulate it again."""
@@ -129,8 +139,10 @@ class Corpus:
     ) -> Iterator[tuple[NDArray[np.int64], NDArray[Any]]]:
         """Batches of (records (B,), signals (B, …)), B ≤ `size`, over `records` (all, in order, if not given).
 
-        Only one batch is in memory; BadInput if its records differ in shape.
+        Only one batch is in memory; BadInput if its records differ in shape, or for a size below 1.
         """
+        if size < 1:
+            raise BadInput(field="size", value=size, allowed="1 or more")
         chosen = np.asarray(list(self.labels["record"] if records is None else records), dtype=np.int64)
         for start in range(0, chosen.size, size):
             batch = chosen[start : start + size]
@@ -142,6 +154,8 @@ class Corpus:
         return self._stack([self.waveform(record, variable) for record in chosen], variable)
 
     def _stack(self, signals: list[NDArray[Any]], variable: str) -> NDArray[Any]:
+        if not signals:
+            raise BadInput("no record was chosen", str(self.folder), "variable", variable)
         shapes = sorted({np.shape(signal) for signal in signals})
         if len(shapes) > 1:
             raise BadInput(
@@ -165,3 +179,10 @@ class Corpus:
         folds = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
         for train, test in folds.split(record, table[stratify], groups=table["bearing_id"]):
             yield record[train], record[test]
+
+
+def _require_at_its_place(file: netCDF4.Dataset, record: int, position: int, shard: str) -> None:
+    """Raise BadInput unless the shard holds that record there: a run since the labels were read may have moved it."""
+    held = file.variables["record"]
+    if position < held.shape[0] and int(held[position]) != int(record):
+        raise BadInput("the corpus has changed since its labels were read; open it again", shard, "record", int(record))

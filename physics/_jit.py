@@ -39,13 +39,13 @@ def fingerprint() -> str:
 
 
 def _cache_folder() -> Path:
-    chosen = os.environ.get("SPALLGEN_CACHE") or os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    folder = Path(chosen) / "spallgen" / f"{fingerprint()}-numba{numba.__version__}"
+    chosen = os.environ.get("SPALLGEN_CACHE") or os.environ.get("XDG_CACHE_HOME")
     try:
+        folder = Path(chosen or Path.home() / ".cache") / "spallgen" / f"{fingerprint()}-numba{numba.__version__}"
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile(dir=folder):
             return folder
-    except OSError:
+    except (OSError, RuntimeError):  # a user without a home, as in containers
         made = tempfile.mkdtemp(prefix="spallgen-cache-")
         atexit.register(shutil.rmtree, made, ignore_errors=True)
         os.environ["SPALLGEN_CACHE"] = made  # for the workers that this process starts

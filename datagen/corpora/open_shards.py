@@ -24,22 +24,27 @@ if TYPE_CHECKING:
 
 OPEN_FILES = 32
 _numbers = itertools.count()
+FileKey = tuple[int, int]
 
 
 @dataclass
 class _OpenFile:
-    """An open `file`, the `state` of the path when it was opened, and the numbers of the OpenShards that read it."""
+    """An open `file`, where it was found, its `state` when it was opened, and the OpenShards (numbers) that read it."""
 
     file: netCDF4.Dataset
-    state: tuple[int, int, int]
+    path: Path
+    state: tuple[int, int]
     readers: set[int] = field(default_factory=set)
 
 
 class _OpenFiles:
-    """The open files of this process by their paths, those read last at the end."""
+    """The open files of this process, those read last at the end.
+
+    They are known by device and inode, as HDF5 knows them: links and other spellings of a path lead to one file.
+    """
 
     def __init__(self) -> None:
-        self.files: OrderedDict[Path, _OpenFile] = OrderedDict()
+        self.files: OrderedDict[FileKey, _OpenFile] = OrderedDict()
         self.blocks = 0  # that read one of them now, all in the thread that holds ONE_AT_A_TIME
 
     @contextmanager
@@ -55,29 +60,31 @@ class _OpenFiles:
         import netCDF4
 
         found = os.stat(path)
-        state = found.st_ino, found.st_size, found.st_mtime_ns
-        if path in self.files and self.files[path].state != state:
-            self._close(path)
-        if path not in self.files:
+        key, state = (found.st_dev, found.st_ino), (found.st_size, found.st_mtime_ns)
+        if key in self.files and self.files[key].state != state:
+            self._close(key)
+        for replaced in [other for other, held in self.files.items() if held.path == path and other != key]:
+            self._close(replaced)
+        if key not in self.files:
             file = netCDF4.Dataset(path)
             file.set_auto_mask(False)
-            self.files[path] = _OpenFile(file, state)
+            self.files[key] = _OpenFile(file, path, state)
             if len(self.files) > OPEN_FILES:
                 self._close(next(iter(self.files)))
-        self.files[path].readers.add(reader)
-        self.files.move_to_end(path)
-        return self.files[path].file
+        self.files[key].readers.add(reader)
+        self.files.move_to_end(key)
+        return self.files[key].file
 
     def read_by(self, reader: int) -> list[Path]:
         """Paths of the files that a reader has had opened."""
-        return [path for path in tuple(self.files) if reader in self.files[path].readers]
+        return [held.path for held in tuple(self.files.values()) if reader in held.readers]
 
     def leave(self, reader: int) -> None:
         """Close the files that nobody else reads."""
-        for path in self.read_by(reader):
-            self.files[path].readers.discard(reader)
-            if not self.files[path].readers:
-                self._close(path)
+        for key, held in tuple(self.files.items()):
+            held.readers.discard(reader)
+            if not held.readers:
+                self._close(key)
 
     def before_fork(self) -> None:
         """Close all files that are not read at this moment, and let nobody open one."""
@@ -89,8 +96,8 @@ class _OpenFiles:
         """Let files be opened again, on either side."""
         ONE_AT_A_TIME.release()
 
-    def _close(self, path: Path) -> None:
-        self.files.pop(path).file.close()
+    def _close(self, key: FileKey) -> None:
+        self.files.pop(key).file.close()
 
 
 _open_files = _OpenFiles()

@@ -57,7 +57,7 @@ class RecordingSettings(Table):
     def _read(cls, value: object, info: ValidationInfo) -> object:
         if not isinstance(value, dict) or not isinstance(value.get("file"), str):
             return value
-        path = Path((info.context or {}).get(FOLDER, Path())) / value["file"]
+        path = Path((info.context or {}).get(FOLDER, Path())).absolute() / value["file"]
         if not path.is_file() and all(name in value for name in LEARNT):
             return value
         return _learnt(value, path)

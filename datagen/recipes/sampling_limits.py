@@ -117,7 +117,10 @@ def _misfit(recipe: Recipe, background: BackgroundSettings) -> tuple[str, str, o
     recording, rate, duration = background.recording, recipe.signal.rate_hz, recipe.signal.duration_s
     if recording is None:
         return None
-    if not isinstance(rate, Fixed) or rate.value != recording.rate_hz:
+    if not isinstance(rate, Fixed):
+        problem = f"the records' rate is drawn, and {recording.file} is not resampled"
+        return "rate_hz", problem, recording.rate_hz, f"signal.rate_hz = {recording.rate_hz:g}"
+    if rate.value != recording.rate_hz:
         stated = ", ".join(f"{value:g}" for value in rate.stated())
         problem = f"{recording.file} is not sampled at the records' rate, and recordings are not resampled"
         return "rate_hz", problem, recording.rate_hz, f"{stated} (signal.rate_hz)"

@@ -29,7 +29,7 @@ class OwnEstimator:
     allowed: str
 
     def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
-        """What the user's object tells of acceleration (T, 2), m/s², sampled at `rate` (Hz).
+        """What the user's object tells of acceleration (T, axes), m/s², sampled at `rate` (Hz).
 
         Raises BadInput if it raises, or tells something else.
         """

@@ -30,7 +30,7 @@ LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
 
 @dataclass(frozen=True)
 class SizedRecord:
-    """One record: `acceleration` (T, 2), the clean one or None, its labels, what may be told of the machine, the truth.
+    """One record: `acceleration` (T, axes), the clean one or None, its labels, what may be told of the machine, truth.
 
     `truth` is None for recordings whose ball passes are unknown.
     """

@@ -14,6 +14,9 @@ import xarray
 from datagen.corpora.info import corpus_info
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.recipes.recipe import Recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
 from datagen.scenarios.scenario import Scenario
 
 ROOT = Path(__file__).parents[2]
@@ -168,3 +171,53 @@ def test_all_shards_open_as_one_lazy_dataset_as_the_readme_says(
         assert sorted(whole["record"].values) == list(range(14))
         opened = whole["acceleration"].sel(record=3).dropna("time").values
     assert np.array_equal(opened, corpus.waveform(3))
+
+
+@pytest.mark.parametrize("variable", ["entry_time", "pass_record", "time", "axis"])
+def test_what_is_not_one_a_record_is_no_signal_of_a_record(corpus: Corpus, variable: str) -> None:
+    with pytest.raises(BadInput, match=f"{variable}.*allowed: .*acceleration"):
+        corpus.waveform(5, variable)
+
+
+@pytest.mark.parametrize("chosen", [[True, False], np.array([True, False]), [2.9], ["2"]])
+def test_masks_and_fractions_are_no_record_indices(corpus: Corpus, chosen: object) -> None:
+    with pytest.raises((BadInput, ValueError)):
+        corpus.to_numpy("acceleration", chosen)
+    assert corpus.to_numpy("acceleration", [np.int32(2), 2.0]).shape[0] == 2
+
+
+def test_no_records_and_no_size_of_batches_are_refused(corpus: Corpus) -> None:
+    with pytest.raises(BadInput, match="no record was chosen"):
+        corpus.to_numpy("acceleration", [])
+    with pytest.raises(BadInput, match="size = 0; allowed: 1 or more"):
+        list(corpus.batches(0))
+
+
+def test_everything_of_a_record_is_its_own_and_may_be_closed_and_pickled(corpus: Corpus) -> None:
+    with corpus.dataset(3) as dataset:
+        text = dataset["scenario"].item()
+    assert corpus.waveform(3, "scenario") == text
+    assert pickle.loads(pickle.dumps(corpus.dataset(3))).identical(corpus.dataset(3))
+
+
+def test_a_corpus_is_where_it_was_opened_wherever_its_user_goes(
+    tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tiny_corpus.parent)
+    corpus = Corpus(tiny_corpus.name)
+    monkeypatch.chdir(tmp_path)
+    signal = corpus.waveform(2)
+    assert np.array_equal(pickle.loads(pickle.dumps(corpus)).waveform(2), signal)
+    assert np.array_equal(Corpus(tiny_corpus).waveform(2), signal)
+
+
+def test_a_record_that_a_later_run_has_moved_is_not_taken_for_another(tiny: Recipe, tmp_path: Path) -> None:
+    alone = Engine(workers=1)
+    generate(tiny, tmp_path / "out", records=[5], engine=alone)
+    corpus = Corpus(tmp_path / "out")
+    before = corpus.waveform(5)
+    generate(tiny, tmp_path / "out", records=[4], engine=alone)
+    for read in (corpus.waveform, corpus.signal, corpus.dataset, corpus.scenario):
+        with pytest.raises(BadInput, match="open it again"):
+            read(5)
+    assert np.array_equal(Corpus(tmp_path / "out").waveform(5), before)

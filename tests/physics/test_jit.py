@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import numba
@@ -202,3 +203,16 @@ def test_without_a_writable_place_the_cache_goes_to_a_temporary_folder_for_as_lo
     assert answer == "9.0 0"
     assert "spallgen-cache-" in folder
     assert not Path(folder).exists()
+
+
+def test_a_user_without_a_home_gets_a_cache_of_his_own(monkeypatch):
+    def nowhere():
+        raise RuntimeError("Could not determine home directory.")
+
+    for name in ("SPALLGEN_CACHE", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(_jit.Path, "home", nowhere)
+    folder = _jit._cache_folder()
+    assert folder.is_dir()
+    assert Path(tempfile.gettempdir()) in folder.parents
+    monkeypatch.delenv("SPALLGEN_CACHE")

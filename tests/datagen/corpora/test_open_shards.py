@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import multiprocessing
+import os
 import shutil
 import threading
 from collections.abc import Callable
@@ -87,14 +88,22 @@ def test_a_file_is_open_once_however_many_corpora_read_it(tiny_corpus: Path) -> 
     assert not file.isopen()
 
 
-def test_a_file_that_is_reached_by_two_paths_is_open_once(tiny_corpus: Path, tmp_path: Path) -> None:
+def test_a_file_that_is_reached_by_several_paths_is_open_once(tiny_corpus: Path, tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(tiny_corpus, target_is_directory=True)
-    one, other = OpenShards(tiny_corpus), OpenShards(tmp_path / "link")
+    (tmp_path / "shards").mkdir()
     shard = min(f"shards/{path.name}" for path in (tiny_corpus / "shards").glob("*.nc"))
-    with one.reading(shard) as file, other.reading(shard) as same:
-        assert same is file
-    one.close()
-    other.close()
+    os.link(tiny_corpus / shard, tmp_path / shard)
+    folders = [tiny_corpus, tmp_path / "link", tmp_path, tiny_corpus / ".." / tiny_corpus.name]
+    readers = [OpenShards(folder) for folder in folders]
+    opened = []
+    for reader in readers:
+        with reader.reading(shard) as file:
+            opened.append(file)
+    assert all(file is opened[0] for file in opened)
+    for reader in readers:
+        assert opened[0].isopen()
+        reader.close()
+    assert not opened[0].isopen()
 
 
 def test_everything_of_a_record_is_read_through_the_file_that_is_open(
@@ -162,6 +171,7 @@ def test_a_shard_that_was_made_again_is_opened_again(tiny_corpus: Path, tmp_path
             new.createDimension("record", old.dimensions["record"].size)
             new.createDimension("time", 3)
             new.createVariable("acceleration", "f4", ("record", "time"))[...] = 7.0
+            new.createVariable("record", "i8", ("record",))[...] = old["record"][...]
         (tmp_path / "new.nc").replace(shard)
         assert before.shape != (3,)
         assert np.array_equal(corpus.waveform(0), [7.0, 7.0, 7.0])

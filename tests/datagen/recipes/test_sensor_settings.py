@@ -156,6 +156,13 @@ def test_a_recording_that_does_not_fit_is_refused_in_one_line(file: str, more: s
     assert "\n" not in str(caught.value)
 
 
+def test_records_of_drawn_rates_take_no_recording(folder: Path) -> None:
+    drawn = BASE.replace("rate_hz = 32768", "rate_hz = {choice = [32768.0, 65536.0]}")
+    (folder / "recipe.toml").write_text(drawn + RECORDING.format(file="good.npy") + "rate_hz = 32768")
+    with pytest.raises(BadInput, match=r"rate is drawn.*allowed: signal\.rate_hz = 32768"):
+        load_recipe(folder / "recipe.toml")
+
+
 @pytest.mark.parametrize("text", [MODES.replace("500", "16384"), RECORDING.format(file="nan.npy") + "rate_hz = 32768"])
 def test_the_command_ends_with_2_and_writes_nothing(text: str, folder: Path, tmp_path: Path) -> None:
     with pytest.raises(BadInput):

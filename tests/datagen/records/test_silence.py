@@ -73,3 +73,13 @@ def test_a_bearing_without_load_is_silent_and_its_corpus_sound_and_drawn(tmp_pat
 )
 def test_silence_agrees_with_silence_and_with_nothing_else(again: float, stored: float, expected: float) -> None:
     assert _relative_difference(np.full((4, 2), again), np.full((4, 2), stored)) == expected
+
+
+def test_noise_at_a_ratio_to_a_silent_bearing_keeps_the_level_of_the_machine() -> None:
+    background = {"white_rms_m_s2": 0.1, "snr_db": 10}
+    part = {"name": "idle", "records": 1, "machine": {"rig": "gearbox"}, "operation": {"load_n": 0}}
+    signal = {"rate_hz": 20000, "duration_s": 0.2, "envelope_band_hz": [2000, 4000]}
+    content = {"name": "zero", "seed": 1, "signal": signal, "background": background, "part": [part]}
+    record = make_record(draw_scenario(parse_recipe(content, Path("recipe.toml")), 0))
+    assert record.labels["background_rms"][0] == pytest.approx(0.1, rel=0.05)  # 4000 samples: 1.1 % of scatter
+    assert record.labels["snr_db"] < -1000.0

@@ -177,3 +177,11 @@ def test_a_pass_half_as_loud_weighs_a_quarter():
     found = aligned(energy, RATE, track)
     assert found.place == pytest.approx(200.0 + period * np.arange(20), abs=1e-6)
     assert found.weight == pytest.approx(loud**2)
+
+
+def test_prewhitened_noise_is_told_in_units_of_its_median_size():
+    noise = 3.0 * np.random.default_rng(0).standard_normal(40_000)
+    found = prewhitened(noise)
+    assert np.median(np.abs(found.residual)) == pytest.approx(1.0)
+    # Of a standard normal variable half are smaller than 0.6745; 40 000 samples tell it to half a per cent.
+    assert found.unit == pytest.approx(3.0 * 0.6745, rel=0.02)

@@ -152,3 +152,11 @@ def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
     found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
     assert (found["healthy"], found["false_alarms"]) == (5, 3)
     assert (found["healthy_bearings"], found["alarming_bearings"]) == (3, 2)
+
+
+def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
+    outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.95, 0.05, 0.0, 0.0, 0.0]
+    locations = ["none", "none", "ball", "unknown", "outer"]
+    found = summarise(judged(locations, [outer, healthy, outer, outer, outer]), False)["models"]["said"]
+    assert (found["healthy"], found["false_alarms"]) == (2, 1)
+    assert found["confusion"]["counts"][-1] == [0, 2, 0, 0]  # beside them, called outer

@@ -74,3 +74,11 @@ def test_the_spread_is_told_by_a_band_that_three_quarters_do_not_exceed():
         spread[share] = measure(analyse(np.fft.irfft(spectrum, SIZE), RATE, KNOWN))["outer_spread"]
     assert spread[0.5] > 3.0
     assert spread[0.9] < spread[0.5] - 1.0
+
+
+def test_a_line_alone_has_no_others_and_a_third_harmonic_alone_no_first():
+    for harmonic in (1, 3):  # the second lies on the mains
+        found = measured(0.6 * np.cos(harmonic * KNOWN.bpfo * TURN))
+        assert found["outer_evidence"] > 3.0
+        assert found["outer_others"] < found["outer_evidence"] - 1.0
+        assert (found["outer_first"] > 3.0) == (harmonic == 1)

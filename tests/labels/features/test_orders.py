@@ -39,3 +39,18 @@ def test_rahmonics_are_read_at_one_and_at_two_periods():
 def test_a_longer_record_holds_more_turns(seconds):
     # The speed may be refined by up to 2.2 %.
     assert measure(noise(seconds))["turns"] == pytest.approx(np.log(25.0 * seconds), abs=0.023)
+
+
+def test_the_share_of_the_shaft_counts_its_first_eight_orders():
+    turn = 2.0 * np.pi * 25.0 * np.arange(40_000) / 20_000.0
+    quiet = 1e-4 * np.random.default_rng(0).standard_normal(40_000)
+    share = {order: measure(analyse(quiet + np.cos(order * turn), 20_000.0, KNOWN)) for order in (6, 9)}
+    assert share[6]["shaft_velocity"] == pytest.approx(0.0, abs=0.05)  # all of it, as a logarithm
+    assert share[9]["shaft_velocity"] < -1.0
+
+
+def test_each_race_has_a_cepstrum_of_its_own(impulse_train):
+    for race, other in (("outer", "inner"), ("inner", "outer")):
+        order = KNOWN.bpfo if race == "outer" else KNOWN.bpfi
+        found = measure(analyse(impulse_train(order, duration=2.0, snr_db=20.0), 20_000.0, KNOWN))
+        assert found[f"{race}_cepstrum"] > found[f"{other}_cepstrum"] + 0.3

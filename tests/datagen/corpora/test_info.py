@@ -128,6 +128,7 @@ def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:
         "record: extent": Refused(3, "too long"),
         "machine: other": Refused(1, "no idea"),
     }
+    assert list(add_refused([other, one])) == ["record: extent", "machine: other"]  # the most frequent first
 
 
 def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(copy: Path) -> None:

@@ -78,7 +78,8 @@ def test_the_pass_table_gives_them_only_where_contact_is_never_lost(make_scene):
 def test_short_waves_under_a_long_spall_are_part_of_the_due_load(make_scene, monkeypatch):
     arc = math.radians(50.0)
     long = Spall("outer", 1, math.radians(270.0), arc, 4.5e-6, arc / 2.0, arc / 2.0)
-    waves = Imperfections(waviness=(Waviness("inner", 58, 6e-7),))
+    # The short wave is the one that counts, whatever long ones there are beside it.
+    waves = Imperfections(waviness=(Waviness("inner", 58, 6e-7), Waviness("inner", 2, 1e-9)))
     scene = replace(make_scene(long, duration=DURATION), imperfections=waves)
     found = dips(scene)
     monkeypatch.setattr("labels.load_dips.SAMPLES_WITHOUT_SPALLS", 400)  # the due load at every instant of a pass
@@ -93,3 +94,7 @@ def test_a_load_that_only_rises_and_then_falls_has_no_dip():
     assert np.isnan(_first_and_last_crossing(np.arange(4.0), above)).all()
     # Upside down it falls half-way through the first step and rises half-way through the last.
     assert _first_and_last_crossing(np.arange(4.0), -above) == (0.5, 2.5)
+
+
+def test_of_two_dips_the_first_fall_and_the_last_rise_are_told():
+    assert _first_and_last_crossing(np.arange(6.0), np.array([1.0, -1.0, 1.0, 1.0, -1.0, 3.0])) == (0.5, 4.25)

@@ -110,6 +110,13 @@ def test_every_pass_that_overlaps_the_record_is_listed_and_only_those_inside_are
     assert np.all(np.diff(table.entry_time) >= 0.0)
 
 
+def test_passes_over_several_spalls_are_listed_by_time_and_not_spall_by_spall(make_scene):
+    scene = make_scene(Spall("outer", 1, 4.5, 0.03, 9e-6), Spall("outer", 2, 4.6, 0.05, 8e-6))
+    table = ball_passes(scene, None, DURATION)
+    assert set(table.defect) == {0, 1}
+    assert np.all(np.diff(table.entry_time) >= 0.0)
+
+
 def test_a_healthy_scene_has_no_pass(make_scene):
     table = ball_passes(make_scene(), None, DURATION)
     assert len(table) == 0

@@ -47,3 +47,10 @@ def test_an_unknown_contact_angle_is_taken_as_none():
     assert without == known_kinematics(with_angle)
     # 9 / 2 (1 − 7.94 / 39.04)
     assert without.bpfo == pytest.approx(3.5848, abs=1e-4)
+
+
+def test_the_order_of_one_race_and_the_number_of_balls_give_that_of_the_other():
+    for said in ({"bpfi": 5.4152}, {"bpfo": 3.5848}):
+        known = known_kinematics({"speed_rpm": 1800.0, "balls": 9} | said)
+        assert known is not None
+        assert (known.bpfo, known.bpfi) == (pytest.approx(3.5848), pytest.approx(5.4152))  # 9 together

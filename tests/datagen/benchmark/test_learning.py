@@ -1,12 +1,15 @@
 """The learning curve on made-up rows."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+import pytest
 
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.training import TrainingSet
 from labels.classifier.classes import CLASSES
+from labels.classifier.scores import Interval
 from labels.features.table import FEATURE_NAMES
 
 
@@ -52,3 +55,17 @@ def test_more_records_of_the_same_bearings_make_no_interval_narrower():
     once, often = (learning_curve(training, "logistic")["logistic"][-1] for training in (one, more))
     # Half as wide if records were drawn; what is learned from four copies differs a little.
     assert often["high"] - often["low"] > 0.8 * (once["high"] - once["low"]) > 0.04
+
+
+def test_rows_in_noise_are_learned_from_and_not_judged(monkeypatch: pytest.MonkeyPatch):
+    judged = []
+
+    def score(model: Any, held_out: TrainingSet) -> Interval:
+        judged.append(held_out)
+        return Interval(0.0, 0.0, 0.0)
+
+    monkeypatch.setattr("datagen.benchmark.learning._score", score)
+    learning_curve(made_up(60), "logistic")
+    assert judged
+    assert not any(held_out.noisy.any() for held_out in judged)
+    assert {len(held_out.table) for held_out in judged} == {15 * 2 * 2}  # a quarter of the bearings

@@ -115,3 +115,10 @@ def test_the_windows_of_corpora_have_the_lowest_rate_of_all(monkeypatch):
     assert common_rate(["one", "other"], 10_000.0) == 12_000.0
     assert common_rate(["one"], 10_000.0) == 20_000.0
     assert common_rate(["one"], 5000.0) == 10_000.0
+
+
+@pytest.mark.parametrize(("glitches", "drawn_over"), [(40, 40), (80, 0)])
+def test_what_comes_oftener_than_once_a_turn_is_no_glitch(glitches, drawn_over):
+    signal = shaking(24_000)  # two seconds, 60 turns
+    signal[150 + 290 * np.arange(glitches)] = 30.0
+    assert record_rows(signal, labels(), Reading()).glitches == drawn_over

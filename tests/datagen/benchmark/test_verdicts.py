@@ -152,3 +152,16 @@ def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
     found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
     assert (found["healthy"], found["false_alarms"]) == (5, 3)
     assert (found["healthy_bearings"], found["alarming_bearings"]) == (3, 2)
+
+
+def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
+    outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.95, 0.05, 0.0, 0.0, 0.0]
+    locations = ["none", "none", "ball", "unknown", "outer"]
+    found = summarise(judged(locations, [outer, healthy, outer, outer, outer]), False)["models"]["said"]
+    assert (found["healthy"], found["false_alarms"]) == (2, 1)
+    assert found["confusion"]["counts"][-1] == [0, 2, 0, 0]  # beside them, called outer
+
+
+def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
+    probability = [[0.02, 0.49, 0.49, 0.0, 0.0], [0.02, 0.51, 0.47, 0.0, 0.0]]
+    assert judged(["outer"] * 2, probability, 0.5).verdicts[1].location.tolist() == [REJECTED, "outer"]

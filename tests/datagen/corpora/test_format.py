@@ -158,6 +158,14 @@ def test_one_wrong_value_is_named(dataset: xarray.Dataset, name: str, value: obj
     assert any(sentence in found for found in violations(changed))
 
 
+def test_a_load_that_rises_before_it_falls_is_named(dataset: xarray.Dataset) -> None:
+    for fall, rise in ((0.045, 0.055), (0.055, 0.045)):
+        times = {"fall_time": fall, "rise_time": rise}
+        values = {name: np.full(dataset[name].shape, time) for name, time in times.items()}
+        changed = dataset.assign({name: (dataset[name].dims, own, dataset[name].attrs) for name, own in values.items()})
+        assert any("load rises before it falls" in found for found in violations(changed)) == (rise < fall)
+
+
 def test_a_missing_variable_or_unit_is_named(dataset: xarray.Dataset) -> None:
     assert "envelope is missing" in list(violations(dataset.drop_vars("envelope")))
     dataset["stiffness"].attrs["units"] = "N/mm"

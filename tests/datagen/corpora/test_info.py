@@ -104,6 +104,14 @@ def test_every_numeric_label_has_its_range(info: Info) -> None:
     assert 20 < info.ranges["extent"].largest * 57.29577951308232 < 40
 
 
+def test_the_middle_of_a_range_is_that_of_the_records_in_order(recipe: Recipe, info: Info) -> None:
+    # Half of the records are healthy, so the middle of their extents lies between 0 and the smallest spall.
+    spalls = [draw_scenario(recipe, record).scene.spalls for record in range(recipe.count)]
+    smallest = min(spall.extent for own in spalls for spall in own)
+    assert info.ranges["extent"].smallest == 0.0
+    assert info.ranges["extent"].median == pytest.approx(smallest / 2.0, rel=1e-9)
+
+
 def test_the_tables_show_what_was_refused_and_how_it_is_balanced(info: Info) -> None:
     console = Console(width=160, record=True, file=io.StringIO())
     for table in info_tables(info):
@@ -120,6 +128,7 @@ def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:
         "record: extent": Refused(3, "too long"),
         "machine: other": Refused(1, "no idea"),
     }
+    assert list(add_refused([other, one])) == ["record: extent", "machine: other"]  # the most frequent first
 
 
 def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(copy: Path) -> None:

@@ -21,6 +21,7 @@ from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
+from labels.envelope import band_envelope
 from labels.schema import LABEL
 
 G = 9.80665
@@ -78,6 +79,9 @@ def test_two_axes_and_two_channels_become_records_of_their_own(bring: Bring, tmp
     assert np.array_equal(corpus.signal(0, "y"), as_stored(samples[:, 1], 2.0))
     assert np.array_equal(corpus.signal(1), as_stored(samples[:, 3], 2.0))
     assert corpus.waveform(1).shape == (300, 1)
+    along = corpus.signal(0, "y").astype(np.float32).astype(np.float64)  # and not across
+    envelope = band_envelope(along, 1000.0, (300.0, 450.0))  # the usual shares of the rate
+    assert corpus.waveform(0, "envelope") == pytest.approx(envelope, rel=1e-6)  # float32
     assert corpus.labels["shard"].nunique() == 2
 
 
@@ -150,6 +154,18 @@ def test_a_long_recording_is_cut_into_whole_pieces_each_with_its_own_speed(bring
     assert corpus.labels["recording"].tolist() == ["a#0", "a#1"]
     assert np.array_equal(corpus.signal(1), as_stored(samples[1000:2000], 1.0))
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([12000.0, 15000.0], rel=1e-9)
+    origins = [json.loads(corpus.waveform(record, "provenance")) for record in (0, 1)]
+    assert [(origin["first_sample"], origin["samples"]) for origin in origins] == [(0, 1000), (1000, 1000)]
+
+
+def test_a_tach_may_have_a_rate_of_its_own(bring: Bring, mat: Mat) -> None:
+    pulses = np.tile([0.0, 0.0, 0.0, 0.0, 1.0], 100)  # 50 a second at 250 Hz
+    mat("a.mat", noise(2000), tacho=pulses)
+    corpus = bring(
+        '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "m/s2"\nrate_hz = 1000\ny = "sig"\n'
+        'tach = {variable = "tacho", rate_hz = 250}\n'
+    )
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([3000.0], rel=1e-9)
 
 
 def test_one_shard_holds_one_rate_and_length(bring: Bring, mat: Mat) -> None:

@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
-from datagen.recordings.shaft_speed import rising_edges
+from datagen.recordings.settings import Tach
+from datagen.recordings.shaft_speed import rising_edges, tach_speed
 
 
 def test_edges_of_a_sine_are_found_where_it_rises_through_its_middle() -> None:
@@ -28,3 +32,12 @@ def test_a_stated_threshold_moves_the_edges() -> None:
 @pytest.mark.parametrize("flat", [np.zeros(100), np.ones(100)])
 def test_a_dead_channel_has_no_edges(flat: np.ndarray) -> None:
     assert rising_edges(flat).size == 0
+
+
+def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:
+    pulses = np.zeros(1000)
+    pulses[[100, 200, 300, 450, 500, 550]] = 1.0
+    source: Any = SimpleNamespace(array=lambda *_: pulses, path="made-up")
+    tach = Tach(variable="tacho", threshold=1.0)  # edges on the very samples
+    assert tach_speed(source, tach, 1000.0, 0.0, 0.45) == pytest.approx(600.0)
+    assert tach_speed(source, tach, 1000.0, 0.45, 1.0) == pytest.approx(1200.0)

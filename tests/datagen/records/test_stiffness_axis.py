@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from datagen.recipes.recipe import parse_recipe
+from datagen.records.record import make_record
 from datagen.records.stiffness_axis import ACCURACY, interpolation_error, shard_key, stiffness_axis, stiffness_divisor
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -102,3 +103,18 @@ def test_a_shard_holds_records_of_one_rate_duration_bearing_size_and_axis() -> N
     (healthy,) = draw()
     assert shard_key(healthy)[-1] == stiffness_divisor(healthy) == 2
     assert math.isclose(shard_key(healthy)[1], 0.2, abs_tol=1 / 65536)  # rounded to whole samples
+
+
+def test_an_unbalance_that_nearly_lifts_the_shaft_asks_for_a_finer_axis_where_there_is_clearance() -> None:
+    loose = {"rig": "gearbox", "clearance_um": 15}
+    run = {"speed_of_rated": 0.25, "load_n": 2000}
+    still, lifted = (draw(machine=loose, operation=run | {"unbalance_n": force})[0] for force in (0, 1900))
+    assert 1 < stiffness_divisor(lifted) < stiffness_divisor(still)
+    assert measured_error(lifted, stiffness_axis(lifted)) <= ACCURACY
+
+
+def test_the_label_tells_what_interpolation_misses() -> None:
+    (scenario,) = draw(duration=0.1, operation={"speed_of_rated": 0.5})
+    assert stiffness_divisor(scenario) > 1
+    label = make_record(scenario).labels["stiffness_error"]
+    assert label == pytest.approx(measured_error(scenario, stiffness_axis(scenario)), rel=0.5)  # as above

@@ -171,3 +171,18 @@ def test_factors_of_the_diameters_scale_those_of_the_catalogue() -> None:
     (rig,) = rigs(rig="gearbox", factors={"pitch_diameter": 1.1, "ball_diameter": 0.9})
     assert rig.bearing.pitch_diameter == pytest.approx(1.1 * 38.75e-3)  # of the Koyo 1205
     assert rig.bearing.ball_diameter == pytest.approx(0.9 * 7.12e-3)
+
+
+def test_a_full_bearing_holds_as_many_balls_as_fit_side_by_side() -> None:
+    # Balls of a fifth of the pitch diameter: pi / asin(0.2) = 15.6; of 0.9 of them there is room for 14.04.
+    for fill, balls in ((1.0, 15), (0.9, 14), (0.95, 14)):
+        (rig,) = rigs(**(BEARING | {"ball_diameter_of_pitch": 0.2, "fill": fill}), **RIG)
+        assert rig.bearing.balls == balls
+
+
+def test_support_and_resonator_have_a_factor_of_damping_each() -> None:
+    own = catalog.rig("gearbox")
+    (rig,) = rigs(rig="gearbox", factors={"resonator_damping": 2, "support_damping": 3})
+    assert rig.resonator_damping == pytest.approx(2.0 * own.resonator_damping)
+    assert rig.support_damping_x == pytest.approx(3.0 * own.support_damping_x)
+    assert rig.support_damping_y == pytest.approx(3.0 * own.support_damping_y)

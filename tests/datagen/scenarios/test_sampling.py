@@ -253,6 +253,14 @@ def test_waviness_falls_with_its_order() -> None:
     assert len({w.phase for w in waves}) == 4
 
 
+def test_balls_and_waves_have_a_scale_of_their_own() -> None:
+    waves = [{"race": "inner", "orders": [2, 2], "amplitude_um": 0.4}]
+    scales = {"ball_deviation_scale": 3, "waviness_scale": 5}
+    found = draw(imperfections={"ball_deviation_um": 0.1, "waviness": waves} | scales)[0].scene.imperfections
+    assert [value for row in found.ball_deviation for value in row] == pytest.approx([0.3e-6] * 24)
+    assert [wave.amplitude for wave in found.waviness] == pytest.approx([2e-6])
+
+
 def test_impossible_draws_are_redrawn_and_counted_with_their_reason() -> None:
     defect = {"condition": "line", "extent_deg": {"uniform": [20, 40]}, "depth_um": 12}
     scenarios = draw(40, defect=defect)

@@ -114,6 +114,10 @@ def test_amplitudes_fall_with_their_order_and_each_is_drawn() -> None:
     hum = draw_scenario(recipe(background=fixed), 0).background.mains_hum
     assert hum is not None
     assert hum.amplitudes == pytest.approx((6.0, 1.5, 6.0 / 9.0), rel=1e-15)
+    later = {"shaft_harmonics": {"amplitude_m_s2": 6, "orders": [2, 4], "decay": 1}}
+    harmonics = draw_scenario(recipe(background=later), 0).background.shaft_harmonics
+    assert harmonics is not None
+    assert harmonics.amplitudes == pytest.approx((6.0, 4.0, 3.0), rel=1e-15)  # the first has what was drawn
     drawn = draw_scenario(recipe(background=BACKGROUND), 0).background.shaft_harmonics
     assert drawn is not None
     levels = np.array(drawn.amplitudes) * [1.0, 2.0, 3.0]

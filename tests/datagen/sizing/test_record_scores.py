@@ -76,6 +76,18 @@ def test_event_times_that_equal_the_truth_match_every_event_and_shifted_ones_non
     assert (shifted.events_in_time.matched, shifted.events_in_arc.matched) == (0, 0)
 
 
+def test_events_count_within_100_microseconds_and_within_half_a_degree() -> None:
+    first = 0.01 * np.arange(1.0, 8.0)
+    sized = replace(record_at("inner"), truth=EventTruth(first, first + LAG, np.zeros(7, dtype=np.bool_)))
+    # A ball covers a spacing of 30 degrees in a pass.
+    degree = MACHINE.pass_periods()["inner"] / 30.0
+    for share, matched in ((0.9, 14), (1.1, 0)):
+        for late, kind in ((share * 100e-6, "events_in_time"), (share * 0.5 * degree, "events_in_arc")):
+            times = np.column_stack([first, first + LAG]) + late
+            scored = score_record(sized, Says(replace(TOLD, event_times=times)))
+            assert getattr(scored, kind).matched == matched
+
+
 @pytest.mark.parametrize(("location", "order"), [("outer", "bpfo"), ("inner", "bpfi"), ("none", "bpfo")])
 def test_the_nominal_period_is_that_of_the_balls_over_the_race_of_the_spall(location: str, order: str) -> None:
     labels = {"location": location, "speed_rpm": 1800.0, "bpfo": 4.9, "bpfi": 7.1}

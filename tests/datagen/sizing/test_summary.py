@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.summary import summarise
+from datagen.sizing.summary import mean_with_interval, summarise
 from labels.event_scores import EventScores
 
 BAD, GOOD = EventScores(0, 10, 10), EventScores(10, 10, 10)
@@ -82,3 +83,11 @@ def test_the_lag_of_clean_records_is_met_up_to_5_per_cent_of_error(
     records = [scored(snr_db=math.inf, lag=0.004 * (1.0 + error))]
     (figure,) = [one for one in summarise(records, True)["figures"] if one.name == "lag error, clean"]
     assert (figure.value, figure.met) == (pytest.approx(error), met)
+
+
+def test_the_interval_of_a_mean_leaves_a_twentieth_out_at_either_end(scored: Callable[..., ScoredRecord]) -> None:
+    values = np.random.default_rng(0).standard_normal(400)
+    found = mean_with_interval("error", values.tolist(), [scored(bearing_id=str(k)) for k in range(400)])
+    reach = 1.645 * values.std() / math.sqrt(400)  # of a normal distribution; 2000 draws tell quantiles to 4 %
+    assert found["error_high"] - found["error"] == pytest.approx(reach, rel=0.1)
+    assert found["error"] - found["error_low"] == pytest.approx(reach, rel=0.1)

@@ -78,3 +78,11 @@ def test_few_rows_like_noise_leave_one_alarm_for_all():
     alarm = fit_alarm(probability[clear], table[clear], owner[clear], noisy[clear], 0.05)
     assert alarm.in_noise == pytest.approx(float(np.quantile(probability[clear], 0.975)))
     assert alarm.in_clear >= alarm.in_noise * (1.0 - 1e-9)  # up to rounding
+
+
+def test_of_few_clear_records_exactly_the_share_passes():
+    level = np.concatenate([np.linspace(-3.0, 3.0, 40), np.linspace(-6.0, -5.0, 40)])
+    noisy = np.arange(80) >= 40
+    probability = 1.0 / (1.0 + np.exp(-level))
+    alarm = fit_alarm(probability, rows(np.where(noisy, 0.0, 1.0)), np.arange(80) % 40, noisy, 0.1)
+    assert np.sum(level > logit(np.array([alarm.in_clear]))[0] + 1e-9) == 4  # up to rounding

@@ -105,3 +105,9 @@ def test_one_line_at_the_speed_of_the_shaft_is_no_turning_shaft_and_two_are():
     assert found(noise + one).reason == STOPPED
     assert found(noise + one + other).evidence > TURNING_EVIDENCE
     assert found(noise + one + other).reason == ""
+
+
+def test_a_digit_is_the_smallest_step_of_the_recorder_whatever_larger_ones_there_are():
+    signal = 0.01 * np.round(rushing() / 0.01)
+    signal[100] = 500.0
+    assert found(signal).digits == pytest.approx(signal.std() / 0.01, rel=1e-6)  # differences of rounded values

@@ -102,6 +102,7 @@ def test_the_likeliest_spall_is_named_only_above_the_alarm():
     probability = np.array([[0.6, 0.1, 0.3, 0.0, 0.0], [0.2, 0.5, 0.3, 0.0, 0.0]])
     assert decide(probability, 0.5).tolist() == ["healthy", "line outer"]
     assert decide(probability, 0.3).tolist() == ["line inner", "line outer"]
+    assert decide(np.array([[0.5, 0.5, 0.0, 0.0, 0.0]]), 0.5).tolist() == ["healthy"]  # it must be passed
 
 
 def test_unknown_classes_and_learners_are_refused():
@@ -143,3 +144,23 @@ def test_spalls_of_a_length_that_was_never_seen_are_never_called(length, never):
     probability = SpallClassifier("logistic").fit(table, classes, np.arange(150) // 2).predict_proba(table)
     assert probability[:, never].max() == 0.0
     np.testing.assert_allclose(probability.sum(axis=1), 1.0, rtol=1e-12)  # up to rounding
+
+
+def test_the_same_evidence_in_a_longer_record_never_makes_a_spall_likelier():
+    table, classes, groups = made_up(400, 9)
+    # Taught otherwise: records of spalls are longer.
+    table[:, FEATURE_NAMES.index("turns")] += 2.0 * (classes != "healthy")
+    model = SpallClassifier("logistic").fit(table, classes, groups)
+    longer = table.copy()
+    longer[:, FEATURE_NAMES.index("turns")] += 2.0
+    assert np.all(model.predict_proba(longer)[:, 0] >= model.predict_proba(table)[:, 0] - 1e-12)  # up to rounding
+
+
+def test_more_false_alarms_are_made_where_more_are_allowed():
+    table, classes, groups = made_up(400, 1)
+    strict, lenient = (
+        SpallClassifier("logistic", false_alarms=share).fit(table, classes, groups) for share in (0.02, 0.4)
+    )
+    unseen, truth, _ = made_up(2000, 3)
+    called = [np.mean(model.predict(unseen[truth == "healthy"]) != "healthy") for model in (strict, lenient)]
+    assert called[1] > called[0] + 0.05  # 2 and, where nothing tells clear records from noise, 20 % of 80 rows set it

@@ -5,9 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from labels.features.conditioning import condition
+from labels.features.conditioning import condition, local_mean_power
 from labels.features.envelopes import band_edges, envelope_spectra
-from labels.features.families import Lines, evidence, find_family, lines_in, without_mains, without_shaft
+from labels.features.families import (
+    Lines,
+    evidence,
+    find_family,
+    harmonic_evidence,
+    lines_in,
+    without_mains,
+    without_shaft,
+)
 from labels.features.modulation import line_strength
 
 
@@ -111,3 +119,28 @@ def test_a_band_says_nothing_of_frequencies_that_it_is_too_narrow_to_hold():
         assert (excess[frequency > 0.85 * width] == 1.0).all()
         assert excess[frequency < 0.8 * width].std() > 0.5  # that of noise is 1
     assert spectra.edges[-1].tolist() == [0.875, 1.0]  # an eighth of 9.5 kHz, far below 4 kHz
+
+
+def test_a_higher_harmonic_is_looked_for_over_as_many_times_the_width():
+    excess = np.ones((1, 4000))
+    for k in (1, 2, 3):
+        excess[0, 700 * k - 10 * k : 700 * k + 10 * k + 1] = 9.0  # 70 Hz ± 1 Hz, 140 Hz ± 2 Hz, 210 Hz ± 3 Hz
+    found = harmonic_evidence(lines_in(excess, 0.1), np.array([70.0]), 20.0, 0.1, 3)[:, 0, 0]
+    # k · 20 components of a mean of 9, of which a Hann window leaves one in 1.5 independent.
+    assert found == pytest.approx(20.0 / 1.5 * (8.0 - np.log(9.0)) * np.array([1.0, 2.0, 3.0]), rel=1e-6)
+
+
+def test_the_kurtosis_of_a_band_is_that_of_its_complex_signal_over_the_noises():
+    generator, size = np.random.default_rng(8), 40_000
+    steady = generator.standard_normal(size)
+    # On for a fifth of the time: ⟨|z|⁴⟩ / ⟨|z|²⟩² is 2 / 0.2 where noise has 2.
+    bursts = np.where(np.arange(size) % 5000 < 1000, steady, 0.0) + 1e-3 * generator.standard_normal(size)
+    for signal, kurtosis in ((steady, 0.0), (bursts, 8.0)):
+        spectra = envelope_spectra(condition(signal, 20_000.0), 25.0, 300.0, 600.0)
+        assert spectra.kurtosis[0] == pytest.approx(kurtosis, abs=0.1)  # of 8000 to 40 000 samples
+
+
+def test_the_floor_under_a_slope_is_the_slope():
+    power = np.exp(-np.arange(4000) / 400.0)
+    # A block's median of e^(-x) is its middle's value, over ln 2; the axis ends half a block beyond the first and last.
+    assert local_mean_power(power, 100)[50:3950] == pytest.approx(power[50:3950] / np.log(2.0), rel=0.01)

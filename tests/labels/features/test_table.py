@@ -94,3 +94,19 @@ def test_a_sensor_mounted_the_other_way_round_gives_the_same_features(impulse_tr
     values = features(skewed, 20_000.0, KNOWN)
     assert named(values)["skewness"] > 0.3  # an exponential has 2, in a sum of three parts of like size
     np.testing.assert_allclose(features(-skewed, 20_000.0, KNOWN), values, rtol=1e-9, atol=1e-12)  # rounding
+
+
+def test_the_narrowest_band_holds_three_harmonics_of_either_race():
+    for shaft_hz in (25.0, 75.0):
+        analysis = analyse(np.random.default_rng(0).standard_normal(20_000), 20_000.0, KNOWN.at(shaft_hz))
+        widths = np.diff(analysis.envelopes.edges[1:], axis=1) * analysis.record.bandwidth
+        assert widths.min() >= 3.0 * KNOWN.bpfi * shaft_hz
+
+
+def test_a_line_of_the_bearing_is_no_decoy():
+    # Eight balls of 0.2825 of the pitch diameter pass the outer race at 2.87 orders, which other bearings have not.
+    own = bearing_kinematics(8, 1.0, 0.2825, 0.0, 25.0)
+    turn = 2.0 * np.pi * 25.0 * np.arange(100_000) / 20_000.0
+    signal = np.sqrt(1.0 + 0.6 * np.cos(2.87 * turn)) * np.random.default_rng(1).standard_normal(100_000)
+    assert named(features(signal, 20_000.0, own))["largest_decoy"] < 2.0
+    assert named(features(signal, 20_000.0, KNOWN))["largest_decoy"] > 3.0

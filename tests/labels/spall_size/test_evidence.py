@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
 from labels.spall_size.event_shapes import SHAPES, event_shapes
-from labels.spall_size.evidence import gather_evidence
+from labels.spall_size.evidence import _predictability, gather_evidence
 from labels.spall_size.mean_pass import MeanPass, mean_pass
 from labels.spall_size.pair_features import NAMES
 from labels.spall_size.pass_track import CELLS, PassTrack, track_passes
@@ -177,3 +177,17 @@ def test_a_pass_half_as_loud_weighs_a_quarter():
     found = aligned(energy, RATE, track)
     assert found.place == pytest.approx(200.0 + period * np.arange(20), abs=1e-6)
     assert found.weight == pytest.approx(loud**2)
+
+
+def test_prewhitened_noise_is_told_in_units_of_its_median_size():
+    noise = 3.0 * np.random.default_rng(0).standard_normal(40_000)
+    found = prewhitened(noise)
+    assert np.median(np.abs(found.residual)) == pytest.approx(1.0)
+    # Of a standard normal variable half are smaller than 0.6745; 40 000 samples tell it to half a per cent.
+    assert found.unit == pytest.approx(3.0 * 0.6745, rel=0.02)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_differences_of_white_noise_have_twice_its_variance_whatever_its_scale(scale):
+    noise = scale * np.random.default_rng(0).standard_normal(100_000)
+    assert _predictability(noise) == pytest.approx(-math.log(2.0), abs=0.02)

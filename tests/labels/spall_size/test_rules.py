@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,3 +27,11 @@ def test_the_half_size_rule_says_twice_the_arc_of_the_plain_one(pulse_train):
     assert half.extent == pytest.approx(2.0 * plain.extent, rel=1e-12)
     # A ball covers one spacing of the outer race (30 degrees) in one pass period.
     assert plain.extent == pytest.approx(math.radians(30.0) * plain.lag / plain.pass_period, rel=1e-12)
+
+
+@pytest.mark.parametrize(("race", "diameter_mm"), [("outer", 38.75 + 7.12), ("inner", 38.75 - 7.12)])
+def test_the_length_is_told_along_the_raceway(pulse_train, race, diameter_mm):
+    situation = replace(GEARBOX, race=race)
+    train = pulse_train(100.0 / RATE, situation.pass_periods()[race])
+    told = EnvelopeLagRule().estimate(train.signal, RATE, situation)
+    assert told.extent_mm == pytest.approx(told.extent * diameter_mm / 2.0, rel=1e-12)

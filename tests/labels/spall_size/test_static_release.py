@@ -75,3 +75,8 @@ def test_a_spall_is_longer_than_its_events_are_apart_by_a_release_arc_at_either_
 def test_a_bearing_without_load_has_no_release_arc_to_be_computed():
     known = {"balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3, "shaft_speed": 44.0}
     assert not Situation(**known, load=0.0, load_deflection=5e9).load_known
+
+
+def test_the_usual_share_of_the_peak_is_the_mean_cosine_of_where_spalls_lie():
+    # The mean cosine of an angle spread normally by 25 degrees is exp(-spread² / 2).
+    assert pytest.approx(math.exp(-0.5 * math.radians(25.0) ** 2), abs=0.005) == USUAL_SHARE_OF_PEAK  # two digits

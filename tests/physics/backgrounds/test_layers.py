@@ -161,6 +161,24 @@ def test_knocks_come_at_their_rate_with_their_median_height_and_share_their_reso
     assert np.abs(signal).max() < height.max()  # a damped sine stays below its height
 
 
+def test_a_knock_is_shared_by_its_resonances_and_its_height_is_log_normal():
+    resonances = Resonance(500.0, 0.05), Resonance(3000.0, 0.02)
+    seed = next(s for s in range(99) if np.random.default_rng(s).poisson(2.0) == 3)
+    signal = impulses(np.random.default_rng(seed), Impulses(1.0, 2.0, 0.7, resonances), SAMPLES, RATE)
+    generator = np.random.default_rng(seed)
+    generator.poisson(2.0)
+    start, height = 2.0 * generator.random(3), 2.0 * np.exp(0.7 * generator.standard_normal(3))
+    direction, share = 2.0 * math.pi * generator.random(3), generator.random((3, 2))
+    expected = np.zeros((SAMPLES, 2))
+    for knock in range(3):
+        since = np.maximum(np.arange(SAMPLES) / RATE - start[knock], 0.0)
+        for place, one in enumerate(resonances):
+            turn = 2.0 * np.pi * one.frequency * since
+            ring = height[knock] * share[knock, place] / share[knock].sum() * np.exp(-one.damping * turn) * np.sin(turn)
+            expected += ring[:, None] * np.array([math.cos(direction[knock]), math.sin(direction[knock])])
+    assert signal == pytest.approx(expected, abs=1e-9)  # rounding grows along the recursion
+
+
 @pytest.mark.parametrize("frequency", [4096.0, 5000.0])
 def test_a_resonance_beyond_half_the_rate_is_refused(frequency):
     layer = Impulses(40.0, 2.0, 0.7, (Resonance(frequency, 0.1),))

@@ -30,6 +30,11 @@ def test_the_fan_rigs_mounting_passes_what_an_analogue_butterworth_of_order_6_pa
     assert gain(Mounting(11000.0), frequency) == pytest.approx(expected, rel=1e-6)
 
 
+def test_a_mounting_of_the_first_order_falls_by_six_decibels_an_octave():
+    ratio = math.tan(math.pi * 24000.0 / RATE) / math.tan(math.pi * 4000.0 / RATE)
+    assert gain(Mounting(4000.0, 1), 24000.0) == pytest.approx(1.0 / math.sqrt(1.0 + ratio**2), rel=1e-6)
+
+
 def test_the_mounting_is_causal_and_delays_low_frequencies_by_51_microseconds():
     step = np.zeros((4096, 2))
     step[1000:] = 1.0

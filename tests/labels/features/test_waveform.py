@@ -1,0 +1,35 @@
+"""The shape of a waveform, against closed forms of the normal distribution."""
+
+import math
+
+import numpy as np
+import pytest
+
+from labels.features.analysis import analyse
+from labels.features.kinematics import bearing_kinematics
+from labels.features.waveform import measure
+
+
+def test_the_shape_of_noise_is_that_of_a_normal_distribution():
+    noise = np.random.default_rng(0).standard_normal(400_000)
+    found = measure(analyse(noise, 20_000.0, bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)))
+    mean = math.sqrt(2.0 / math.pi)  # of the size of a standard normal variable
+    assert found["kurtosis"] == pytest.approx(math.log(3.0), abs=0.01)
+    assert found["shape_factor"] == pytest.approx(-math.log(mean), abs=0.005)
+    # Quantiles of the size at 99.9 and 99.99 %; the latter is told by the 40 largest samples.
+    assert found["impulse_factor"] == pytest.approx(math.log(3.2905 / mean), abs=0.02)
+    assert found["crest_factor"] == pytest.approx(math.log(3.8906), abs=0.04)
+
+
+def test_the_kurtosis_of_the_most_impulsive_band_is_told_whatever_the_others_are():
+    # Bursts for a fifth of the time, in one of 15 bands: the kurtosis of its complex signal is 2 / 0.2 - 2.
+    size = 100_000
+    noise, other = np.random.default_rng(1).standard_normal((2, size))
+    bursts = np.fft.rfft(np.where(np.arange(size) % 5000 < 1000, other, 0.0))
+    spectrum = np.fft.rfft(noise)
+    edge = int(0.875 * 0.95 * spectrum.size)  # features see 0.95 of half the rate
+    spectrum[edge:] = bursts[edge:]
+    known = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
+    found = measure(analyse(np.fft.irfft(spectrum, size), 20_000.0, known))
+    assert found["band_kurtosis"] == pytest.approx(math.log(1.0 + 8.0), abs=0.15)
+    assert found["median_band_kurtosis"] < 0.2

@@ -1,9 +1,10 @@
 """The alarm: the probability of a spall above which a record is called faulty, such that few healthy ones are.
 
-A stated share of all healthy records passes it, and half of that share of those that look like noise. In a clear
-record a healthy bearing shows what it does: its stiffness varies as balls pass, so the lines of BPFO stand in its
-envelopes. Under noise they do not, so a probability that means little in a clear record means much there. The alarm
-therefore rises with how far a record's bands differ from noise, which their median spectral kurtosis tells.
+A stated share of all healthy records passes it, or less where it would lie lower for clear records than for noise, and
+half of that share of those that look like noise. In a clear record a healthy bearing shows what it does: its stiffness
+varies as balls pass, so the lines of BPFO stand in its envelopes. Under noise they do not, so a probability that means
+little in a clear record means much there. The alarm therefore rises with how far a record's bands differ from noise,
+which their median spectral kurtosis tells.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class Alarm:
 
 
 def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDArray[np.bool_], share: float) -> Alarm:
-    """The alarm that `share` of healthy records pass, and SHARE_IN_NOISE times `share` of the rows like noise.
+    """The alarm that at most a `share` of healthy records pass, and SHARE_IN_NOISE times that of the rows like noise.
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise

@@ -41,7 +41,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
     Spall or none, from the two races' line families in the envelopes, from impulsiveness, and from how long was looked;
     outer or inner race, from the families alone; line or extended, from all features. What belongs to the machine as
     much as to a spall (lines of the shaft, lines of the vibration itself) tells neither of the first two.
-    `alarm_` (an `Alarm`) is what `false_alarms` of the healthy records pass, on bearings not learned from.
+    `alarm_` (an `Alarm`) is what at most `false_alarms` of the healthy records pass, of bearings not learned from.
     """
 
     def __init__(self, kind: str = "forest", seed: int = SEED, false_alarms: float = FALSE_ALARMS) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -34,6 +35,14 @@ def run(*arguments: object) -> tuple[int, str, str]:
     """Exit code, standard output and standard error of the command with these arguments, run in this process."""
     done = CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
     return done.exit_code, done.stdout, done.stderr
+
+
+def test_an_encoding_that_lacks_letters_ends_no_command() -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    words = [sys.executable, "-m", "datagen", "catalog"]
+    done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "?" in done.stdout
 
 
 def test_help_imports_nothing_heavy() -> None:

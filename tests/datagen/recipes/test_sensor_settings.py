@@ -156,6 +156,17 @@ def test_a_recording_that_does_not_fit_is_refused_in_one_line(file: str, more: s
     assert "\n" not in str(caught.value)
 
 
+def test_a_recording_is_found_where_its_recipe_was_read_wherever_its_user_goes(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / "recipe.toml").write_text(BASE + RECORDING.format(file="good.npy") + "rate_hz = 32768")
+    monkeypatch.chdir(folder)
+    recording = load_recipe("recipe.toml").part[0].background.recording
+    monkeypatch.chdir(tmp_path)
+    assert recording is not None
+    assert recording.load().shape == (SAMPLES, 1)
+
+
 def test_records_of_drawn_rates_take_no_recording(folder: Path) -> None:
     drawn = BASE.replace("rate_hz = 32768", "rate_hz = {choice = [32768.0, 65536.0]}")
     (folder / "recipe.toml").write_text(drawn + RECORDING.format(file="good.npy") + "rate_hz = 32768")

@@ -143,10 +143,11 @@ class Corpus:
         """
         if size < 1:
             raise BadInput(field="size", value=size, allowed="1 or more")
-        chosen = np.asarray(list(self.labels["record"] if records is None else records), dtype=np.int64)
+        chosen = np.asarray(list(self.labels["record"] if records is None else records))
         for start in range(0, chosen.size, size):
             batch = chosen[start : start + size]
-            yield batch, self._stack([self.waveform(record, variable) for record in batch], variable)
+            signals = self._stack([self.waveform(record, variable) for record in batch], variable)
+            yield batch.astype(np.int64), signals
 
     def to_numpy(self, variable: str = "acceleration", records: Iterable[int] | None = None) -> NDArray[Any]:
         """One signal of `records` (all, in order, if not given) stacked (N, …); BadInput if they differ in shape."""

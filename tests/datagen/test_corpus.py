@@ -183,6 +183,8 @@ def test_what_is_not_one_a_record_is_no_signal_of_a_record(corpus: Corpus, varia
 def test_masks_and_fractions_are_no_record_indices(corpus: Corpus, chosen: object) -> None:
     with pytest.raises((BadInput, ValueError)):
         corpus.to_numpy("acceleration", chosen)
+    with pytest.raises((BadInput, ValueError)):
+        list(corpus.batches(2, records=chosen))
     assert corpus.to_numpy("acceleration", [np.int32(2), 2.0]).shape[0] == 2
 
 

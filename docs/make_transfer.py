@@ -145,7 +145,8 @@ def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
 
 def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
     """What is lost against the first report without an ingredient, by all learners together: balanced accuracy over
-    outer and inner, paired by record; and the learners' false alarms over all healthy records."""
+    outer and inner, paired by record and drawn anew by bearing; and the learners' false alarms over all healthy records.
+    """
     full = next(iter(reports.values()))
     learners = [name for name in full["tests"][0]["models"] if name != "rule"]
     head = "minus full recipe, on recordings | on simulated machines | false alarms, recordings | simulated"
@@ -155,10 +156,9 @@ def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
             continue
         cells = []
         for imported in (True, False):
-            truth, own, record = called(report, learners, imported)
-            lost = paired_difference(
-                balanced_accuracy, truth, own, called(full, learners, imported)[1], strata=truth, groups=record
-            )
+            truth, own, bearing = called(report, learners, imported)
+            _, whole, _ = called(full, learners, imported)
+            lost = paired_difference(balanced_accuracy, truth, own, whole, strata=truth, groups=bearing)
             cells.append(f"{lost.value:+.3f} [{lost.low:+.3f}, {lost.high:+.3f}]")
         cells += [learners_alarms(report, learners, imported) for imported in (True, False)]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
@@ -168,24 +168,25 @@ def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
 def called(
     report: dict[str, Any], models: list[str], imported: bool
 ) -> tuple[NDArray[np.str_], NDArray[np.str_], NDArray[np.str_]]:
-    """True race, what is called, and which record it is, of all faults but odd ones, one row a record and model."""
+    """True race, what is called, and which bearing it is, of all faults but odd ones, one row a record and model."""
     rows = [
-        (entry["truth"], entry[model]["location"], f"{test['corpus']} {entry['record']}")
+        (entry["truth"], entry[model]["location"], f"{test['corpus']} {entry['bearing_id']}")
         for test in report["tests"]
         if test["imported"] == imported
         for entry in test["predictions"]
         if entry["truth"] in ("outer", "inner") and entry["recording"] not in ODD
         for model in models
     ]
-    truth, own, record = zip(*rows, strict=True)
-    return np.array(truth), np.array(own), np.array(record)
+    truth, own, bearing = zip(*rows, strict=True)
+    return np.array(truth), np.array(own), np.array(bearing)
 
 
 def learners_alarms(report: dict[str, Any], models: list[str], imported: bool) -> str:
     """Fewest and most false alarms of the models, of so many healthy records."""
     tests = [test["models"] for test in report["tests"] if test["imported"] == imported]
     counts = [sum(test[model]["false_alarms"] for test in tests) for model in models]
-    return f"{min(counts)} to {max(counts)} of {sum(test[models[0]]['healthy'] for test in tests)}"
+    told = f"{min(counts)} to {max(counts)}" if min(counts) < max(counts) else f"{counts[0]}"
+    return f"{told} of {sum(test[models[0]]['healthy'] for test in tests)}"
 
 
 def _has_faults(test: dict[str, Any]) -> bool:

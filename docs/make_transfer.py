@@ -145,8 +145,7 @@ def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
 
 def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
     """What is lost against the first report without an ingredient, by all learners together: balanced accuracy over
-    outer and inner, paired by record and drawn anew by bearing; and the learners' false alarms over all healthy records.
-    """
+    outer and inner, paired by record and drawn anew by bearing; and the learners' false alarms."""
     full = next(iter(reports.values()))
     learners = [name for name in full["tests"][0]["models"] if name != "rule"]
     head = "minus full recipe, on recordings | on simulated machines | false alarms, recordings | simulated"

@@ -121,7 +121,7 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
 def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
     intervals = max(cage.polynomial.c.shape[1] for cage in cages)
     quartics = np.zeros((len(cages), intervals, 5))
-    clock = np.zeros((len(cages), 2))
+    clock = np.zeros((len(cages), 3))
     for g, cage in enumerate(cages):
         coefficients = cage.polynomial.c
         pieces = coefficients.shape[1]
@@ -130,7 +130,9 @@ def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
         late = cage.polynomial.x[0] + cage.knot_step * np.arange(pieces, intervals)
         for power in range(5):
             quartics[g, pieces:, 4 - power] = cage.polynomial(late, nu=power) / math.factorial(power)
-        clock[g] = cage.polynomial.x[0], 1.0 / cage.knot_step if cage.knot_values else 0.0
+        clock[g, 0] = cage.polynomial.x[0]
+        if cage.knot_values:
+            clock[g, 1:] = 1.0 / cage.knot_step, cage.knot_step
     return quartics, clock
 
 

@@ -15,7 +15,7 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.response.adaptive import ACCELERATION_ALONE, respond_accurately
 from physics.response.fixed_steps import respond_by_fixed_steps
 from physics.response.march import MODEL, respond_by_reference
-from physics.response.modal_case import Kept
+from physics.response.modal_case import Kept, resting
 from physics.response.oversampling import oversampling
 from physics.response.periodic import respond_until_repeated, worth_repeating
 from physics.response.resampling import decimate
@@ -67,17 +67,17 @@ def simulate(
         simpler = SIMPLER_MODELS[model]
         factor = oversampling(scene, rate, fastest_path) if simpler.rings else 1
         return _lowered(simpler.respond(scene, rate * factor), rate, factor, samples)
-    rest = carried(scene, np.zeros(1))
-    start = starting_state(motion_model(scene), rest.displacement[0])
-    factor = oversampling(scene, rate, fastest_path)
-    if method == REFERENCE:
-        trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=keep_state)
-        return _lowered(trace, rate, factor, samples)
     kept = Kept(keep_state, keep_force, keep_outer)
     if method == MODAL:
-        wanted = (scene, start, rate * factor, samples * factor, accuracy, least_error)
+        standing, factor = resting(scene), oversampling(scene, rate, fastest_path)
+        wanted = (scene, standing, rate * factor, samples * factor, accuracy, least_error)
         repeated = repeat and kept == ACCELERATION_ALONE and worth_repeating(scene, samples / rate, accuracy)
         trace = respond_until_repeated(*wanted) if repeated else respond_accurately(*wanted, kept)
+        return _lowered(trace, rate, factor, samples)
+    rest, factor = carried(scene, np.zeros(1)), oversampling(scene, rate, fastest_path)
+    if method == REFERENCE:
+        start = starting_state(motion_model(scene), rest.displacement[0])
+        trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=keep_state)
         return _lowered(trace, rate, factor, samples)
     trace = respond_by_fixed_steps(
         scene, rest, rate * factor, samples * factor, method, substeps, accuracy if estimate_error else None, kept

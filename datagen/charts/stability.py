@@ -19,7 +19,7 @@ from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.response.adaptive import respond_accurately
 from physics.response.march import respond
-from physics.response.modal_case import Kept
+from physics.response.modal_case import Kept, resting
 from physics.response.stability import longest_stable_step, stable_substeps
 from physics.scene import Scene
 from physics.statics.load_distribution import equilibrium
@@ -198,7 +198,7 @@ def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[f
     try:
         if method == MODAL:
             samples = round(scene.duration * RATE)
-            trace = respond_accurately(scene, start_of(scene), RATE, samples, row, 0.0, Kept())
+            trace = respond_accurately(scene, resting(scene), RATE, samples, row, 0.0, Kept())
             return _misfit(trace.acceleration, exact), VALUE
         found = _response(scene, method, row)
     except SimulationFailed as failure:

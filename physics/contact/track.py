@@ -26,7 +26,8 @@ TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
 class Track(NamedTuple):
     """What the balls run on, as a function of time.
 
-    Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 2) first knot (s) and knots per second.
+    Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 3) first knot (s), knots per second and
+    seconds per knot.
     Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.paths.depth_path.DepthPath). `waviness`
     (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N a multiple of the balls of a
     row, 0 for smooth races.
@@ -49,14 +50,15 @@ def cage_at(track: Track, cage: int, time: float) -> tuple[float, float]:
     """Cage angle (rad) and speed (rad/s) of one cage at `time` (s)."""
     since = time - track.clock[cage, 0]
     interval = min(max(int(since * track.clock[cage, 1]), 0), track.cage.shape[1] - 1)
-    if interval > 0:
-        since -= interval / track.clock[cage, 1]
+    since -= interval * track.clock[cage, 2]
     c4 = track.cage[cage, interval, 0]
     c3 = track.cage[cage, interval, 1]
     c2 = track.cage[cage, interval, 2]
     c1 = track.cage[cage, interval, 3]
-    angle = (((c4 * since + c3) * since + c2) * since + c1) * since + track.cage[cage, interval, 4]
-    return angle, ((4.0 * c4 * since + 3.0 * c3) * since + 2.0 * c2) * since + c1
+    # In pairs, so that fewer operations wait for each other than in a chain.
+    square = since * since
+    angle = (c1 * since + track.cage[cage, interval, 4]) + square * ((c3 * since + c2) + square * c4)
+    return angle, (2.0 * c2 * since + c1) + square * (4.0 * c4 * since + 3.0 * c3)
 
 
 @njit_inline

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from physics._jit import njit_inline
 
 QUARTERS_PER_RADIAN = 2.0 / math.pi
@@ -24,7 +26,7 @@ C2, C3, C4, C5, C6, C7, C8, C9 = COSINE_SERIES
 @njit_inline
 def cosine_sine(angle: float) -> tuple[float, float]:
     """Cosine and sine of `angle` (rad)."""
-    quarter = math.floor(angle * QUARTERS_PER_RADIAN + 0.5)
+    quarter = np.floor(angle * QUARTERS_PER_RADIAN + 0.5)
     rest = ((angle - quarter * QUARTER_HEAD) - quarter * QUARTER_MIDDLE) - quarter * QUARTER_TAIL
     square = rest * rest
     fourth = square * square

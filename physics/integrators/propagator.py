@@ -56,8 +56,8 @@ def linear_matrix(motion: MotionModel, axis: int) -> Array:
 
 def reach(motion: MotionModel, step: float) -> float:
     """Largest |eigenvalue| of the linear part times `step`: how many radians its fastest mode turns in one step."""
-    values = [np.abs(np.linalg.eigvals(linear_matrix(motion, axis))).max() for axis in range(2)]
-    return float(max(values) * step)
+    matrices = np.array([linear_matrix(motion, axis) for axis in range(2)])
+    return float(np.abs(np.linalg.eigvals(matrices)).max() * step)
 
 
 def power_series(motion: MotionModel, step: float) -> PowerSeries:

@@ -22,6 +22,7 @@ from physics.outcome import SimulationFailed
 from physics.response.march import trace_of
 from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March, case_of
 from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium
 from physics.trace import Trace
 
 Array = NDArray[np.float64]
@@ -48,7 +49,7 @@ MUCH_FINER, SURE = 1.0 / 256.0, 1.0 / 16.0
 # late.
 LATE = 0.5
 # The finer of two responses may be this many times as wrong as their distance leaves to hope for.
-CONFIRMED = 12.0
+CONFIRMED = 6.0
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -65,7 +66,7 @@ MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
 
 def respond_accurately(
     scene: Scene,
-    start: Array,
+    rest: Equilibrium,
     rate: float,
     samples: int,
     accuracy: float,
@@ -74,7 +75,8 @@ def respond_accurately(
     go_on: GoOn = March.go_on,
     pilot: int = PILOT_SAMPLES,
 ) -> Trace:
-    """Trace of `scene` at k / rate from the state `start` (12,), to the relative RMS `accuracy` with its estimate.
+    """Trace of `scene` at k / rate from the first of its positions at `rest` (modal_case.resting), to the relative RMS
+    `accuracy` with its estimate.
 
     `least` (m/s², RMS) is an error that is always allowed. `go_on` may end a march before all samples. A coarse
     `pilot` of some samples and the beginning of the response say how large the signal is and how much this scene makes
@@ -83,7 +85,7 @@ def respond_accurately(
     SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps become
     too many.
     """
-    case = case_of(scene, start, rate)
+    case = case_of(scene, rest, rate)
     march = March(case, samples, kept)
     seen, sensitivity = _beginning(march, pilot, accuracy, least)
     tame = 1.0 if sensitivity > CHAOTIC else _tame(sensitivity)

@@ -13,16 +13,16 @@ from physics.assembly import assemble
 from physics.contact.forces import Contacts
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
-from physics.integrators.modal.memory import SHORTEST, UNITS, Memory, Stride, memory_for
+from physics.integrators.modal.memory import RETUNE, SHORTEST, UNITS, Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Output
 from physics.integrators.stops import Stops
-from physics.motion import MotionModel, motion_model
-from physics.outcome import Outcome, SimulationFailed
+from physics.motion import MotionModel, motion_model, starting_state
+from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.paths.kinks import known_kinks
 from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
 from physics.scene import Scene
-from physics.statics.load_distribution import Equilibrium, equilibrium
+from physics.statics.load_distribution import Equilibrium, equilibrium, refuse
 
 Array = NDArray[np.float64]
 
@@ -80,17 +80,21 @@ class Case:
         return math.sqrt(0.5 * self.ringing * float(output.budget[0]) * self.rate / output.acceleration.shape[0])
 
 
-def case_of(scene: Scene, start: Array, rate: float) -> Case:
-    """`scene` made ready for marches from the state `start` (12,) at `rate` (Hz)."""
-    motion, contacts, rest = motion_model(scene), assemble(scene), resting(scene)
-    flow = mean_flow(motion, rest)
+def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
+    """`scene` made ready for marches at `rate` (Hz) from the first of the positions at which it is `resting`."""
+    motion, contacts = motion_model(scene), assemble(scene)
+    flow, start = mean_flow(motion, rest), starting_state(motion, rest.displacement[0])
     memory = memory_of_errors(flow, rest.stiffness[:, :2].std(axis=0))
     return Case(scene, flow, memory, contacts, known_kinks(scene, contacts), start, rate)
 
 
 def resting(scene: Scene) -> Equilibrium:
-    """Quasi-static positions of `scene` all along."""
-    return equilibrium(scene, np.linspace(0.0, scene.duration, MEAN_STIFFNESS_TIMES))
+    """Quasi-static positions of `scene` from t = 0 to its end; raises SimulationFailed if none carries the load at
+    t = 0."""
+    rest = equilibrium(scene, np.linspace(0.0, scene.duration, MEAN_STIFFNESS_TIMES))
+    if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
+        refuse(scene, 0.0)
+    return rest
 
 
 def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
@@ -126,6 +130,7 @@ class March:
         if self._memory is None:
             self._memory = memory_for(case.flow, case.amplitudes, case.tables, contacts.balls.shape)
             begin(contacts, case.flow, grid, self._memory, self.output)
+        self._memory.marks[RETUNE] = 0  # the grid may be another one than before
         status = LOG_FULL
         while status == LOG_FULL:
             status = march_modal(contacts, case.flow, grid, case.stops, self._memory, self.output)

@@ -20,6 +20,7 @@ from physics.response.adaptive import PILOT_SAMPLES, respond_accurately, rms
 from physics.response.modal_case import March
 from physics.response.resampling import POINTS, read_at
 from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium
 from physics.trace import ContactChanges, Trace
 
 Array = NDArray[np.float64]
@@ -59,7 +60,7 @@ def worth_repeating(scene: Scene, duration: float, accuracy: float) -> bool:
 
 
 def respond_until_repeated(
-    scene: Scene, start: Array, rate: float, samples: int, accuracy: float, least: float
+    scene: Scene, rest: Equilibrium, rate: float, samples: int, accuracy: float, least: float
 ) -> Trace:
     """As `respond_accurately`, of a `scene` that has a period; what comes after the march repeats its last period.
 
@@ -67,14 +68,14 @@ def respond_until_repeated(
     end.
     """
     if any(spall.extent * rate < FEWEST_SAMPLES_A_PASS * scene.cage.mean_speed for spall in scene.spalls):
-        return respond_accurately(scene, start, rate, samples, accuracy, least)
+        return respond_accurately(scene, rest, rate, samples, accuracy, least)
     period = period_of(scene)
     cells = math.ceil(FINENESS * rate * period)
     duration = samples / rate
     marching = _Repeating(cells, REPEATED * accuracy, REPEATED * least)
     marched = respond_accurately(
         scene,
-        start,
+        rest,
         cells / period,
         cells * math.ceil(duration / period),
         MARCHED * accuracy,
@@ -92,7 +93,7 @@ def respond_until_repeated(
     acceleration = read_at(np.concatenate([marched.acceleration, following]), place)
     error = math.hypot(marched.error_estimate, left, _reading_error(last))
     if error > accuracy and error * rms(acceleration) > least:
-        return respond_accurately(scene, start, rate, samples, accuracy, least)
+        return respond_accurately(scene, rest, rate, samples, accuracy, least)
     return replace(
         marched,
         rate=rate,

@@ -9,8 +9,8 @@ from physics._jit import njit_inline, njit_inner
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
+from physics.integrators.modal.approach import meet_change
 from physics.integrators.modal.flow import LinearFlow
-from physics.integrators.modal.judgement import meet_change
 from physics.integrators.modal.location import locate
 from physics.integrators.modal.memory import (
     BALL,

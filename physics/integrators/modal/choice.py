@@ -12,6 +12,7 @@ from physics.contact.contact_set import count_ahead
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
     BALL,
+    BETWEEN,
     CAREFUL,
     CELL,
     GRADED,
@@ -39,8 +40,8 @@ SHORT = 0.7
 
 
 class Choice(NamedTuple):
-    """A step to try: the `row` of its weights, 0 if they have to be computed; its `units`, 0 if it ends off the grid;
-    its `end` (s); and where to go on (s), `beyond` a kink at its end."""
+    """A step to try: the `row` of its weights, BETWEEN if they are not there yet; its `units`, 0 if it ends off the
+    grid; its `end` (s); and where to go on (s), `beyond` a kink at its end."""
 
     row: int
     units: int
@@ -58,11 +59,11 @@ def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> in
     while level > 0:
         size = STRIDES[level - 1]
         length = size * grid.interval
-        finish = clock[TIME] + length
+        behind = clock[TIME] + length + SMALLEST_STEP_SHARE * grid.interval
         if (
             clock[PACE] >= length
             and marks[CELL] + UNITS * size <= (grid.samples - 1) * UNITS
-            and next_kink(balls, stops, marks[STOP], finish) >= finish
+            and next_kink(balls, stops, marks[STOP], behind) >= behind
             and count_ahead(balls, LOOK_AHEAD * length) == 0
         ):
             break
@@ -72,12 +73,17 @@ def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> in
 
 @njit_inline
 def up_to_kink(balls: Array, grid: Stride, stops: Stops, memory: Memory, row: int, units: int, target: float) -> Choice:
-    """The step to `target` (s), or to the first kink before it."""
+    """The step to `target` (s), or to the first kink before it.
+
+    A kink may also be where the step would end anyway: halves of a step that was taken back add up to it.
+    """
     smallest, nudge = SMALLEST_STEP_SHARE * grid.interval, KINK_NUDGE_SHARE * grid.interval
-    kink = next_kink(balls, stops, memory.marks[STOP], target - smallest)
-    if kink < target - smallest:
-        return Choice(0, 0, kink - nudge, kink + nudge)
-    return Choice(row, units, target, target)
+    kink = next_kink(balls, stops, memory.marks[STOP], target + smallest)
+    if kink >= target + smallest:
+        return Choice(row, units, target, target)
+    if kink < target - smallest or units == 0:
+        return Choice(BETWEEN, 0, kink - nudge, kink + nudge)
+    return Choice(row, units, target, max(target, kink) + nudge)
 
 
 @njit_pasted
@@ -92,16 +98,16 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choic
         whole = abs(left / unit - int(left / unit + 0.5)) < NEARLY and (units - NEARLY) * unit <= clock[ON_WAY]
         if marks[ON_GRID] == 1 and units > 0 and whole:
             return Choice(units, units, time + units * unit, time + units * unit)
-        return Choice(0, 0, time + length, time + length)
+        return Choice(BETWEEN, 0, time + length, time + length)
     level = stride_level(balls, grid, stops, memory)
     if level > 0:
         units = UNITS * STRIDES[level - 1]
         return Choice(UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit)
     next_line = (marks[CELL] + 1) * unit
     if clock[PACE] < SHORT * unit and next_line - time > (1.0 + SHORT) * clock[PACE]:
-        return up_to_kink(balls, grid, stops, memory, 0, 0, time + clock[PACE])
+        return up_to_kink(balls, grid, stops, memory, BETWEEN, 0, time + clock[PACE])
     sample_end = (marks[CELL] // UNITS + 1) * UNITS
     reach = int((time + clock[PACE]) / unit + NEARLY)
     units = min(sample_end, max(marks[CELL] + 1, reach)) - marks[CELL]
-    row = units if marks[ON_GRID] == 1 else 0
+    row = units if marks[ON_GRID] == 1 else BETWEEN
     return up_to_kink(balls, grid, stops, memory, row, units, (marks[CELL] + units) * unit)

@@ -49,7 +49,8 @@ class LinearFlow(NamedTuple):
     `twist` (6,): 1 for a swinging pair, 0 for a decaying one. `kick` (12,): amplitudes per unit of contact force.
     `read` (11, 12): the amplitudes' shares in the readings. `stiffness`, `damping`: the spring (N/m) and damper (N s/m)
     along x and y that stand for the contacts. `jump` (1/kg): relative acceleration per unit of contact force. `rest`,
-    `cosine`, `sine` (2, 11): what the loads alone do, constant and turning at `shaft_speed`.
+    `cosine`, `sine` (2, 11): what the loads alone do, constant and turning at `shaft_speed`. `fastest` (1/s): the
+    largest size of an eigenvalue.
     """
 
     rate: Array
@@ -65,6 +66,7 @@ class LinearFlow(NamedTuple):
     turning: bool
     shaft_speed: float
     outer_mass: float
+    fastest: float
 
 
 def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tuple[float, float]) -> LinearFlow:
@@ -72,9 +74,11 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     table, twist = np.zeros((2 + READINGS, AMPLITUDES)), np.zeros(2 * PAIRS)
     rest, cosine, sine = np.zeros((3, 2, READINGS))
     matrices = np.array([_matrix(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)])
+    fastest = 0.0
     for axis, modes in enumerate(_modes(motion, matrices, stiffness)):
         column = axis * AXIS
         for value, shape in modes:
+            fastest = max(fastest, abs(value))
             read = _read(motion, shape)
             read[ACCELERATION], read[OUTER_ACCELERATION] = read[VELOCITY] * value, shape[3] * value
             parts = np.array([value, _push(motion, axis, damping[axis], value, shape), *read])
@@ -103,6 +107,7 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
         turning=bool(cosine.any() or sine.any()),
         shaft_speed=motion.shaft_speed,
         outer_mass=motion.outer_mass,
+        fastest=fastest,
     )
 
 

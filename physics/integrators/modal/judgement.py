@@ -7,25 +7,16 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics._jit import njit_inline, njit_pasted
 from physics.contact.contact_set import count_dips
-from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, Law, law_power, of_ball
-from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
 from physics.integrators.modal.memory import (
-    BALL,
     BEFORE,
     BUDGET,
-    CELL,
-    GRADED,
-    LEFT,
-    ON_GRID,
-    ON_WAY,
     PACE,
     SHORTEST,
     SQUARES,
-    TIME,
     TOLERANCE,
-    TRIED,
     UNITS,
     Memory,
     Stride,
@@ -35,31 +26,19 @@ Array = NDArray[np.float64]
 
 # A step is carried by the one before if that was at least this share as long.
 LEAST_RATIO = 0.24
-# Error of Simpson's rule over a step: of the fourth power of the share of the step; and, relative, of the force
-# (t − t0)^1.5 with which contact starts and ends.
+# Error of Simpson's rule over a step, of the fourth power of the share of the step.
 FOURTH_POWER_ERROR = 1.0 / 120.0
-START_ERROR = 0.0024
 # And, over the step's length, in terms of how far the middle strays from the cubic of values and rates at both ends.
 HERMITE_ERROR = 2.0 / 15.0
+# And of a swing, relative, over the fourth power of how far it turns (rad).
+FLIGHT_ERROR = 1.0 / 2880.0
 # The tolerance grows or shrinks by what the errors so far make of the budget, within these bounds, as if this many
 # samples had kept to it before the first.
 LEAST_SPENT, MOST_SPENT, BUDGET_SAMPLES = 0.25, 8.0, 512
-# Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
-UNIT_ERROR = 0.29
-# A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
-# as this many; it is planned anew if the film's force at its ball turns out to be wrong by more than the tolerance, and
-# the time by no more than this share of the last step.
-CHANGE_SHARE, CHANGE_FACTOR, MOST_MISSED = 0.3, 3.0, 0.5
 # A step is taken back if its error exceeds the tolerance this many times. The next may be twice or half as long again
 # if it stays below these shares of it, since the error grows by the fifth power of the length, and has to be shorter
 # by LESS if it exceeds the tolerance.
 REJECTED, DOUBLED, LONGER, LESS = 4.0, 1.0 / 32.0, 1.5**-5, 0.75
-
-
-@njit_pasted
-def graded_length(law: Law, speed: float, tolerance: float) -> float:
-    """Longest step (s) next to an instant at which a ball starts or ceases to touch at `speed` (m/s)."""
-    return (tolerance / (START_ERROR * law.stiffness * max(abs(speed), 1e-12) ** 1.5)) ** 0.4
 
 
 @njit_inline
@@ -71,29 +50,6 @@ def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
     allowed = grid.spending * tolerance * tolerance
     spent = (clock[BUDGET] + allowed * BUDGET_SAMPLES) / (allowed * (samples + BUDGET_SAMPLES))
     clock[TOLERANCE] = tolerance / min(max(spent, LEAST_SPENT), MOST_SPENT)
-
-
-@njit_inner
-def meet_change(
-    law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
-) -> None:
-    """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression.
-
-    A loss is put on the grid if the film's force that it ends is small enough; contact may be made at a jump of the
-    path, where the elastic force begins at any size.
-    """
-    clock, marks = memory.clock, memory.marks
-    unit = grid.interval / UNITS
-    allowed = CHANGE_SHARE * clock[TOLERANCE]
-    clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
-    clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
-    jump = UNIT_ERROR * unit * law.damping * abs(speed)
-    if losing and marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
-        left = unit * max(1, int(left / unit + 0.5))
-    marks[BALL], clock[LEFT], clock[ON_WAY] = ball, left, left
-    if not losing:
-        clock[PACE] = min(clock[PACE], clock[GRADED])
-        clock[GRADED] = step
 
 
 @njit_pasted
@@ -135,6 +91,16 @@ def resolution_error(contacts: Contacts, noted: Array, midway: Array, step: floa
 
 
 @njit_pasted
+def flight_error(memory: Memory, step: float) -> float:
+    """Momentum (N s) by which a step that no ball touches in may be wrong about the spring and damper that stand for
+    the contacts: what Simpson's rule would miss if all of their force swung as fast as the fastest mode."""
+    force, turn = 0.0, memory.fastest * step
+    for power in range(3):
+        force += abs(memory.course[0, power]) + abs(memory.course[1, power])
+    return step * FLIGHT_ERROR * force * turn**4
+
+
+@njit_pasted
 def is_carried(memory: Memory, step: float) -> bool:
     """Whether the step before is long enough to foretell this one by."""
     return memory.clock[BEFORE] >= LEAST_RATIO * step
@@ -154,39 +120,8 @@ def error_of(contacts: Contacts, memory: Memory, step: float) -> float:
     """Momentum (N s) by which the step that was just made is wrong."""
     if is_carried(memory, step):
         return carried_error(memory, step)
-    return resolution_error(contacts, memory.noted, memory.midway, step)
-
-
-@njit_inner
-def too_coarse(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
-    """Whether a step on the way to a change of contact has to be taken back for one half as long."""
-    if error_of(contacts, memory, step) <= REJECTED * memory.clock[TOLERANCE] or not may_shrink(grid, step):
-        return False
-    memory.clock[ON_WAY] = 0.5 * step
-    return True
-
-
-@njit_inner
-def misses_change(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
-    """Plan the contact change at the end of the `step` (s) anew if its ball is not near zero compression; True if the
-    step went past the change and is to be taken back.
-
-    The change was located in a trial step through it, whose force was not smooth. Without tension a loss is no jump.
-    """
-    clock, marks, balls, law = memory.clock, memory.marks, contacts.balls, contacts.law
-    if clock[LEFT] - step > SMALLEST_STEP_SHARE * grid.interval or marks[TRIED] >= MOST_CHANGES_PER_STEP:
-        return False
-    compression, rate = of_ball(balls, COMPRESSION, marks[BALL]), of_ball(balls, CLOSING, marks[BALL])
-    losing = of_ball(balls, ACTIVE, marks[BALL]) > 0.5
-    if law.damping * abs(compression) <= clock[TOLERANCE] or (losing and law.no_tension):
-        return False
-    late = compression / rate if (rate < 0.0) == losing and rate != 0.0 else math.inf
-    next_sample = (marks[CELL] // UNITS + 1) * grid.interval
-    if abs(late) > MOST_MISSED * step or clock[TIME] + step - late >= next_sample:
-        return False
-    marks[TRIED] += 1
-    clock[LEFT] = step - late
-    return late > 0.0
+    error = resolution_error(contacts, memory.noted, memory.midway, step)
+    return error if error > 0.0 else flight_error(memory, step)
 
 
 @njit_pasted

@@ -16,29 +16,31 @@ from physics._jit import njit_lean, njit_pasted
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import SMALLEST_STEP_SHARE
+from physics.integrators.modal.approach import leads_astray
+from physics.integrators.modal.between import set_between
 from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
-from physics.integrators.modal.choice import next_step
+from physics.integrators.modal.choice import Choice, next_step
 from physics.integrators.modal.flow import OUTPUT, LinearFlow, set_rest
 from physics.integrators.modal.grazing import is_rough, mark_grazing
 from physics.integrators.modal.judgement import (
     dipped,
     is_carried,
     judge,
-    misses_change,
     remember,
     set_tolerance,
-    too_coarse,
 )
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
+    BETWEEN,
     BUDGET,
     CELL,
     LEFT,
     NO_BALL,
     ON_GRID,
     PACE,
+    RETUNE,
     SQUARES,
     STOP,
     TIME,
@@ -51,7 +53,6 @@ from physics.integrators.modal.output import keep, keeps_more, record, write_ins
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.modal.rk4 import step_modal_rk4
 from physics.integrators.modal.tension import add_contact_time
-from physics.integrators.modal.weights import set_step
 from physics.integrators.output import (
     DONE,
     LARGEST_ACCELERATION,
@@ -69,6 +70,9 @@ Array = NDArray[np.float64]
 
 # No scene takes this many steps on average: what does, asks for more accuracy than it has.
 MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000
+# The tolerance follows the signal once in so many samples: at every one its divisions and roots would take a
+# twentieth of the time.
+TUNED_EVERY = 32
 
 
 @njit_lean
@@ -127,15 +131,17 @@ def write_sample(
     if keeps_more(output):
         keep(balls, flow, memory.rest, clock[TIME], state, force, sample, output)
     clock[SQUARES] += weight * square
-    set_tolerance(grid, memory, sample + 1)
+    if sample >= marks[RETUNE]:
+        set_tolerance(grid, memory, sample + 1)
+        marks[RETUNE] = sample + TUNED_EVERY
     return square < LARGEST_ACCELERATION**2
 
 
 @njit_pasted
-def arrive(contacts: Contacts, grid: Stride, memory: Memory, step: float, jump: float, output: Output) -> bool:
-    """What follows a `step` (s) that was taken; True if it changes the contact force.
+def arrive(contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, step: float, output: Output) -> bool:
+    """What follows a `step` (s) that was taken as the `choice` says; True if it changes the contact force.
 
-    A ball changes sides if this was the instant, and a kink is passed in a `jump` (s).
+    A ball changes sides if this was the instant; behind a kink, the force is that of its far side.
     """
     clock, marks = memory.clock, memory.marks
     if marks[BALL] != NO_BALL:
@@ -144,8 +150,8 @@ def arrive(contacts: Contacts, grid: Stride, memory: Memory, step: float, jump: 
             return False
         change_sides(contacts.balls, memory, output)
         return True
-    if jump > 0.0:
-        set_time(contacts, clock[TIME])
+    if choice.beyond > choice.end:
+        set_time(contacts, choice.beyond)
         clock[BEFORE], clock[PACE] = 0.0, min(clock[PACE], grid.interval)
         return True
     return False
@@ -233,8 +239,8 @@ def march_modal(
         marks[STOP] = passed_kinks(stops, marks[STOP], clock[TIME] + smallest)
         choice = next_step(contacts.balls, grid, stops, memory)
         step = choice.end - clock[TIME]
-        if choice.row == 0:
-            set_step(flow, memory.weights[0], step, memory.phi)
+        if choice.row == BETWEEN:
+            set_between(flow, memory, step, grid.interval / UNITS)
         before = rest[0, OUTPUT], rest[1, OUTPUT]
         trial, middle = try_step(contacts, flow, memory, choice.row, step, now, force, then)
         after = trial.after
@@ -243,7 +249,7 @@ def march_modal(
             if action != TAKE:
                 force = take_back(contacts, flow, memory, trial, action)
                 continue
-        elif too_coarse(contacts, grid, memory, step) or misses_change(contacts, grid, memory, step):
+        elif leads_astray(contacts, grid, memory, step):
             force = take_back(contacts, flow, memory, trial, AGAIN)
             continue
         output.tally[STEPS] += 1
@@ -254,7 +260,7 @@ def march_modal(
         now, then = then, now
         force = after
         land(grid, memory, choice.units, choice.beyond)
-        if arrive(contacts, grid, memory, step, choice.beyond - choice.end, output):
+        if arrive(contacts, grid, memory, choice, step, output):
             force = remaining_force(contacts, flow, now, rest)
         if not write_sample(contacts.balls, flow, grid, memory, now, force, choice.units, output):
             return NOT_FINITE

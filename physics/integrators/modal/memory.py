@@ -16,6 +16,9 @@ UNITS = 16
 # Steps of more than a sample, in samples, and where the weights of the samples inside each begin.
 STRIDES = (2, 3, 4, 6, 8, 12, 16, 24)
 FIRST_INSIDE = tuple(sum(STRIDES[:k]) - k for k in range(len(STRIDES)))
+# Rows of weights: of steps of 0 to 16 units, of the strides, and one for a length between.
+BETWEEN = UNITS + 1 + len(STRIDES)
+ROWS = BETWEEN + 1
 # Shortest step that an error may ask for, as a share of a unit.
 SHORTEST = 1.0 / 64.0
 NO_BALL = -1
@@ -26,8 +29,9 @@ NEARLY = 1e-6
 # the squares of the acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
 TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(9)
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
-# of the contact change ahead, whether `time` is a whole number of units, balls that pull now.
-CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING = range(7)
+# of the contact change ahead, whether `time` is a whole number of units, balls that pull now, sample from which on the
+# tolerance is to be set anew.
+CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE = range(8)
 
 
 class Memory(NamedTuple):
@@ -35,7 +39,7 @@ class Memory(NamedTuple):
     and of the samples inside strides, contact force of the step along x and y as a polynomial in the share of the step
     (2, 5), φ-functions, what the loads alone do, scratch for locating changes, contact force at the beginning and in
     the middle of the step before (2, 2), motion of the balls at the beginning of the step and midway (G, 2, M),
-    `clock` and `marks` as above.
+    `clock` and `marks` as above; the largest size of an eigenvalue (1/s).
     """
 
     states: Array
@@ -52,6 +56,7 @@ class Memory(NamedTuple):
     midway: Array
     clock: Array
     marks: NDArray[np.int64]
+    fastest: float
 
 
 class Stride(NamedTuple):
@@ -93,5 +98,6 @@ def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shap
         noted=np.zeros((cages, 2, balls)),
         midway=np.zeros((cages, 2, balls)),
         clock=np.zeros(9),
-        marks=np.zeros(7, dtype=np.int64),
+        marks=np.zeros(8, dtype=np.int64),
+        fastest=flow.fastest,
     )

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_lean
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
-from physics.integrators.modal.memory import FIRST_INSIDE, STRIDES, UNITS
+from physics.integrators.modal.memory import FIRST_INSIDE, ROWS, STRIDES, UNITS
 from physics.integrators.modal.weights import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS, set_inside, set_step
 
 Array = NDArray[np.float64]
@@ -17,7 +17,7 @@ INSIDE_ROWS = FIRST_INSIDE[-1] + STRIDES[-1] - 1
 
 @njit_lean
 def _fill(flow: LinearFlow, interval: float, weights: Array, inside: Array, phi: Array) -> None:
-    for k in range(1, UNITS + 1):
+    for k in range(UNITS + 1):
         set_step(flow, weights[k], k * (interval / UNITS), phi)
     for level in range(len(STRIDES)):
         size, first = STRIDES[level], FIRST_INSIDE[level]
@@ -26,8 +26,8 @@ def _fill(flow: LinearFlow, interval: float, weights: Array, inside: Array, phi:
 
 
 def tables_for(flow: LinearFlow, interval: float) -> tuple[Array, Array]:
-    """Weights (25, 168) of steps of 0 (scratch) to 16 units and of the strides, on a grid of `interval` (s), and
-    weights (67, 172) of the samples inside strides."""
+    """Weights (26, 168) of steps of 0 to 16 units, of the strides and room for one more, on a grid of `interval` (s),
+    and weights (67, 172) of the samples inside strides."""
     weights, inside = empty_tables()
     _fill(flow, interval, weights, inside, np.zeros((2, POWERS + 1, AMPLITUDES)))
     return weights, inside
@@ -35,4 +35,4 @@ def tables_for(flow: LinearFlow, interval: float) -> tuple[Array, Array]:
 
 def empty_tables() -> tuple[Array, Array]:
     """Arrays for what `tables_for` gives, all zero."""
-    return np.zeros((UNITS + 1 + len(STRIDES), STEP_WEIGHTS)), np.zeros((INSIDE_ROWS, INSIDE_WEIGHTS))
+    return np.zeros((ROWS, STEP_WEIGHTS)), np.zeros((INSIDE_ROWS, INSIDE_WEIGHTS))

@@ -238,11 +238,15 @@ def push(weights: Array, first: int, stride: int, course: Array, end: Array) -> 
 def read_inside(weights: Array, section: int, axis: int, start: Array, course: Array) -> float:
     """What a sample inside a step reads along one axis, but for the loads, from the amplitudes `start` (12,) and the
     `course` (2, 5) of the contact force."""
-    first = axis * INSIDE_OTHER + SECTION * section
-    total = weigh(weights, first, start, axis)
-    for power in range(POWERS):
-        total += weights[first + POWERS_AT + power] * course[axis, power]
-    return total
+    first, part = axis * INSIDE_OTHER + SECTION * section, axis * AXIS
+    kick = first + POWERS_AT
+    c0, c1, c2, c3, c4 = course[axis, 0], course[axis, 1], course[axis, 2], course[axis, 3], course[axis, 4]
+    # In pairs, so that fewer operations wait for each other than in a chain.
+    one = weights[first] * start[part] + weights[first + 1] * start[part + 1]
+    two = weights[first + 2] * start[part + 2] + weights[first + 3] * start[part + 3]
+    three = weights[first + 4] * start[part + 4] + weights[first + 5] * start[part + 5]
+    pushed = (weights[kick] * c0 + weights[kick + 1] * c1) + (weights[kick + 2] * c2 + weights[kick + 3] * c3)
+    return ((one + two) + three) + (pushed + weights[kick + 4] * c4)
 
 
 @njit_inline

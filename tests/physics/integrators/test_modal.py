@@ -34,7 +34,7 @@ from physics.integrators.modal.flow import (
     physical_state,
     ringing,
 )
-from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, may_shrink
+from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, REJECTED, may_shrink
 from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import STRIDES, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
@@ -77,9 +77,9 @@ def rms(values):
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def matrix(rig, axis):
+def matrix(rig, axis, k=None, c=None):
     """(6, 6) of one axis, written down from the equations of motion with a spring and a damper for the balls."""
-    k, c = STIFFNESS[axis], DAMPING[axis]
+    k, c = STIFFNESS[axis] if k is None else k, DAMPING[axis] if c is None else c
     ko, co = (rig.support_stiffness_x, rig.support_damping_x) if axis == 0 else (
         rig.support_stiffness_y, rig.support_damping_y
     )  # fmt: skip
@@ -263,11 +263,53 @@ def test_carried_steps_are_of_order_five_while_no_contact_changes(fan, build_sce
     assert -np.diff(np.log2(errors)) == pytest.approx(5.0, abs=0.1)
 
 
+LOAD, THROW = 500.0, 0.05
+
+
+@pytest.fixture
+def flight(fan, build_scene):
+    """A fan rig whose shaft is thrown up from the middle of its clearance: its case on a grid of `interval` (s), and
+    the exact state (7,) of (xi, vi, xo, vo, xr, vr, 1) along y after some seconds, by the matrix exponential."""
+    scene = build_scene(fan, bearing={"clearance": 40e-6}, operation={"load": LOAD})
+    rest, start, free = resting(scene), np.zeros(12), np.zeros((7, 7))
+    start[7] = THROW
+    free[:6, :6], free[1, 6] = matrix(fan, 1, 0.0, 0.0), -LOAD / fan.inner_mass
+    begin = np.array([0.0, THROW, 0.0, 0.0, 0.0, 0.0, 1.0])
+    return (
+        lambda interval: dataclasses.replace(case_of(scene, rest, 1.0 / interval), start=start),
+        lambda time: expm(time * free) @ begin,
+    )
+
+
+def test_a_step_that_knows_none_before_it_is_of_order_four(flight):
+    case_on, exact = flight
+    errors = []
+    for interval in (1.0 / RATE, 0.5 / RATE, 0.25 / RATE):
+        case, state = case_on(interval), np.empty(12)
+        march = March(case, 2)
+        march.go_on(Stride(2, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9))
+        physical_state(case.flow, interval, march._memory.states[0], state)
+        errors.append(abs(state[7] - exact(interval)[1]))
+    assert -np.diff(np.log2(errors)) == pytest.approx(5.0, abs=0.2)  # of one step, one more than of many
+
+
+@pytest.mark.parametrize("push", [1e-8, 1e-10, 1e-12])
+def test_steps_in_which_no_ball_touches_are_as_exact_as_was_asked_for(flight, fan, push):
+    case_on, exact = flight
+    read = np.array([0, 0, fan.resonator_stiffness, fan.resonator_damping, -fan.resonator_stiffness,
+                     -fan.resonator_damping, 0]) / fan.resonator_mass  # fmt: skip
+    output = March(case_on(1.0 / RATE), 10).go_on(Stride(10, 1.0 / RATE, len(STRIDES), 0.0, push, 0.0, 1.0, 1e9))
+    assert output.tally[LOGGED] == 0  # no ball has touched
+    # What one such push (N s) of the outer ring leaves in the resonator's acceleration at most.
+    most = push / fan.outer_mass * math.sqrt(fan.resonator_stiffness / fan.resonator_mass)
+    error = np.abs(output.acceleration[:, 1] - [read @ exact(k / RATE) for k in range(10)]).max()
+    assert error < REJECTED * most  # a step may be wrong by so many times what was asked for
+
+
 def test_a_march_that_pauses_goes_on_as_if_it_had_not(reference_scene, reference_trace):
     scene, samples = reference_scene("F1", 0.1), round(0.1 * RATE)
-    start = starting_state(motion_model(scene), equilibrium(scene, np.zeros(1)).displacement[0])
     grid = Stride(samples, 1.0 / RATE, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
-    once, paused = March(case_of(scene, start, RATE), samples), March(case_of(scene, start, RATE), samples)
+    once, paused = (March(case_of(scene, resting(scene), RATE), samples) for _ in range(2))
     once.go_on(grid)
     for until in (1, 700, 701, 2048, samples):
         paused.go_on(grid._replace(samples=until))

@@ -1,0 +1,140 @@
+"""The way to a change of contact that was located: the steps up to it, and whether it is where it was looked for.
+
+A change is located in a trial step through it, and so only as exactly as that step was, which is not very where a
+surface is rough. So every step on the way is held against it. Where a ball has gone past its change, or the ball that
+should change sides is too far from it for one correction, the plan is forgotten, and what follows is tried anew.
+"""
+
+from __future__ import annotations
+
+import math
+
+from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics.contact.contact_set import count_changes, touches
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts, Law
+from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
+from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may_shrink
+from physics.integrators.modal.memory import (
+    BALL,
+    BUDGET,
+    CELL,
+    GRADED,
+    LEFT,
+    NO_BALL,
+    ON_GRID,
+    ON_WAY,
+    PACE,
+    TIME,
+    TOLERANCE,
+    TRIED,
+    UNITS,
+    Memory,
+    Stride,
+)
+
+# Error of Simpson's rule over a step, relative, of the force (t − t0)^1.5 with which contact starts and ends.
+START_ERROR = 0.0024
+# Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
+UNIT_ERROR = 0.29
+# A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
+# as this many; its time is corrected by no more than this share of the last step.
+CHANGE_SHARE, CHANGE_FACTOR, MOST_MISSED = 0.3, 3.0, 0.5
+
+
+@njit_pasted
+def graded_length(law: Law, speed: float, tolerance: float) -> float:
+    """Longest step (s) next to an instant at which a ball starts or ceases to touch at `speed` (m/s)."""
+    return (tolerance / (START_ERROR * law.stiffness * max(abs(speed), 1e-12) ** 1.5)) ** 0.4
+
+
+@njit_inner
+def meet_change(
+    law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
+) -> None:
+    """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression.
+
+    A loss is put on the grid if the film's force that it ends is small enough; contact may be made at a jump of the
+    path, where the elastic force begins at any size.
+    """
+    clock, marks = memory.clock, memory.marks
+    unit = grid.interval / UNITS
+    allowed = CHANGE_SHARE * clock[TOLERANCE]
+    clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
+    clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
+    jump = UNIT_ERROR * unit * law.damping * abs(speed)
+    if losing and marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
+        left = unit * max(1, int(left / unit + 0.5))
+    marks[BALL], clock[LEFT], clock[ON_WAY] = ball, left, left
+    if not losing:
+        clock[PACE] = min(clock[PACE], clock[GRADED])
+        clock[GRADED] = step
+
+
+@njit_inner
+def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
+    """Whether a `step` (s) on the way to a contact change has to be taken back: it is too coarse, or some ball is past
+    its change.
+
+    Where the change is not where it was located, it is planned anew by one correction, or the plan is forgotten.
+    """
+    clock, marks, tolerance = memory.clock, memory.marks, memory.clock[TOLERANCE]
+    error = error_of(contacts, memory, step)
+    if error > REJECTED * tolerance and may_shrink(grid, step):
+        clock[ON_WAY] = 0.5 * step
+        return True
+    if error < DOUBLED * tolerance:
+        clock[ON_WAY] = max(clock[ON_WAY], 2.0 * step)
+    if marks[TRIED] >= MOST_CHANGES_PER_STEP:
+        return False
+    if clock[LEFT] - step <= SMALLEST_STEP_SHARE * grid.interval:
+        size = contacts.balls.shape[2]
+        cage, place = marks[BALL] // size, marks[BALL] % size
+        if not _changes_at_zero(contacts, memory, cage, place) or _wrong_by(contacts, cage, place, step) <= tolerance:
+            return False
+        late = _late(contacts, cage, place)
+        next_sample = (marks[CELL] // UNITS + 1) * grid.interval
+        if abs(late) <= MOST_MISSED * step and clock[TIME] + step - late < next_sample:
+            marks[TRIED] += 1
+            clock[LEFT] = step - late
+            return late > 0.0
+    past = count_changes(contacts) > 0 and _is_past(contacts, step, tolerance)
+    if past or clock[LEFT] - step <= SMALLEST_STEP_SHARE * grid.interval:
+        marks[BALL] = NO_BALL
+        clock[PACE] = min(clock[PACE], step)
+    return past
+
+
+@njit_inline
+def _wrong_by(contacts: Contacts, cage: int, place: int, step: float) -> float:
+    """Momentum (N s) by which the contact force is wrong where a ball should have changed sides: what the film has
+    pushed since then, or, if it may not pull, what is missing of zero."""
+    balls, law = contacts.balls, contacts.law
+    film = law.damping * abs(balls[cage, COMPRESSION, place])
+    return min(film, step * abs(balls[cage, LAW, place])) if law.no_tension else film
+
+
+@njit_inline
+def _is_past(contacts: Contacts, step: float, tolerance: float) -> bool:
+    """Whether some ball contradicts the contact set by more than the tolerance (N s)."""
+    for cage in range(contacts.balls.shape[0]):
+        for place in range(contacts.balls.shape[2]):
+            contradicts = touches(contacts, cage, place) != (contacts.balls[cage, ACTIVE, place] > 0.5)
+            if contradicts and _wrong_by(contacts, cage, place, step) > tolerance:
+                return True
+    return False
+
+
+@njit_inline
+def _changes_at_zero(contacts: Contacts, memory: Memory, cage: int, place: int) -> bool:
+    """Whether the ball changes sides at zero compression. Without tension it does not where it is let go of or taken
+    hold of again while it is compressed: there its force is zero, or jumps past zero at a corner of the path."""
+    losing = contacts.balls[cage, ACTIVE, place] > 0.5
+    return not contacts.law.no_tension or not (losing or memory.noted[cage, 0, place] > 0.0)
+
+
+@njit_inline
+def _late(contacts: Contacts, cage: int, place: int) -> float:
+    """How long ago (s) the ball was at zero compression by its rate now; infinite if it moves the other way."""
+    compression, rate = contacts.balls[cage, COMPRESSION, place], contacts.balls[cage, CLOSING, place]
+    losing = contacts.balls[cage, ACTIVE, place] > 0.5
+    return compression / rate if (rate < 0.0) == losing and rate != 0.0 else math.inf

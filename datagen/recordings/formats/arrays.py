@@ -34,7 +34,8 @@ def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
         return np.asarray(found[tuple(_place(part) for part in places.split(","))])
     except (IndexError, ValueError):
         shape = "x".join(map(str, found.shape))
-        raise BadInput(f"{name} is an array of {shape} numbers", str(path), field, wish) from None
+        problem, allowed = f"{name} is an array of {shape} numbers", 'as in "NAME[:,0]" or "NAME[0,2]"'
+        raise BadInput(problem, str(path), field, wish, allowed) from None
 
 
 def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
@@ -50,6 +51,8 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
         if found is not None:
             return found
     names = sorted(arrays)
+    if not names:
+        raise NoVariable("the file holds no numbers", str(path), field, text)
     shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
     raise NoVariable(f"the file has no such variable{suggestion(text, names)}", str(path), field, text, shown)
 
@@ -66,7 +69,9 @@ def _filled(wish: str, path: Path, field: str) -> str:
 def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:
     indexed = None if wish in arrays else INDEXED.fullmatch(wish)
     name = indexed["name"] if indexed else wish
-    known = [name] if name in arrays else [one for one in arrays if fnmatchcase(one, name)] if _is_pattern(name) else []
+    # Brackets mean themselves: they count the elements of MATLAB's arrays of structures and cells.
+    pattern = name.replace("[", "[[]")
+    known = [name] if name in arrays else [one for one in arrays if _is_pattern(name) and fnmatchcase(one, pattern)]
     if len(known) > 1:
         raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
     return (known[0], indexed["places"] if indexed else None) if known else None

@@ -43,7 +43,7 @@ def _unknown(label: Label) -> Any:
 def _words(source: Source) -> dict[str, Any]:
     names = ("rig", "bearing_id", "split")
     return {"part": source.request.part, "channel": source.request.channel.name, "source_file": source.request.name} | {
-        name: source.setting(name, UNKNOWN) for name in names
+        name: source.text(name, UNKNOWN) for name in names
     }
 
 

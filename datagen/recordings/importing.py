@@ -139,7 +139,7 @@ class _Plan:
         if name in self.names:
             raise BadInput(
                 f"the name is taken by {self.names[name]}", request.place, "recording", name,
-                "a different name for each record",
+                'a different name for each record, as in recording = "{path} {channel}"',
             )  # fmt: skip
         self.names[name] = where
         twin = self.contents.setdefault(record.content, name)

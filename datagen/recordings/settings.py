@@ -125,11 +125,12 @@ class RecordingSettings(Table):
     envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the stored envelope, Hz; by default 0.3 to 0.45 of the sampling rate."""
     recording: Name | None = None
-    """Name of the record; by default the file's name without its ending, and the channel's."""
+    """Name of the record, which may hold {stem}, {number}, {folder}, {path} and {channel}; by default the file's name
+    without its ending, and the channel's."""
     bearing_id: Name | None = None
-    """The individual bearing: records of one must stay in one split."""
+    """The individual bearing, named likewise: records of one must stay in one split."""
     rig: Name | None = None
-    """Name of the machine."""
+    """Name of the machine, which may hold the same."""
     split: Annotated[str, word(*SPLITS, UNKNOWN)] | None = None
     """Split that the record belongs to."""
     condition: Annotated[str, word(*CONDITIONS, UNKNOWN)] | None = None

@@ -19,6 +19,7 @@ from datagen.recipes.recipe import FEWEST_SAMPLES
 from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
+from datagen.recordings.placeholders import filled, place_without_ending
 from datagen.recordings.settings import CsvLayout
 from datagen.recordings.values import RANGES, FromVariable, in_range
 
@@ -41,6 +42,14 @@ class Source:
     def setting(self, name: str, default: Any = None) -> Any:
         """A setting as the SPEC says it, `default` if it says nothing."""
         return self.request.settings.get(name, default)
+
+    def text(self, name: str, default: str) -> str:
+        """A setting that is a text, with what stands in braces filled in; `default` if the SPEC says nothing."""
+        said, request = self.setting(name), self.request
+        if said is None:
+            return default
+        more = {"path": place_without_ending(request.name), "channel": request.channel.name}
+        return filled(said, self.path, name, more).strip()
 
     def array(self, wish: str, field: str) -> Array:
         """The samples (T,) of a variable: finite numbers, at least 16 of them."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.recipes.spelling import suggestion
+from datagen.recordings.placeholders import filled
 
 Arrays = Mapping[str, NDArray[Any]]
 INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
@@ -41,11 +42,10 @@ def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
 def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
     """Name of the array that `wish` means, and the places to take of it if it says so; raises BadInput.
 
-    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; `{stem}` and
-    `{number}` are the file's name without its ending and the first whole number in it; "NAME[:,2]" takes one column of
-    a table, counted from 0.
+    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; what stands in
+    braces is filled in (see `filled`); "NAME[:,2]" takes one column of a table, counted from 0.
     """
-    text = _filled(wish, path, field)
+    text = filled(wish, path, field)
     for alternative in text.split("|"):
         found = _named(arrays, alternative.strip(), path, field)
         if found is not None:
@@ -55,15 +55,6 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
         raise NoVariable("the file holds no numbers", str(path), field, text)
     shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
     raise NoVariable(f"the file has no such variable{suggestion(text, names)}", str(path), field, text, shown)
-
-
-def _filled(wish: str, path: Path, field: str) -> str:
-    number = re.search(r"\d+", path.stem)
-    try:
-        return wish.format(stem=path.stem, number=int(number.group()) if number else "")
-    except (KeyError, IndexError, ValueError):
-        problem = "cannot be filled in for this file" + ("" if number else ", whose name holds no number")
-        raise BadInput(problem, str(path), field, wish, "{stem} and {number}, as in X{number:03}_DE_time") from None
 
 
 def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:

@@ -19,7 +19,7 @@ from datagen.recordings.formats.wav_file import RATE_NAME
 from datagen.recordings.listing import Request
 from datagen.recordings.placeholders import without_ending
 from datagen.recordings.settings import UNITS
-from datagen.recordings.shaft_speed import shaft_speed
+from datagen.recordings.shaft_speed import shaft_speeds
 from datagen.recordings.source import Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.envelope import FALLBACK_SHARES, holds_a_line
@@ -59,9 +59,9 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     pieces = _pieces(source, rate, counts.shape[0])
     shortest = min(stop - start for start, stop in pieces)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, shortest, axes)}
-    for piece, (start, stop) in enumerate(pieces):
+    speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
+    for piece, ((start, stop), (speed, basis)) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
-        speed, basis = shaft_speed(source, rate, start / rate, stop / rate)
         own = {
             "recording": _name(source) + (f"#{piece}" if request.settings.get("cut_s") else ""),
             "speed_rpm": speed,

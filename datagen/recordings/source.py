@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -25,6 +27,8 @@ from datagen.recordings.values import RANGES, FromVariable, in_range
 
 Array = NDArray[np.float64]
 CONSTANT = ("rate_hz",)
+Span = tuple[Fraction, Fraction]
+WHOLE = (Fraction(0), Fraction(1))
 
 
 @dataclass(frozen=True)
@@ -82,11 +86,11 @@ class Source:
             return ""
         return name if places is None else f"{name}[{places}]"
 
-    def number(self, name: str) -> float | None:
+    def number(self, name: str, span: Span = WHOLE) -> float | None:
         """A number in its range that is stated or that the file holds; None if the SPEC says nothing of it.
 
-        Of an array of numbers, the mean; of sampling rates, which cannot have one, the only one. NoVariable if the file
-        lacks the variable.
+        Of an array of numbers, the mean over a `span` of the recording, as shares of its length; of sampling rates,
+        which cannot have one, the only one. NoVariable if the file lacks the variable.
         """
         said = self.setting(name)
         if not isinstance(said, FromVariable):
@@ -97,18 +101,35 @@ class Source:
         if name in CONSTANT and np.ptp(found) > 0.0:
             problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g}"
             raise BadInput(problem, str(self.path), name, said.variable, "a variable of one number")
-        value = float(np.mean(found, dtype=np.float64)) * said.factor
+        value = self._mean(_within(found, span), said.variable, name) * said.factor
         if not in_range(name, value):
             problem = f"from the variable {said.variable}"
             raise BadInput(problem, str(self.path), name, value, RANGES[name].allowed())
         return value
 
-    def or_none(self, name: str) -> float | None:
+    def _mean(self, found: NDArray[Any], wish: str, field: str) -> float:
+        zeros = found.size - np.count_nonzero(found)
+        if found.size / 2 < zeros < found.size:
+            raise BadInput(
+                f"is 0 in {zeros} of {found.size} places, so that its mean says nothing", str(self.path), field, wish,
+                'one number of it, as in "NAME[0]" or "NAME[0,2]"',
+            )  # fmt: skip
+        return float(np.mean(found, dtype=np.float64))
+
+    def or_none(self, name: str, span: Span = WHOLE) -> float | None:
         """As `number`, but None where the file lacks the variable."""
         try:
-            return self.number(name)
+            return self.number(name, span)
         except NoVariable:
             return None
+
+
+def _within(found: NDArray[Any], span: Span) -> NDArray[Any]:
+    """The numbers of a span of the recording, at least one; tables are taken whole."""
+    if found.ndim != 1:
+        return found
+    first = min(int(span[0] * found.size), found.size - 1)
+    return found[first : max(math.ceil(span[1] * found.size), first + 1)]
 
 
 def open_source(request: Request) -> Source:

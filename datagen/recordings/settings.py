@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
+from pydantic_core import PydanticCustomError
 
+from datagen.csv_rows import UTF_8
 from datagen.recipes.settings import Table, at_most_one, refuse
 from datagen.recordings.values import RANGES, FromVariable, finite_notes, number, word
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
+ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
 FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
@@ -58,6 +61,8 @@ class CsvLayout(Table):
     """True if a line of column names comes first; without it the columns are called "1", "2", …"""
     skip_lines: Annotated[int, Field(ge=0)] = 0
     """Lines to leave out at the start."""
+    encoding: str = UTF_8
+    """Encoding of the text, as Python calls it: utf-8, latin-1, utf-16, …"""
 
     @model_validator(mode="after")
     def _delimiter_can_delimit(self) -> CsvLayout:
@@ -66,6 +71,15 @@ class CsvLayout(Table):
                 "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
             )
         return self
+
+    @field_validator("encoding")
+    @classmethod
+    def _encoding_is_known(cls, encoding: str) -> str:
+        try:
+            "".encode(encoding)
+        except (LookupError, ValueError):
+            raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ENCODINGS}) from None
+        return encoding
 
 
 class BearingNumbers(Table):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,6 +20,7 @@ from datagen.corpora.shard import file_hash
 from datagen.errors import BadInput
 from datagen.recipes.recipe import FEWEST_SAMPLES
 from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
+from datagen.recordings.formats.csv_file import Columns
 from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
 from datagen.recordings.placeholders import filled, place_without_ending
@@ -26,6 +28,7 @@ from datagen.recordings.settings import CsvLayout
 from datagen.recordings.values import RANGES, FromVariable, in_range
 
 Array = NDArray[np.float64]
+LONGEST_CELL = 40
 CONSTANT = ("rate_hz",)
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))
@@ -72,11 +75,17 @@ class Source:
         values = found.astype(np.float64)
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
-            raise BadInput(
-                f"{bad.size} of {values.size} samples are not finite numbers, the first at sample {bad[0]} (from 0)",
-                str(self.path), field, wish,
-            )  # fmt: skip
+            raise self._not_finite(bad, values.size, wish, field)
         return values
+
+    def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str) -> BadInput:
+        if isinstance(self.arrays, Columns):
+            line, text = self.arrays.odd[chosen(self.arrays, wish, self.path, field)[0]]
+            shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
+            problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}"
+            return BadInput(problem, f"{self.path}, line {line}", field, wish)
+        problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
+        return BadInput(problem, str(self.path), field, wish)
 
     def variable(self, wish: str, field: str) -> str:
         """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""

@@ -16,7 +16,9 @@ ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
 FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-Diameter = Annotated[float, Field(gt=0.0, le=1e5)]
+# Balls of bearings are no smaller: less is a length in m.
+Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
+MOST_BALLS = 200
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
 
@@ -87,7 +89,7 @@ class BearingNumbers(Table):
 
     name: Name = UNKNOWN
     """Designation."""
-    balls: Annotated[int, Field(ge=3, le=200)]
+    balls: Annotated[int, Field(ge=3, le=MOST_BALLS)]
     """Rolling elements in one row."""
     rows: Annotated[int, Field(ge=1, le=2)] = 1
     """Rows of rolling elements."""
@@ -170,7 +172,7 @@ class RecordingSettings(Table):
     bsf: Annotated[float | FromVariable, number("bsf")] | None = None
     """Spin order of a ball, where the geometry is unknown."""
     ftf: Annotated[float | FromVariable, number("ftf")] | None = None
-    """Order of the cage, where the geometry is unknown."""
+    """Order of the cage, below 1, where the geometry is unknown."""
     notes: Annotated[dict[str, str | float | int | bool], AfterValidator(finite_notes)] | None = None
     """Anything else worth keeping; stored as it is."""
 

@@ -23,7 +23,8 @@ RANGES = {
     "depth_um": Between(0.0, 1e5, above=True),
     "load_n": Between(0.0, 1e7),
     "snr_db": Between(-100.0, 200.0),
-    **dict.fromkeys(("bpfo", "bpfi", "bsf", "ftf"), Between(0.0, 1e3, above=True)),
+    **dict.fromkeys(("bpfo", "bpfi", "bsf"), Between(0.0, 1e3, above=True)),
+    "ftf": Between(0.0, 1.0, above=True),
 }
 
 

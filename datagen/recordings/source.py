@@ -24,6 +24,7 @@ from datagen.recordings.formats.csv_file import Columns
 from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
 from datagen.recordings.placeholders import filled, place_without_ending
+from datagen.recordings.sample_times import rate_of
 from datagen.recordings.settings import CsvLayout
 from datagen.recordings.values import RANGES, FromVariable, in_range
 
@@ -107,10 +108,14 @@ class Source:
         found = choose(self.arrays, said.variable, self.path, name)
         if found.dtype.kind not in "iuf" or not found.size or not np.isfinite(found).all():
             raise BadInput("is no finite number", str(self.path), name, said.variable)
-        if name in CONSTANT and np.ptp(found) > 0.0:
+        if said.times:
+            value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
+        elif name in CONSTANT and np.ptp(found) > 0.0:
             problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g}"
-            raise BadInput(problem, str(self.path), name, said.variable, "a variable of one number")
-        value = self._mean(_within(found, span), said.variable, name) * said.factor
+            allowed = "a variable of one number; of the samples' times with times = true"
+            raise BadInput(problem, str(self.path), name, said.variable, allowed)
+        else:
+            value = self._mean(_within(found, span), said.variable, name) * said.factor
         if not in_range(name, value):
             problem = f"from the variable {said.variable}"
             raise BadInput(problem, str(self.path), name, value, RANGES[name].allowed())

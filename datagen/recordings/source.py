@@ -100,7 +100,7 @@ class Source:
         """A number in its range that is stated or that the file holds; None if the SPEC says nothing of it.
 
         Of an array of numbers, the mean over a `span` of the recording, as shares of its length; of sampling rates,
-        which cannot have one, the only one. NoVariable if the file lacks the variable.
+        which cannot have one, the only one, or what follows from times. NoVariable if the file lacks the variable.
         """
         said = self.setting(name)
         if not isinstance(said, FromVariable):

@@ -10,8 +10,9 @@ import pytest
 
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.recordings import file_names
+from datagen.recordings import file_names, importing
 from datagen.recordings.file_names import FileNames
+from datagen.recordings.spec import load_spec
 
 Bring = Callable[..., Corpus]
 Mat = Callable[..., np.ndarray]
@@ -39,6 +40,21 @@ def test_files_that_a_table_names_outright_are_not_compared_one_by_one(monkeypat
     known = names("a/1.csv", "a/2.csv")
     monkeypatch.setattr(file_names, "fnmatch", None)
     assert [path.name for path in known.fitting("2.csv")] == ["2.csv"]
+
+
+def test_an_import_that_takes_long_tells_how_far_it_has_got(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    bring(SPEC + 'files = "*.mat"\n', "first")
+    told: list[str] = []
+    for seconds, folder in ((2.0, "second"), (0.0, "third")):
+        monkeypatch.setattr(importing, "SECONDS_UNTOLD", seconds)
+        importing.import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / folder, tell=told.append)
+        if seconds:
+            assert not told
+    assert told == ["checking a.mat, 1 of 2", "checking b.mat, 2 of 2", "writing shard 1 of 1"]
 
 
 @pytest.mark.parametrize("more", ['files = "**/*.mat"\n', 'table = "t.csv"\n', 'files = "**/*"\ntable = "t.csv"\n'])

@@ -92,3 +92,27 @@ def test_a_table_of_nothing_but_numbers_is_read_at_once_and_gives_the_same(
     for columns in (at_once, by_cells):
         assert [columns[name].tolist() for name in columns] == np.array(CELLS).T.tolist()
         assert list(columns) == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    "switched_off", [("_columns", None), ("_clean_table", lambda *_: None)], ids=["at once", "cells"]
+)
+def test_a_delimiter_at_the_end_of_each_row_makes_an_empty_column(
+    switched_off: tuple[str, object], bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(csv_file, *switched_off)
+    rows = "".join(f"{first!r}\t{second!r}\t\r\n" for first, second in CELLS)
+    (tmp_path / "a.csv").write_text("by hand\n" + rows, newline="")
+    columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(delimiter="\t", header=False, skip_lines=1))
+    assert [columns[name].tolist() for name in ("1", "2")] == np.array(CELLS).T.tolist()
+    assert np.isnan(columns["3"]).all()
+    told = r'a\.csv, line 2: y = "3": 50 of 50 cells are not finite numbers, the first is ""'
+    with pytest.raises(BadInput, match=told):
+        bring(SPEC.replace('y = "a"', 'y = "3"') + 'csv = {delimiter = "\\t", header = false, skip_lines = 1}\n')
+
+
+def test_a_last_column_that_is_not_empty_everywhere_is_kept(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("1,2,\n3,4,\n5,6,7\n")
+    columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(header=False))
+    assert columns["3"][2] == 7.0
+    assert columns["2"].tolist() == [2.0, 4.0, 6.0]

@@ -66,7 +66,7 @@ def _read_hdf5(path: Path) -> Arrays:
     try:
         with h5py.File(path) as file:
             return dict(_of_group(file, ""))
-    except (OSError, RuntimeError, ValueError, KeyError) as problem:
+    except Exception as problem:  # h5py too
         raise BadInput(
             f"cannot be read as a .mat file of version 7.3: {problem}; save it in MATLAB with -v7", str(path)
         ) from None

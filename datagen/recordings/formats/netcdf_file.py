@@ -34,7 +34,7 @@ class _Variables(Mapping[str, NDArray[Any]]):
         try:
             with ONE_AT_A_TIME, netCDF4.Dataset(self.path) as file:
                 values = file[place][...]
-        except (OSError, RuntimeError) as problem:
+        except Exception as problem:  # whatever the damaged bytes lead the library to
             raise BadInput(f"its variable {name} cannot be read: {problem}", str(self.path)) from None
         masked = np.ma.isMaskedArray(values) and np.ma.is_masked(values)
         return values.astype(np.float64).filled(np.nan) if masked else np.asarray(values)
@@ -60,7 +60,7 @@ def read_netcdf(path: Path) -> Arrays:
     _check_whole(path)
     try:
         return _Variables(path)
-    except (OSError, RuntimeError, TypeError) as problem:
+    except Exception as problem:  # as above
         raise BadInput(f"cannot be read as a netCDF file: {problem}", str(path)) from None
 
 
@@ -75,3 +75,5 @@ def _check_whole(path: Path) -> None:
         netcdf_file(path, mmap=False).close()
     except ValueError:
         raise BadInput("the file breaks off: it is shorter than its variables", str(path)) from None
+    except Exception:  # scipy cannot read it; whether the netCDF library can is seen later
+        return

@@ -37,6 +37,7 @@ WRITERS: dict[str, Callable[[Path], object]] = {
     "four.nc": netcdf("NETCDF4"),
     "a.npy": lambda path: np.save(path, SAMPLES),
     "a.npz": lambda path: np.savez(path, data=SAMPLES),
+    "packed.npz": lambda path: np.savez_compressed(path, data=SAMPLES),
     "five.mat": lambda path: scipy.io.savemat(path, {"data": SAMPLES}),
     "four.mat": lambda path: scipy.io.savemat(path, {"data": SAMPLES}, format="4"),
 }
@@ -54,6 +55,25 @@ def test_a_file_that_breaks_off_is_refused_with_its_name(name: str, tmp_path: Pa
             read_arrays(path, None, CsvLayout())
         assert str(problem.value).startswith(f"{path}: ")
         assert "cannot be read as " in str(problem.value) or "the file breaks off: " in str(problem.value)
+
+
+@pytest.mark.parametrize("name", ["short.wav", "float.wav", "classic.nc", "a.npy", "a.npz", "packed.npz"])
+def test_whatever_bytes_are_damaged_a_file_is_read_or_refused_with_its_name(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    WRITERS[name](path)
+    whole = path.read_bytes()
+    refused = 0
+    for seed in range(120):
+        generator = np.random.default_rng(seed)
+        damaged = bytearray(whole)
+        for place in generator.integers(min(len(whole), 200 if seed % 2 else 20_000), size=4):
+            damaged[place] = generator.integers(256)
+        path.write_bytes(damaged)
+        try:
+            choose(read_arrays(path, None, CsvLayout()), "data", path, "y")
+        except BadInput as problem:
+            refused += str(problem).startswith(f"{path}: ")
+    assert refused > 10
 
 
 @pytest.mark.parametrize("ending", ["nc", "h5", "hdf5"])

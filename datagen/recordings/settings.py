@@ -72,6 +72,8 @@ class CsvLayout(Table):
             raise refuse(
                 "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
             )
+        if self.delimiter == self.decimal:
+            raise refuse("decimal sign and delimiter are the same", "delimiter", "another character than in decimal")
         return self
 
     @field_validator("encoding")

@@ -52,12 +52,15 @@ class Source:
         return self.request.settings.get(name, default)
 
     def text(self, name: str, default: str) -> str:
-        """A setting that is a text, with what stands in braces filled in; `default` if the SPEC says nothing."""
+        """A text that names something, what stands in braces filled in; `default` if the SPEC says nothing."""
         said, request = self.setting(name), self.request
         if said is None:
             return default
         more = {"path": place_without_ending(request.name), "channel": request.channel.name}
-        return filled(said, self.path, name, more).strip()
+        text = filled(said, self.path, name, more).strip()
+        if not text:
+            raise BadInput("is empty for this file", str(self.path), name, said, "a name")
+        return text
 
     def array(self, wish: str, field: str) -> Array:
         """The samples (T,) of a variable: finite numbers, at least 16 of them."""

@@ -6,27 +6,40 @@ import csv
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
+from typing import IO
 
 from datagen.errors import BadInput
 
 BLANKS = " "
+UTF_8 = "utf-8"
 Row = tuple[int, list[str]]
 
 
-def read_csv_rows(path: Path, delimiter: str = ",", skip_lines: int = 0) -> list[Row]:
-    """Each row of the file at `path` that is not blank: the number of its first line, from 1, and its cells.
+class NotText(BadInput):
+    """The bytes of the file are no text in its encoding."""
+
+
+def open_text(path: Path, encoding: str = UTF_8) -> IO[str]:
+    """The text file at `path`, opened with its line ends as they are; in UTF-8 a byte order mark is no matter."""
+    return path.open(newline="", encoding="utf-8-sig" if encoding == UTF_8 else encoding)
+
+
+def read_csv_rows(
+    path: Path, delimiter: str = ",", skip_lines: int = 0, encoding: str = UTF_8, most: int | None = None
+) -> list[Row]:
+    """Each row, or the first `most`, of a file that is not blank: the number of its first line, from 1, and its cells.
 
     A `delimiter` of one space stands for any run of blanks, between which nothing is quoted; the first `skip_lines`
-    are left out. A byte order mark is no matter. Raises BadInput, with the line where one is to blame, if this is no
-    text or a quoted cell does not end as one should, and OSError if the file cannot be read.
+    are left out. Raises NotText, BadInput with the line where a quoted cell does not end as one should, and OSError if
+    the file cannot be read.
     """
-    with path.open(newline="", encoding="utf-8-sig") as file:
+    with open_text(path, encoding) as file:
         try:
             lines = islice(file, skip_lines, None)
             rows = _split(lines) if delimiter == BLANKS else _parsed(lines, delimiter, path, skip_lines)
-            return [(skip_lines + line, cells) for line, cells in rows if cells]
-        except UnicodeDecodeError:
-            raise BadInput("not a text file", str(path)) from None
+            return list(islice(((skip_lines + line, cells) for line, cells in rows if cells), most))
+        except UnicodeError:
+            raise NotText(f"not a text file in {encoding}", str(path)) from None
 
 
 def _split(lines: Iterator[str]) -> Iterator[Row]:

@@ -25,8 +25,10 @@ def import_recordings(
     """Bring recordings (.mat, .npz, .npy, .csv, .wav, .nc) into a corpus; nothing is written if a file is bad."""
     from datagen.recordings.importing import import_recordings as bring
     from datagen.recordings.spec import load_spec
+    from datagen.runs.progress import steps_told
 
-    done = bring(load_spec(spec), out, root)
+    with steps_told() as tell:
+        done = bring(load_spec(spec), out, root, tell)
     write_json(json_file, done)
     _tell(done)
 

@@ -39,7 +39,8 @@ EXPECTED = {
 def bad_recipe(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
     errors: list[dict[str, Any]] = [dict(one) for one in error.errors()]
-    first = min(errors, key=lambda one: (one["type"] != "extra_forbidden", _is_other_kind(one)))
+    own = [one for one in errors if not _follows(one, errors)]
+    first = min(own, key=lambda one: (one["type"] != "extra_forbidden", _is_other_kind(one)))
     context = first.get("ctx", {})
     location = _place(first) + ((context["field"],) if context.get("field") else ())
     line = line_of(text, location)
@@ -64,6 +65,12 @@ def _is_kind(step: str | int) -> bool:
 def _is_other_kind(one: dict[str, Any]) -> bool:
     """True if a table was tried as a single value, which says less than what is wrong in the table."""
     return isinstance(one["input"], dict) and any(step in SCALARS for step in one["loc"][-1:])
+
+
+def _follows(one: dict[str, Any], errors: list[dict[str, Any]]) -> bool:
+    """True of a list that counts as too short because what stands in it is wrong."""
+    size = len(one["loc"])
+    return one["type"] == "too_short" and any(more["loc"][:size] == one["loc"] != more["loc"] for more in errors)
 
 
 def _allowed(first: dict[str, Any], alike: list[dict[str, Any]]) -> str:

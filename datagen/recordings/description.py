@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.recordings.settings import BearingNumbers
+from datagen.recordings.settings import MOST_BALLS, BearingNumbers
 from datagen.recordings.source import Source
 from labels.features.modulation import RACES
 from labels.schema import LABELS, MEASURED, UNKNOWN, Label
@@ -43,7 +43,7 @@ def _unknown(label: Label) -> Any:
 def _words(source: Source) -> dict[str, Any]:
     names = ("rig", "bearing_id", "split")
     return {"part": source.request.part, "channel": source.request.channel.name, "source_file": source.request.name} | {
-        name: source.setting(name, UNKNOWN) for name in names
+        name: source.text(name, UNKNOWN) for name in names
     }
 
 
@@ -84,11 +84,23 @@ def geometry(numbers: BearingNumbers) -> Bearing:
 def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
     stated = {name: value for name in ORDERS if (value := source.number(name)) is not None}
     if bearing is None:
+        _check_orders(source, stated)
         return stated
     if stated:
         raise BadInput("the bearing's geometry says it already", source.request.place, next(iter(stated)))
     names = ("balls", "rows", "pitch_diameter", "ball_diameter", "contact_angle", *ORDERS)
     return {"bearing": bearing.name} | {name: getattr(bearing, name) for name in names}
+
+
+def _check_orders(source: Source, stated: dict[str, float]) -> None:
+    """Refuse orders that no bearing has, such as frequencies in Hz: of any, BPFO and BPFI make the number of balls."""
+    outer, inner = stated.get("bpfo", 0.0), stated.get("bpfi", math.inf)
+    balls = outer + inner
+    if outer >= inner or MOST_BALLS < balls < math.inf:
+        raise BadInput(
+            f"with bpfi = {inner:g} it would be of a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
+            f"orders of the shaft, bpfo below bpfi, together the number of balls, up to {MOST_BALLS}",
+        )  # fmt: skip
 
 
 def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:

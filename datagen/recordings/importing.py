@@ -7,7 +7,7 @@ import re
 import shutil
 import socket
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     import xarray
 
 SHARD_BYTES = 64e6
+# An import that is over by then says nothing before its end.
+SECONDS_UNTOLD = 2.0
+Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -65,14 +68,19 @@ class _Planned:
     content: str
 
 
-def import_recordings(spec: Spec, folder: Path, root: Path | None = None) -> Imported:
+def import_recordings(spec: Spec, folder: Path, root: Path | None = None, tell: Tell = lambda step: None) -> Imported:
     """Make the corpus of the SPEC's recordings in `folder`, which must not exist or be empty.
 
-    Files are looked for below `root`, by default the SPEC's own. Raises BadInput for anything wrong in the SPEC or the
-    files, before `folder` is touched.
+    Files are looked for below `root`, by default the SPEC's own. Where it takes long, `tell` hears how far it has got.
+    Raises BadInput for anything wrong in the SPEC or the files, before `folder` is touched.
     """
     with remembered_files():
-        return _import(spec, folder, root or _own_root(spec))
+        return _import(spec, folder, root or _own_root(spec), _patient(tell))
+
+
+def _patient(tell: Tell) -> Tell:
+    began = time.monotonic()
+    return lambda step: tell(step) if time.monotonic() - began >= SECONDS_UNTOLD else None
 
 
 def _own_root(spec: Spec) -> Path:
@@ -81,16 +89,18 @@ def _own_root(spec: Spec) -> Path:
     return spec.source.parent / spec.root
 
 
-def _import(spec: Spec, folder: Path, root: Path) -> Imported:
+def _import(spec: Spec, folder: Path, root: Path, tell: Tell) -> Imported:
     began = time.monotonic()
     _check_folder(folder)
     listing = list_requests(spec, root)
     plan = _Plan(spec)
-    for request in listing.requests:
+    for number, request in enumerate(listing.requests, start=1):
+        tell(f"checking {request.name}, {number} of {len(listing.requests)}")
         plan.add(request)
     manifest = _manifest(spec, listing, len(plan.records))
     with _staged(folder) as staging:
         for number, planned in enumerate(plan.shards):
+            tell(f"writing shard {number + 1} of {len(plan.shards)}")
             start = time.perf_counter()
             dataset = _dataset(planned, manifest)
             seconds = round(time.perf_counter() - start, 3)
@@ -139,7 +149,7 @@ class _Plan:
         if name in self.names:
             raise BadInput(
                 f"the name is taken by {self.names[name]}", request.place, "recording", name,
-                "a different name for each record",
+                'a different name for each record, as in recording = "{path} {channel}"',
             )  # fmt: skip
         self.names[name] = where
         twin = self.contents.setdefault(record.content, name)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fnmatch import fnmatch
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.recordings.file_names import FileNames, fits, hidden
 from datagen.recordings.label_table import TableRow, read_label_table
 from datagen.recordings.settings import ALTERNATIVES, Channel, merged
 from datagen.recordings.spec import Recording, Spec
@@ -64,10 +64,10 @@ class _Finder:
         return Listing(tuple(requests), tuple(self.tables), tuple(self.absent))
 
     @cached_property
-    def _below(self) -> dict[Path, str]:
+    def _below(self) -> FileNames:
         """Every file below the root, with its name from there."""
         found = (path for path in sorted(self.root.rglob("*")) if path.is_file())
-        return {path: path.relative_to(self.root).as_posix() for path in found}
+        return FileNames({path: path.relative_to(self.root).as_posix() for path in found})
 
     def _files(self, recording: Recording, place: str) -> Iterator[tuple[Path, TableRow | None]]:
         rows = self._rows(recording)
@@ -77,16 +77,30 @@ class _Finder:
                 if path is not None:
                     yield path, row
             return
-        used: set[int] = set()
-        for path in self._globbed(recording, place):
-            fitting = [k for k, row in enumerate(rows) if any(self._fits(path, name) for name in row.files)]
-            if recording.table and not fitting:
+        paths = self._globbed(recording, place)
+        if not recording.table:
+            yield from ((path, None) for path in paths)
+            return
+        said, idle = self._rows_of(paths, rows)
+        for path in paths:
+            if path not in said:
                 raise BadInput(f"{self._name(path)} is not in the table {recording.table}", place)
-            used.update(fitting)
-            yield from ((path, rows[k]) for k in fitting) if recording.table else [(path, None)]
-        for k, row in enumerate(rows):
-            if k not in used:
-                self._is_absent(row, recording)
+            yield from ((path, row) for row in said[path])
+        for row in idle:
+            self._is_absent(row, recording)
+
+    def _rows_of(self, paths: list[Path], rows: list[TableRow]) -> tuple[dict[Path, list[TableRow]], list[TableRow]]:
+        """The rows that say something of each file, in order, and those that say nothing of any."""
+        names = FileNames({path: self._name(path) for path in paths})
+        said: dict[Path, list[TableRow]] = {}
+        idle = []
+        for row in rows:
+            fitting = dict.fromkeys(path for name in row.files for path in names.fitting(name))
+            for path in fitting:
+                said.setdefault(path, []).append(row)
+            if not fitting:
+                idle.append(row)
+        return said, idle
 
     def _rows(self, recording: Recording) -> list[TableRow]:
         if recording.table is None:
@@ -102,9 +116,10 @@ class _Finder:
         paths: dict[Path, None] = {}
         for pattern in recording.patterns:
             try:
-                fitting = [path for path in sorted(self.root.glob(pattern)) if path.is_file()]
+                found = sorted(self.root.glob(pattern))
             except (ValueError, NotImplementedError, IndexError):
                 raise BadInput(field="files", file=place, value=pattern, allowed='as in "folder/*.mat"') from None
+            fitting = [path for path in found if path.is_file() and not hidden(path, pattern)]
             if not fitting and recording.absent_files == "skip":
                 self.absent.append(pattern)
             elif not fitting:
@@ -114,19 +129,19 @@ class _Finder:
 
     def _name(self, path: Path) -> str:
         """The file's name from the root, where it lies below it."""
-        return self._below.get(path, path.as_posix())
+        return self._below.names.get(path, path.as_posix())
 
-    def _fits(self, path: Path, name: str) -> bool:
-        return fnmatch(self._name(path), name) or fnmatch(path.name, name)
+    def _fits(self, path: Path, pattern: str) -> bool:
+        return fits(path, self._name(path), pattern)
 
     def _listed(self, row: TableRow, recording: Recording) -> Path | None:
         """The file that a row means: at that place below the root, or anywhere below it if its name is the only one."""
         for name in row.files:
             if (self.root / name).is_file():
                 return self.root / name
-            fitting = [path for path in self._below if self._fits(path, name)]
+            fitting = self._below.fitting(name)
             if len(fitting) > 1:
-                known = ", ".join(self._below[path] for path in fitting[:4])
+                known = ", ".join(self._name(path) for path in fitting[:4])
                 raise BadInput(f"{len(fitting)} files below {self.root} fit: {known}", row.place, "file", name)
             if fitting:
                 return fitting[0]

@@ -17,8 +17,9 @@ from datagen.recordings.description import contact_numbers, recording_labels
 from datagen.recordings.formats.reading import file_format
 from datagen.recordings.formats.wav_file import RATE_NAME
 from datagen.recordings.listing import Request
+from datagen.recordings.placeholders import without_ending
 from datagen.recordings.settings import UNITS
-from datagen.recordings.shaft_speed import shaft_speed
+from datagen.recordings.shaft_speed import shaft_speeds
 from datagen.recordings.source import Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.envelope import FALLBACK_SHARES, holds_a_line
@@ -58,11 +59,11 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     pieces = _pieces(source, rate, counts.shape[0])
     shortest = min(stop - start for start, stop in pieces)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, shortest, axes)}
-    for piece, (start, stop) in enumerate(pieces):
+    speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
+    for piece, ((start, stop), (speed, basis)) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
-        speed, basis = shaft_speed(source, rate, start / rate, stop / rate)
         own = {
-            "recording": _name(request) + (f"#{piece}" if request.settings.get("cut_s") else ""),
+            "recording": _name(source) + (f"#{piece}" if request.settings.get("cut_s") else ""),
             "speed_rpm": speed,
             "speed_basis": basis,
             "duration_s": part.shape[0] / rate,
@@ -77,9 +78,9 @@ def read_recording(request: Request) -> Iterator[Recorded]:
         )
 
 
-def _name(request: Request) -> str:
-    stated = request.settings.get("recording")
-    return stated or " ".join(part for part in (request.path.stem, request.channel.name) if part)
+def _name(source: Source) -> str:
+    parts = (without_ending(source.path), source.request.channel.name)
+    return source.text("recording", " ".join(part for part in parts if part))
 
 
 def _rate(source: Source) -> float:

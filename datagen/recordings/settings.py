@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
+from pydantic_core import PydanticCustomError
 
+from datagen.csv_rows import UTF_8
 from datagen.recipes.settings import Table, at_most_one, refuse
 from datagen.recordings.values import RANGES, FromVariable, finite_notes, number, word
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
+ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
 FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-Diameter = Annotated[float, Field(gt=0.0, le=1e5)]
+# Balls of bearings are no smaller: less is a length in m.
+Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
+MOST_BALLS = 200
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
 
@@ -58,6 +63,8 @@ class CsvLayout(Table):
     """True if a line of column names comes first; without it the columns are called "1", "2", …"""
     skip_lines: Annotated[int, Field(ge=0)] = 0
     """Lines to leave out at the start."""
+    encoding: str = UTF_8
+    """Encoding of the text, as Python calls it: utf-8, latin-1, utf-16, …"""
 
     @model_validator(mode="after")
     def _delimiter_can_delimit(self) -> CsvLayout:
@@ -65,7 +72,18 @@ class CsvLayout(Table):
             raise refuse(
                 "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
             )
+        if self.delimiter == self.decimal:
+            raise refuse("decimal sign and delimiter are the same", "delimiter", "another character than in decimal")
         return self
+
+    @field_validator("encoding")
+    @classmethod
+    def _encoding_is_known(cls, encoding: str) -> str:
+        try:
+            "".encode(encoding)
+        except (LookupError, ValueError):
+            raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ENCODINGS}) from None
+        return encoding
 
 
 class BearingNumbers(Table):
@@ -73,7 +91,7 @@ class BearingNumbers(Table):
 
     name: Name = UNKNOWN
     """Designation."""
-    balls: Annotated[int, Field(ge=3, le=200)]
+    balls: Annotated[int, Field(ge=3, le=MOST_BALLS)]
     """Rolling elements in one row."""
     rows: Annotated[int, Field(ge=1, le=2)] = 1
     """Rows of rolling elements."""
@@ -125,11 +143,12 @@ class RecordingSettings(Table):
     envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the stored envelope, Hz; by default 0.3 to 0.45 of the sampling rate."""
     recording: Name | None = None
-    """Name of the record; by default the file's name without its ending, and the channel's."""
+    """Name of the record, which may hold {stem}, {number}, {folder}, {path} and {channel}; by default the file's name
+    without its ending, and the channel's."""
     bearing_id: Name | None = None
-    """The individual bearing: records of one must stay in one split."""
+    """The individual bearing, named likewise: records of one must stay in one split."""
     rig: Name | None = None
-    """Name of the machine."""
+    """Name of the machine, which may hold the same."""
     split: Annotated[str, word(*SPLITS, UNKNOWN)] | None = None
     """Split that the record belongs to."""
     condition: Annotated[str, word(*CONDITIONS, UNKNOWN)] | None = None
@@ -155,7 +174,7 @@ class RecordingSettings(Table):
     bsf: Annotated[float | FromVariable, number("bsf")] | None = None
     """Spin order of a ball, where the geometry is unknown."""
     ftf: Annotated[float | FromVariable, number("ftf")] | None = None
-    """Order of the cage, where the geometry is unknown."""
+    """Order of the cage, below 1, where the geometry is unknown."""
     notes: Annotated[dict[str, str | float | int | bool], AfterValidator(finite_notes)] | None = None
     """Anything else worth keeping; stored as it is."""
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.recordings.settings import Tach
-from datagen.recordings.source import Source
+from datagen.recordings.source import Source, Span
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
 
@@ -17,31 +18,45 @@ HYSTERESIS = 0.1
 FEWEST_PULSES = 3
 
 
-def shaft_speed(source: Source, rate: float, start: float, stop: float) -> tuple[float, str]:
-    """Mean speed (rpm, NaN if unknown) from `start` to `stop` (s) and its basis, a value of the label `speed_basis`.
+def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> list[tuple[float, str]]:
+    """Mean speed (rpm, NaN if unknown) in each piece and its basis, a value of the label `speed_basis`.
 
-    `rate` is the vibration's, Hz.
+    `rate` is the vibration's, Hz; pieces are a first sample and the one after the last, of `size` in all.
     """
     tach = source.setting("tach")
-    if tach is not None:
-        return tach_speed(source, tach, tach.rate_hz or rate, start, stop), "tach"
-    nominal = source.number("nominal_speed_rpm")
+    if tach is None:
+        return [_stated_speed(source, (Fraction(start, size), Fraction(stop, size))) for start, stop in pieces]
+    times = _pulse_times(source, tach, rate, size)
+    return [(tach_speed(source, tach, times, start / rate, stop / rate), "tach") for start, stop in pieces]
+
+
+def _stated_speed(source: Source, span: Span) -> tuple[float, str]:
+    nominal = source.number("nominal_speed_rpm", span)
     for name, factor in (("speed_rpm", 1.0), ("speed_hz", 60.0)):
-        measured = source.number(name) if nominal is None else source.or_none(name)
+        measured = source.number(name, span) if nominal is None else source.or_none(name, span)
         if measured is not None:
             return measured * factor, "measured"
     return (math.nan, UNKNOWN) if nominal is None else (nominal, "nominal")
 
 
-def tach_speed(source: Source, tach: Tach, rate: float, start: float, stop: float) -> float:
-    """Mean speed over the pulses from `start` to `stop` (s), rpm; raises BadInput if there are fewer than 3."""
+def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64]:
+    """When the pulses rise, s; raises BadInput if they cannot be timed by the vibration of `size` samples at `rate`."""
     pulses = source.array(tach.variable, "tach.variable")
-    times = rising_edges(pulses, tach.threshold) / rate
+    if tach.rate_hz is None and pulses.size != size:
+        raise BadInput(
+            f"holds {pulses.size} samples and the vibration {size}", str(source.path), "tach.variable", tach.variable,
+            "as many, or the sampling rate of the pulses in tach.rate_hz",
+        )  # fmt: skip
+    return rising_edges(pulses, tach.threshold) / (tach.rate_hz or rate)
+
+
+def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> float:
+    """Mean speed, rpm, over the pulses at `times` from `start` to `stop`, s; raises BadInput if they are under 3."""
     inside = times[(times >= start) & (times < stop)]
     if inside.size < FEWEST_PULSES:
         raise BadInput(
             f"{inside.size} pulses from {start:g} to {stop:g} s", str(source.path), "tach.variable", tach.variable,
-            f"at least {FEWEST_PULSES} pulses",
+            f"at least {FEWEST_PULSES} pulses; tach.threshold may move their level",
         )  # fmt: skip
     speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
     if not in_range("speed_rpm", speed):

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+import json
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -17,13 +20,19 @@ from datagen.corpora.shard import file_hash
 from datagen.errors import BadInput
 from datagen.recipes.recipe import FEWEST_SAMPLES
 from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
+from datagen.recordings.formats.csv_file import Columns
 from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
+from datagen.recordings.placeholders import filled, place_without_ending
+from datagen.recordings.sample_times import rate_of
 from datagen.recordings.settings import CsvLayout
 from datagen.recordings.values import RANGES, FromVariable, in_range
 
 Array = NDArray[np.float64]
+LONGEST_CELL = 40
 CONSTANT = ("rate_hz",)
+Span = tuple[Fraction, Fraction]
+WHOLE = (Fraction(0), Fraction(1))
 
 
 @dataclass(frozen=True)
@@ -42,6 +51,17 @@ class Source:
         """A setting as the SPEC says it, `default` if it says nothing."""
         return self.request.settings.get(name, default)
 
+    def text(self, name: str, default: str) -> str:
+        """A text that names something, what stands in braces filled in; `default` if the SPEC says nothing."""
+        said, request = self.setting(name), self.request
+        if said is None:
+            return default
+        more = {"path": place_without_ending(request.name), "channel": request.channel.name}
+        text = filled(said, self.path, name, more).strip()
+        if not text:
+            raise BadInput("is empty for this file", str(self.path), name, said, "a name")
+        return text
+
     def array(self, wish: str, field: str) -> Array:
         """The samples (T,) of a variable: finite numbers, at least 16 of them."""
         found = choose(self.arrays, wish, self.path, field)
@@ -59,11 +79,17 @@ class Source:
         values = found.astype(np.float64)
         bad = np.flatnonzero(~np.isfinite(values))
         if bad.size:
-            raise BadInput(
-                f"{bad.size} of {values.size} samples are not finite numbers, the first at sample {bad[0]} (from 0)",
-                str(self.path), field, wish,
-            )  # fmt: skip
+            raise self._not_finite(bad, values.size, wish, field)
         return values
+
+    def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str) -> BadInput:
+        if isinstance(self.arrays, Columns):
+            line, text = self.arrays.odd[chosen(self.arrays, wish, self.path, field)[0]]
+            shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
+            problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}"
+            return BadInput(problem, f"{self.path}, line {line}", field, wish)
+        problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
+        return BadInput(problem, str(self.path), field, wish)
 
     def variable(self, wish: str, field: str) -> str:
         """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""
@@ -73,11 +99,11 @@ class Source:
             return ""
         return name if places is None else f"{name}[{places}]"
 
-    def number(self, name: str) -> float | None:
+    def number(self, name: str, span: Span = WHOLE) -> float | None:
         """A number in its range that is stated or that the file holds; None if the SPEC says nothing of it.
 
-        Of an array of numbers, the mean; of sampling rates, which cannot have one, the only one. NoVariable if the file
-        lacks the variable.
+        Of an array of numbers, the mean over a `span` of the recording, as shares of its length; of sampling rates,
+        which cannot have one, the only one, or what follows from times. NoVariable if the file lacks the variable.
         """
         said = self.setting(name)
         if not isinstance(said, FromVariable):
@@ -85,21 +111,42 @@ class Source:
         found = choose(self.arrays, said.variable, self.path, name)
         if found.dtype.kind not in "iuf" or not found.size or not np.isfinite(found).all():
             raise BadInput("is no finite number", str(self.path), name, said.variable)
-        if name in CONSTANT and np.ptp(found) > 0.0:
+        if said.times:
+            value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
+        elif name in CONSTANT and np.ptp(found) > 0.0:
             problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g}"
-            raise BadInput(problem, str(self.path), name, said.variable, "a variable of one number")
-        value = float(np.mean(found, dtype=np.float64)) * said.factor
+            allowed = "a variable of one number; of the samples' times with times = true"
+            raise BadInput(problem, str(self.path), name, said.variable, allowed)
+        else:
+            value = self._mean(_within(found, span), said.variable, name) * said.factor
         if not in_range(name, value):
             problem = f"from the variable {said.variable}"
             raise BadInput(problem, str(self.path), name, value, RANGES[name].allowed())
         return value
 
-    def or_none(self, name: str) -> float | None:
+    def _mean(self, found: NDArray[Any], wish: str, field: str) -> float:
+        zeros = found.size - np.count_nonzero(found)
+        if found.size / 2 < zeros < found.size:
+            raise BadInput(
+                f"is 0 in {zeros} of {found.size} places, so that its mean says nothing", str(self.path), field, wish,
+                'one number of it, as in "NAME[0]" or "NAME[0,2]"',
+            )  # fmt: skip
+        return float(np.mean(found, dtype=np.float64))
+
+    def or_none(self, name: str, span: Span = WHOLE) -> float | None:
         """As `number`, but None where the file lacks the variable."""
         try:
-            return self.number(name)
+            return self.number(name, span)
         except NoVariable:
             return None
+
+
+def _within(found: NDArray[Any], span: Span) -> NDArray[Any]:
+    """The numbers of a span of the recording, at least one; tables are taken whole."""
+    if found.ndim != 1:
+        return found
+    first = min(int(span[0] * found.size), found.size - 1)
+    return found[first : max(math.ceil(span[1] * found.size), first + 1)]
 
 
 def open_source(request: Request) -> Source:

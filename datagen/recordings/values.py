@@ -23,7 +23,8 @@ RANGES = {
     "depth_um": Between(0.0, 1e5, above=True),
     "load_n": Between(0.0, 1e7),
     "snr_db": Between(-100.0, 200.0),
-    **dict.fromkeys(("bpfo", "bpfi", "bsf", "ftf"), Between(0.0, 1e3, above=True)),
+    **dict.fromkeys(("bpfo", "bpfi", "bsf"), Between(0.0, 1e3, above=True)),
+    "ftf": Between(0.0, 1.0, above=True),
 }
 
 
@@ -34,6 +35,8 @@ class FromVariable(Table):
     """Name of the variable, as for the channels."""
     factor: Annotated[float, Field(allow_inf_nan=False)] = 1.0
     """What it is multiplied by to have the unit of the setting."""
+    times: bool = False
+    """True for a sampling rate whose variable holds the times of the samples, s, or the one step between them."""
 
 
 def number(name: str) -> BeforeValidator:
@@ -41,6 +44,8 @@ def number(name: str) -> BeforeValidator:
 
     def check(value: Any) -> Any:
         if isinstance(value, dict | FromVariable):
+            if name != "rate_hz" and isinstance(value, dict) and value.get("times"):
+                raise refuse("only a sampling rate follows from times", "times")
             return value
         if not in_range(name, value):
             words = f'{RANGES[name].allowed()}, or {{variable = "NAME"}}'

@@ -43,7 +43,8 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
 
 
 def _source(one: ScoredRecord) -> str:
-    return " ".join(part for part in (one.recording, one.channel) if part)
+    told = f" {one.channel}" in one.recording
+    return one.recording if told else " ".join(part for part in (one.recording, one.channel) if part)
 
 
 def _spall(one: ScoredRecord) -> tuple[str, str, str]:

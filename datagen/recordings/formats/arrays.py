@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.recipes.spelling import suggestion
+from datagen.recordings.placeholders import filled
 
 Arrays = Mapping[str, NDArray[Any]]
 INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
@@ -34,39 +35,34 @@ def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
         return np.asarray(found[tuple(_place(part) for part in places.split(","))])
     except (IndexError, ValueError):
         shape = "x".join(map(str, found.shape))
-        raise BadInput(f"{name} is an array of {shape} numbers", str(path), field, wish) from None
+        problem, allowed = f"{name} is an array of {shape} numbers", 'as in "NAME[:,0]" or "NAME[0,2]"'
+        raise BadInput(problem, str(path), field, wish, allowed) from None
 
 
 def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
     """Name of the array that `wish` means, and the places to take of it if it says so; raises BadInput.
 
-    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; `{stem}` and
-    `{number}` are the file's name without its ending and the first whole number in it; "NAME[:,2]" takes one column of
-    a table, counted from 0.
+    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; what stands in
+    braces is filled in (see `filled`); "NAME[:,2]" takes one column of a table, counted from 0.
     """
-    text = _filled(wish, path, field)
+    text = filled(wish, path, field)
     for alternative in text.split("|"):
         found = _named(arrays, alternative.strip(), path, field)
         if found is not None:
             return found
     names = sorted(arrays)
+    if not names:
+        raise NoVariable("the file holds no numbers", str(path), field, text)
     shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
     raise NoVariable(f"the file has no such variable{suggestion(text, names)}", str(path), field, text, shown)
-
-
-def _filled(wish: str, path: Path, field: str) -> str:
-    number = re.search(r"\d+", path.stem)
-    try:
-        return wish.format(stem=path.stem, number=int(number.group()) if number else "")
-    except (KeyError, IndexError, ValueError):
-        problem = "cannot be filled in for this file" + ("" if number else ", whose name holds no number")
-        raise BadInput(problem, str(path), field, wish, "{stem} and {number}, as in X{number:03}_DE_time") from None
 
 
 def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:
     indexed = None if wish in arrays else INDEXED.fullmatch(wish)
     name = indexed["name"] if indexed else wish
-    known = [name] if name in arrays else [one for one in arrays if fnmatchcase(one, name)] if _is_pattern(name) else []
+    # Brackets mean themselves: they count the elements of MATLAB's arrays of structures and cells.
+    pattern = name.replace("[", "[[]")
+    known = [name] if name in arrays else [one for one in arrays if _is_pattern(name) and fnmatchcase(one, pattern)]
     if len(known) > 1:
         raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
     return (known[0], indexed["places"] if indexed else None) if known else None

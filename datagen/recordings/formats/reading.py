@@ -14,7 +14,7 @@ from datagen.recordings.formats.numpy_file import read_npy, read_npz
 from datagen.recordings.formats.wav_file import read_wav
 from datagen.recordings.settings import FORMATS, CsvLayout
 
-ENDINGS = {"txt": "csv", "tsv": "csv", "cdf": "nc", "nc4": "nc", "wave": "wav"}
+ENDINGS = {"txt": "csv", "tsv": "csv", "cdf": "nc", "nc4": "nc", "h5": "nc", "hdf5": "nc", "wave": "wav"}
 READERS: dict[str, Callable[[Path], Arrays]] = {
     "mat": read_mat,
     "npz": read_npz,

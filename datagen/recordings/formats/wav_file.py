@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 import warnings
 from pathlib import Path
 
@@ -12,6 +11,8 @@ from datagen.errors import BadInput
 from datagen.recordings.formats.arrays import ONLY_NAME, Arrays
 
 RATE_NAME = "rate_hz"
+# What scipy warns of a file that is shorter than its header says; other warnings are of chunks that hold no samples.
+EARLY_END = "EOF prematurely"
 
 
 def read_wav(path: Path) -> Arrays:
@@ -19,13 +20,16 @@ def read_wav(path: Path) -> Arrays:
     from scipy.io import wavfile
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wavfile.WavFileWarning)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always", wavfile.WavFileWarning)
             rate, samples = wavfile.read(path)
-    except (ValueError, OSError, EOFError, struct.error, UnboundLocalError) as problem:
+    except Exception as problem:  # whatever the damaged bytes lead scipy to
         raise BadInput(
             f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
         ) from None
+    early = next((str(one.message) for one in told if EARLY_END in str(one.message)), "")
+    if early:
+        raise BadInput(f"the file breaks off: {early}", str(path))
     return {ONLY_NAME: _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
 
 

@@ -85,6 +85,9 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('bearing = "skf_6205"\nbpfo = 3.6', "bpfo: the bearing's geometry says it already"),
         ('tach = {variable = "sig", rate_hz = 100, threshold = 9}', "pulses from 0 to 0.4 s"),
         ('channel = [{name = "a"}]\n', "the channel has no variable"),
+        ('csv = {decimal = ","}', "csv.delimiter: decimal sign and delimiter are the same; allowed: another character"),
+        ("notes = {a = {b = 1}}", "line 8: recording[1].notes.a = {b = 1}; allowed: a text in quotes or a number or"),
+        ('rig = "{number}"', 'a.mat: rig = "{number}": is empty for this file; allowed: a name'),
         ("csv = {delimiter = '\"'}", 'csv.delimiter = """: cells may be quoted, and rows are lines'),
     ],
 )  # fmt: skip

@@ -33,6 +33,9 @@ STATED = {
     "snr_db = 1e9": "snr_db = 1000000000.0; allowed: a number from -100 to 200",
     "spalls = 100000000000000000000": "spalls = 100000000000000000000; allowed: at most 10000",
     "bpfo = 1e30": "bpfo = 1e+30; allowed: a number above 0 to 1000",
+    "ftf = 11.9": "ftf = 11.9; allowed: a number above 0 to 1",
+    "bearing = {balls = 9, ball_diameter_mm = 0.00794, pitch_diameter_mm = 0.03904}": "bearing.pitch_diameter_mm = "
+    "0.03904; allowed: at least 0.1",
     "notes = {torque = nan}": "notes.torque = nan: not a finite number; allowed: texts, finite numbers, true or false",
     "cut_s = -1": "cut_s = -1; allowed: above 0",
 }
@@ -79,6 +82,22 @@ def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
     mat("a.mat", huge=1e300, minus=-3.0, saw=saw)
     told = refusal(bring, with_setting(setting), tmp_path)
     assert f"a.mat: {HELD[setting]}" in told
+
+
+@pytest.mark.parametrize(
+    ("orders", "told"),
+    [
+        ("bpfo = 107.4\nbpfi = 162.2", "bpfo = 107.4: with bpfi = 162.2 it would be of a bearing with 269.6 balls"),
+        ("bpfo = 5.42\nbpfi = 3.58", "bpfo = 5.42: with bpfi = 3.58 it would be of a bearing with 9 balls"),
+    ],
+    ids=["in Hz", "exchanged"],
+)
+def test_orders_that_no_bearing_has_are_refused(orders: str, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    allowed = "; allowed: orders of the shaft, bpfo below bpfi, together the number of balls, up to 200"
+    assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {told}{allowed}")
+    for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42"):
+        assert len(bring(f"{GOOD}{known}\n", known)) == 1
 
 
 def test_a_defect_longer_than_its_race_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:

@@ -55,6 +55,19 @@ def size(*arguments: object) -> tuple[int, str, str]:
     return done.exit_code, " ".join(done.stdout.split()), done.stderr
 
 
+@pytest.mark.parametrize(
+    ("settings", "shown"),
+    [
+        ('channel_name = "B3"\n', "│ noise B3 │"),
+        ('channel_name = "B3"\nrecording = "first"\n', "│ first B3 │"),
+        ("", "│ noise │"),
+    ],
+)
+def test_a_channel_is_shown_once_beside_its_recording(settings: str, shown: str, tmp_path: Path) -> None:
+    corpus = imported(tmp_path, SPEC + settings, noise=noise(2))
+    assert shown in size(corpus)[1]
+
+
 def test_recordings_are_told_sizes_or_not_without_being_scored(tmp_path: Path) -> None:
     corpus = imported(tmp_path, noise=noise(2))
     scores = score_sizes(corpus, None, True, None)

@@ -1,0 +1,37 @@
+"""Files by their names, of which there may be thousands, each to be found for a line of a table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fnmatch import fnmatch
+from os.path import normcase
+from pathlib import Path, PurePath
+
+WILD = "*?["
+
+
+class FileNames:
+    """Files and their names from the root; `fitting` finds those that a name or a pattern means."""
+
+    def __init__(self, names: Mapping[Path, str]) -> None:
+        self.names = names
+        self.known: dict[str, list[Path]] = {}
+        for path, name in names.items():
+            for one in {normcase(name), normcase(path.name)}:
+                self.known.setdefault(one, []).append(path)
+
+    def fitting(self, name: str) -> list[Path]:
+        """The files that are called `name`, or fit it as a pattern, by their own name or from the root; in order."""
+        if not any(sign in name for sign in WILD):
+            return self.known.get(normcase(name), [])
+        return [path for path in self.names if not hidden(path, name) and fits(path, self.names[path], name)]
+
+
+def fits(path: Path, name: str, pattern: str) -> bool:
+    """True if a file, called `name` from the root, fits a pattern by that name or by its own."""
+    return fnmatch(name, pattern) or fnmatch(path.name, pattern)
+
+
+def hidden(path: Path, pattern: str) -> bool:
+    """True if a file's name begins with a point and the pattern's does not: some systems leave such files anywhere."""
+    return path.name.startswith(".") and not PurePath(pattern).name.startswith(".")

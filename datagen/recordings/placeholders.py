@@ -1,0 +1,37 @@
+"""What stands in braces in a SPEC's texts, filled in for each file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path, PurePosixPath
+
+from datagen.errors import BadInput
+
+
+def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = None) -> str:
+    """`text` with `{stem}`, `{number}` and `{folder}` of the file at `path`, and with `more`; raises BadInput.
+
+    They are the file's name without its ending, the first whole number in it, and the name of the folder it lies in.
+    """
+    number = re.search(r"\d+", path.stem)
+    values: dict[str, str | int] = {"stem": without_ending(path), "number": int(number.group()) if number else ""}
+    values |= {"folder": path.parent.name, **(more or {})}
+    try:
+        return text.format(**values)
+    except (AttributeError, KeyError, IndexError, ValueError):
+        nameless = "{number" in text and number is None
+        problem = "cannot be filled in for this file" + (", whose name holds no number" if nameless else "")
+        allowed = ", ".join(f"{{{name}}}" for name in values) + ", as in X{number:03}_DE_time"
+        raise BadInput(problem, str(path), field, text, allowed) from None
+
+
+def without_ending(path: Path | PurePosixPath) -> str:
+    """Name of a file without its ending; figures alone are none, as in 2003.10.22.12.06.24."""
+    return path.name if re.fullmatch(r"\.\d+", path.suffix) else path.stem
+
+
+def place_without_ending(name: str) -> str:
+    """Name of a file from the root, folders and all, without its ending."""
+    place = PurePosixPath(name)
+    return str(place.with_name(without_ending(place)))

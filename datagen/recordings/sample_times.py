@@ -1,0 +1,35 @@
+"""The sampling rate of a file that holds the times of its samples instead."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+
+# Times are often written with few decimals: so far, in shares of their span, they may lie beside a straight line.
+ROUNDING = 1e-3
+DIGITS = 9
+
+
+def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
+    """Sampling rate, Hz, of samples at evenly spaced `times` (T,), s, or with the one step between them.
+
+    Raises BadInput naming file and variable if they do not rise evenly.
+    """
+    if times.size == 1:
+        step = float(times.ravel()[0])
+    elif times.ndim == 1:
+        step = float(times[-1] - times[0]) / (times.size - 1)
+        beside = np.abs(times - times[0] - step * np.arange(times.size)).max()
+        if beside > max(2.0 * abs(step), ROUNDING * abs(step) * times.size):
+            raise BadInput(
+                "these times are not evenly spaced", str(path), "rate_hz", wish, "one step between all samples"
+            )
+    else:
+        step = 0.0
+    if step <= 0.0:
+        raise BadInput("is no column of rising times", str(path), "rate_hz", wish, "times or their step, s")
+    return float(f"{1.0 / step:.{DIGITS}g}")

@@ -1,0 +1,124 @@
+"""The layouts of the page, each as a few small files of the kind, come in with the settings that the page says."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy.io
+
+from datagen.corpus import Corpus
+from datagen.recordings.importing import import_recordings
+from datagen.recordings.spec import load_spec
+
+PAGE = (Path(__file__).parents[3] / "docs" / "recordings.md").read_text(encoding="utf-8")
+SPEC = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[1]
+GENERATOR = np.random.default_rng(7)
+
+
+def noise(*shape: int) -> np.ndarray:
+    return GENERATOR.standard_normal(shape)
+
+
+def pulses(rate: int, size: int, per_second: float) -> np.ndarray:
+    return np.where((np.arange(size) / rate * per_second + 0.4) % 1.0 < 0.5, 5.0, 0.0)
+
+
+def write_mat(path: Path, **variables: Any) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    scipy.io.savemat(path, variables)
+
+
+def write_table(path: Path, table: np.ndarray, delimiter: str = ",", header: str = "") -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    np.savetxt(path, table, "%.6f", delimiter=delimiter, header=header, comments="")
+
+
+def structures(folder: Path) -> None:
+    channels = np.empty((1, 7), dtype=[("Name", object), ("Data", object)])
+    for place in range(7):
+        channels[0, place] = (f"channel {place}", np.full((1, 40), 900.0) if place == 3 else noise(1, 640))
+    write_mat(folder / "KA01/N09_M07_F10_KA01_1.mat", N09_M07_F10_KA01_1={"Y": channels})
+
+
+def numbered(folder: Path) -> None:
+    for bearing in ("Bearing1_1", "Bearing1_2"):
+        header = "Horizontal_vibration_signals,Vertical_vibration_signals"
+        write_table(folder / f"35Hz12kN/{bearing}/1.csv", noise(64, 2), header=header)
+
+
+def clocked(folder: Path) -> None:
+    for bearing, delimiter in (("Bearing1_1", ","), ("Bearing1_4", ";")):
+        table = np.concatenate([np.full((64, 4), 9.0), noise(64, 2)], axis=1)
+        write_table(folder / f"Learning_set/{bearing}/acc_00001.csv", table, delimiter)
+
+
+def dated(folder: Path) -> None:
+    write_table(folder / "2nd_test/2004.02.12.10.32.39", noise(64, 4), "\t")
+
+
+def encoder(folder: Path) -> None:
+    encoded = np.concatenate([pulses(200_000, 200_000, 1024.0 * speed) for speed in (15.0, 20.0)])
+    write_mat(folder / "H-A-1.mat", Channel_1=noise(400_000, 1), Channel_2=encoded[:, None])
+
+
+def first_row(folder: Path) -> None:
+    table = noise(64, 5)
+    table[:, 2] = 0.0
+    table[0, 2] = 1770.0
+    write_mat(folder / "H_1_0.mat", H_1_0=table)
+
+
+def tacho(folder: Path) -> None:
+    table = np.concatenate([pulses(50_000, 50_000, 12.288)[:, None], noise(50_000, 7)], axis=1)
+    write_table(folder / "normal/12.288.csv", table)
+
+
+def stepped(folder: Path) -> None:
+    axis, values = {"increment": 1.0 / 25_600.0, "number_of_values": 64.0}, {"values": noise(64, 4)}
+    write_mat(folder / "0Nm_Normal.mat", Signal={"x_values": axis, "y_values": values})
+
+
+@pytest.fixture(scope="module")
+def labels(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
+    """The labels of all layouts, by part."""
+    folder = tmp_path_factory.mktemp("layouts")
+    for write in (structures, numbered, clocked, dated, encoder, first_row, tacho, stepped):
+        write(folder)
+    (folder / "layouts.toml").write_text(SPEC, encoding="utf-8")
+    import_recordings(load_spec(folder / "layouts.toml"), folder / "out")
+    return Corpus(folder / "out").labels.set_index("part")
+
+
+EXPECTED: dict[str, tuple[list[str], float, list[float]]] = {
+    "structures": (["KA01/N09_M07_F10_KA01_1"], 64000.0, [900.0]),
+    "numbered": (["35Hz12kN/Bearing1_1/1", "35Hz12kN/Bearing1_2/1"], 25600.0, [2100.0] * 2),
+    "clocked": ([f"Learning_set/{name}/acc_00001" for name in ("Bearing1_1", "Bearing1_4")], 25600.0, [1800.0] * 2),
+    "dated": ([f"2nd_test/2004.02.12.10.32.39 B{k}" for k in (1, 2, 3, 4)], 20480.0, [2000.0] * 4),
+    "encoder": (["H-A-1#0", "H-A-1#1"], 200000.0, [900.0, 1200.0]),
+    "first_row": (["H_1_0"], 42000.0, [1770.0]),
+    "tacho": (["normal/12.288 underhang", "normal/12.288 overhang"], 50000.0, [737.28] * 2),
+    "stepped": (["0Nm_Normal"], 25600.0, [3010.0]),
+}
+
+
+@pytest.mark.parametrize("part", EXPECTED)
+def test_a_layout_of_the_page_comes_in_with_its_names_rate_and_speed(part: str, labels: pd.DataFrame) -> None:
+    names, rate, speeds = EXPECTED[part]
+    found = labels.loc[[part]]
+    assert found["recording"].tolist() == names
+    assert found["rate_hz"].unique().tolist() == [rate]
+    assert found["speed_rpm"].tolist() == pytest.approx(speeds, rel=1e-3)
+
+
+def test_the_page_shows_as_many_layouts_as_are_tried(labels: pd.DataFrame) -> None:
+    assert set(labels.index) == set(EXPECTED) == set(re.findall(r'^name = "(\w+)"$', SPEC, re.MULTILINE)) - {"layouts"}
+
+
+def test_bearings_are_told_apart_by_folder_and_channel(labels: pd.DataFrame) -> None:
+    assert labels.loc["clocked", "bearing_id"].tolist() == ["Bearing1_1", "Bearing1_4"]
+    assert labels.loc["dated", "bearing_id"].tolist() == [f"2nd_test B{number}" for number in (1, 2, 3, 4)]

@@ -1,0 +1,65 @@
+"""Sampling rates of files that hold times: a column of them, rounded as they may be, or the step between two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.recordings.sample_times import rate_of
+
+Bring = Callable[..., Corpus]
+Mat = Callable[..., np.ndarray]
+SPEC = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\ny = "sig"\n'
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        '{variable = "seconds", times = true}',
+        '{variable = "ticks", times = true, factor = 1e-6}',
+        '{variable = "step", times = true}',
+    ],
+)
+def test_a_rate_follows_from_times_or_their_step(setting: str, bring: Bring, mat: Mat) -> None:
+    ticks = 7 + np.arange(400) * 40
+    mat("a.mat", seconds=ticks[:, None] * 1e-6, ticks=ticks.astype(np.int32), step=4e-5)
+    corpus = bring(f"{SPEC}rate_hz = {setting}\n")
+    assert corpus.labels[["rate_hz", "duration_s"]].to_numpy().tolist() == [[25000.0, 0.016]]
+
+
+def test_rounded_times_give_the_rate_as_well_as_their_ends_say() -> None:
+    times = np.arange(25_600) / 25_600.0
+    assert rate_of(times.round(3), Path("a.csv"), "t") == pytest.approx(25_600.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("times", "told"),
+    [
+        (np.concatenate([np.arange(200), np.arange(260, 460)]) * 1e-3, "these times are not evenly spaced"),
+        (np.arange(400)[::-1] * 1e-3, "is no column of rising times; allowed: times or their step, s"),
+        (np.zeros(400), "is no column of rising times"),
+        (np.zeros((200, 2)), "is no column of rising times"),
+        (-0.5, "is no column of rising times"),
+        (1.0, "rate_hz = 1.0: from the variable t; allowed: a number from 100 to 1e+07"),
+    ],
+    ids=["a gap", "falling", "still", "two columns", "a step back", "too slow"],
+)
+def test_times_that_give_no_rate_are_refused(times: object, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", t=times)
+    with pytest.raises(BadInput) as problem:
+        bring(SPEC + 'rate_hz = {variable = "t", times = true}\n')
+    assert str(problem.value).startswith(f"{tmp_path / 'a.mat'}: rate_hz = ")
+    assert told in str(problem.value)
+
+
+def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", t=np.arange(400) * 1e-3)
+    with pytest.raises(BadInput, match=r'rate_hz = "t": holds 400 numbers from 0 to 0\.399; allowed: .* times = true'):
+        bring(SPEC + 'rate_hz = {variable = "t"}\n')
+    with pytest.raises(BadInput, match=r"recording\[1\]\.load_n\.times.*: only a sampling rate follows from times"):
+        bring(SPEC + 'rate_hz = 1000\nload_n = {variable = "t", times = true}\n')

@@ -1,0 +1,118 @@
+"""Text tables in other encodings than UTF-8, and such as hold more than numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.recordings.formats import csv_file
+from datagen.recordings.formats.reading import read_arrays
+from datagen.recordings.settings import CsvLayout
+
+Bring = Callable[..., Corpus]
+SPEC = '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\nrate_hz = 1000\ny = "a"\n'
+CELLS = np.random.default_rng(5).standard_normal((50, 2)).tolist()
+ROWS = [f"{first!r},{second!r}" for first, second in CELLS]
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
+def test_a_table_in_another_encoding_is_read_once_it_is_stated(encoding: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["a,T (°C)", *ROWS]), encoding=encoding)
+    told = r'a\.csv: csv\.encoding = "utf-8": is no text in this encoding; allowed: that of the file, such as "latin-1"'
+    with pytest.raises(BadInput, match=told):
+        bring(SPEC)
+    assert len(bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')) == 1
+
+
+@pytest.mark.parametrize("encoding", ["latin-9000", "hex", "", "a\\u0000b"])
+def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["a,b", *ROWS]))
+    with pytest.raises(BadInput, match=r"csv\.encoding = .*; allowed: an encoding of texts, such as utf-8, latin-1"):
+        bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')
+
+
+@pytest.mark.parametrize(
+    ("rows", "layout", "told"),
+    [
+        (["a,b", *ROWS, "end,0"], "", 'line 52: y = "a": 1 of 51 cells are not finite numbers, the first is "end"'),
+        (["a,b", "g,g", *ROWS], "", 'line 2: y = "a": 1 of 51 cells are not finite numbers, the first is "g"'),
+        (
+            ["a,b", *ROWS, "", ",0", "inf,0"],
+            "",
+            'line 53: y = "a": 2 of 52 cells are not finite numbers, the first is ""',
+        ),
+        (
+            ["a;b", *("0,25;1,5" for _ in ROWS)],
+            'csv = {delimiter = ";"}',
+            'line 2: y = "a": 50 of 50 cells are not finite numbers, the first is "0,25"',
+        ),
+        (
+            [row.replace(",", "\t") for row in ["1,2"] * 50],
+            'csv = {header = false}\ny = "1"',
+            'line 1: y = "1": 50 of 50 cells are not finite numbers, the first is "1\\t2"',
+        ),
+    ],
+    ids=["footer", "units", "empty", "decimal", "delimiter"],
+)
+def test_a_cell_that_is_no_number_is_shown_with_its_line(
+    rows: list[str], layout: str, told: str, bring: Bring, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(rows))
+    spec = SPEC.replace('y = "a"\n', "") if "y = " in layout else SPEC
+    with pytest.raises(BadInput) as problem:
+        bring(f"{spec}{layout}\n")
+    assert str(problem.value) == f"{tmp_path / 'a.csv'}, {told}"
+
+
+@pytest.mark.parametrize(
+    ("head", "layout"),
+    [
+        ("a,b\n", CsvLayout()),
+        ("\n\nsome words\n\na,b\n\n", CsvLayout(skip_lines=3)),
+        ("a;b\r\n", CsvLayout(delimiter=";", decimal=",")),
+        ("a\tb\n", CsvLayout(delimiter="\t")),
+        ("a  b\n", CsvLayout(delimiter=" ")),
+    ],
+)
+def test_a_table_of_nothing_but_numbers_is_read_at_once_and_gives_the_same(
+    head: str, layout: CsvLayout, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lines = [layout.delimiter.join(map(repr, cells)).replace(".", layout.decimal) for cells in CELLS]
+    (tmp_path / "a.csv").write_text(head + "\n".join(lines), newline="")
+    monkeypatch.setattr(csv_file, "_columns", None)
+    at_once = read_arrays(tmp_path / "a.csv", None, layout)
+    monkeypatch.undo()
+    monkeypatch.setattr(csv_file, "_clean_table", lambda *_: None)
+    by_cells = read_arrays(tmp_path / "a.csv", None, layout)
+    for columns in (at_once, by_cells):
+        assert [columns[name].tolist() for name in columns] == np.array(CELLS).T.tolist()
+        assert list(columns) == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    "switched_off", [("_columns", None), ("_clean_table", lambda *_: None)], ids=["at once", "cells"]
+)
+def test_a_delimiter_at_the_end_of_each_row_makes_an_empty_column(
+    switched_off: tuple[str, object], bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(csv_file, *switched_off)
+    rows = "".join(f"{first!r}\t{second!r}\t\r\n" for first, second in CELLS)
+    (tmp_path / "a.csv").write_text("by hand\n" + rows, newline="")
+    columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(delimiter="\t", header=False, skip_lines=1))
+    assert [columns[name].tolist() for name in ("1", "2")] == np.array(CELLS).T.tolist()
+    assert np.isnan(columns["3"]).all()
+    told = r'a\.csv, line 2: y = "3": 50 of 50 cells are not finite numbers, the first is ""'
+    with pytest.raises(BadInput, match=told):
+        bring(SPEC.replace('y = "a"', 'y = "3"') + 'csv = {delimiter = "\\t", header = false, skip_lines = 1}\n')
+
+
+def test_a_last_column_that_is_not_empty_everywhere_is_kept(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("1,2,\n3,4,\n5,6,7\n")
+    columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(header=False))
+    assert columns["3"][2] == 7.0
+    assert columns["2"].tolist() == [2.0, 4.0, 6.0]

@@ -95,6 +95,12 @@ class Corpus:
         with self._shards.reading(shard) as file:
             return [str(name) for name in file.variables["axis"][:]]
 
+    def has(self, record: int, variable: str) -> bool:
+        """Whether that signal of a record is in the corpus; BadInput if there is no such record."""
+        shard, _ = self._place(record)
+        with self._shards.reading(shard) as file:
+            return variable in file.variables and file.variables[variable].dimensions[:1] == ("record",)
+
     def _place(self, record: int) -> tuple[str, int]:
         if isinstance(record, bool | np.bool_) or record != int(record):
             allowed = "a record index, such as those in labels[mask].record"

@@ -17,8 +17,8 @@ class Variable:
     """One array of a corpus.
 
     `dims` and UDUNITS `unit`; `stored` says which records have it: "always" all, "simulated" all simulated ones (an
-    imported recording perhaps), "imported" all imported ones, any other word those whose recipe asks for it by that
-    key of its table `store`. `missing` as for labels.
+    imported recording perhaps), "imported" all imported ones, "changing speed" recordings whose speed is known to
+    change, any other word those whose recipe asks for it by that key of its table `store`. `missing` as for labels.
     """
 
     name: str
@@ -145,6 +145,16 @@ SIGNALS: tuple[Variable, ...] = (
         stored="contact_force",
         missing="the record's forces were not asked for",
     ),
+)
+
+SHAFT_ANGLE = Variable(
+    "shaft_angle",
+    ("record", "time"),
+    "float64",
+    "rad",
+    "angle of the shaft",
+    "Angle turned by the shaft since the start of the record, as a tach or a channel of its speed tells.",
+    stored="changing speed",
 )
 
 SCENARIO = Variable(
@@ -282,4 +292,4 @@ DEFECTS: tuple[Variable, ...] = (
     _simulated("defect_depth", ("defect",), "float64", "m", "depth of the defect", "Depth of the floor of the spall."),
 )
 
-VARIABLES: tuple[Variable, ...] = (*COORDINATES, *SIGNALS, SCENARIO, PROVENANCE, *PASSES, *DEFECTS)
+VARIABLES: tuple[Variable, ...] = (*COORDINATES, *SIGNALS, SHAFT_ANGLE, SCENARIO, PROVENANCE, *PASSES, *DEFECTS)

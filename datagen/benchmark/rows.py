@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import repeat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,8 @@ from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES, Array
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
 from labels.features.table import FEATURE_NAMES, feature_values
+from labels.features.turning import Turning
+from labels.variables import SHAFT_ANGLE
 
 if TYPE_CHECKING:
     import pandas
@@ -109,7 +112,8 @@ def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
     with Corpus(folder) as corpus:
         labels = corpus.labels.set_index("record", drop=False)
         found = {
-            record: record_rows(corpus.waveform(record), labels.loc[record], reading) for record in records.tolist()
+            record: record_rows(corpus.waveform(record), labels.loc[record], reading, _turning(corpus, record))
+            for record in records.tolist()
         }
     rows = [row for own in found.values() for row in own.rows]
     owners = [record for record, own in found.items() for _ in own.rows]
@@ -122,8 +126,16 @@ def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
     )
 
 
-def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading) -> RecordRows:
-    """Rows of one record (T, A), one an axis and window, none if it cannot be judged."""
+def _turning(corpus: Corpus, record: int) -> Turning | None:
+    """How the shaft of a record turns, if a tach has told that its speed changes."""
+    return Turning(corpus.waveform(record, SHAFT_ANGLE.name)) if corpus.has(record, SHAFT_ANGLE.name) else None
+
+
+def record_rows(
+    signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading, turning: Turning | None = None
+) -> RecordRows:
+    """Rows of one record (T, A), one an axis and window, none if it cannot be judged; `turning` where its speed
+    changes."""
     kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
     reason = unfit(labels, kinematics, len(signals), rate, reading.bandwidth)
     if kinematics is None or reason:
@@ -134,14 +146,21 @@ def record_rows(signals: NDArray[Any], labels: pandas.Series[Any], reading: Read
     turns = kinematics.shaft_hz * len(signals) / rate
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
         repaired, drawn_over = (signal, 0) if is_dead(signal) else without_glitches(signal, turns)
-        found = signal_rows(repaired, rate, kinematics, reading, [*_seed(labels), axis])
+        found = signal_rows(repaired, rate, kinematics, reading, [*_seed(labels), axis], turning)
         glitches += drawn_over
         rows += found
         reasons += [row.reason for row in found] or [DEAD]
     return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches)
 
 
-def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Reading, seed: list[int]) -> list[Row]:
+def signal_rows(
+    signal: Array,
+    rate: float,
+    kinematics: Kinematics,
+    reading: Reading,
+    seed: list[int],
+    turning: Turning | None = None,
+) -> list[Row]:
     """Rows of one axis (T,), none of pieces too short or without a signal; `seed` sets the random numbers."""
     if is_dead(signal):
         return []
@@ -150,12 +169,15 @@ def signal_rows(signal: Array, rate: float, kinematics: Kinematics, reading: Rea
         level = 0 if reading.noise_db is None else int(1000 + round(10 * reading.noise_db))
         stream = np.random.default_rng([*seed, reading.noise_draw, level, copy])
         heard = _noisy(signal, reading, stream, copy)
-        for piece in windows(_stretch(heard, rate, stream) if copy > 1 else heard, rate, reading.window):
+        part = _stretch(heard.size, rate, stream) if copy > 1 else slice(None)
+        pieces = windows(heard[part], rate, reading.window)
+        angles = repeat(None) if turning is None else windows(turning.angle[part], rate, reading.window)
+        for piece, angle in zip(pieces, angles, strict=False):
             given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
             bandwidth = _bandwidth(rate, reading, stream)
             if piece.size < FEWEST_SAMPLES or is_dead(piece[: fast_length(piece.size)]):
                 continue
-            analysis = analyse(piece, rate, given, bandwidth)
+            analysis = analyse(piece, rate, given, bandwidth, None if angle is None else Turning(angle))
             rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece).reason))
     return rows
 
@@ -166,12 +188,12 @@ def windows(signal: Array, rate: float, longest: float) -> Iterator[Array]:
     yield from np.array_split(signal, count)
 
 
-def _stretch(signal: Array, rate: float, stream: np.random.Generator) -> Array:
-    """A stretch of the signal (T,), its length log-uniform from 0.3 s to the whole, anywhere in it."""
-    shortest = min(SHORTEST_COPY * rate, signal.size)
-    size = int(np.exp(stream.uniform(np.log(shortest), np.log(signal.size))))
-    start = int(stream.integers(0, signal.size - size, endpoint=True))
-    return signal[start : start + size]
+def _stretch(samples: int, rate: float, stream: np.random.Generator) -> slice:
+    """A stretch of so many samples, its length log-uniform from 0.3 s to the whole, anywhere in them."""
+    shortest = min(SHORTEST_COPY * rate, samples)
+    size = int(np.exp(stream.uniform(np.log(shortest), np.log(samples))))
+    start = int(stream.integers(0, samples - size, endpoint=True))
+    return slice(start, start + size)
 
 
 def _seed(labels: pandas.Series[Any]) -> list[int]:

@@ -24,7 +24,7 @@ ATTRIBUTES = {
 
 
 def imported_dataset(indices: Sequence[int], records: Sequence[Recorded], attributes: dict[str, str]) -> xarray.Dataset:
-    """One dataset of records that share rate, length, axes and known labels; unknown channels are left out."""
+    """One dataset of records that share their `key`; unknown channels are left out."""
     first = records[0]
     columns: dict[str, Any] = {
         "acceleration": np.stack([record.acceleration for record in records]),
@@ -33,6 +33,9 @@ def imported_dataset(indices: Sequence[int], records: Sequence[Recorded], attrib
         "axis": first.axes,
         **{dim: parts for parts, (dim,) in COMPONENT_DIMENSIONS.items()},
     }
+    angles = [record.shaft_angle for record in records if record.shaft_angle is not None]
+    if angles:
+        columns["shaft_angle"] = np.stack(angles)
     if "y" in first.axes:
         columns["envelope"] = np.stack([_envelope(record) for record in records])
     columns |= {

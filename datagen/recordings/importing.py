@@ -141,8 +141,9 @@ class _Plan:
         for piece, record in enumerate(read_recording(request)):
             if self._is_new(record, request):
                 self._check_split(record, request)
-                size = record.acceleration.nbytes
-                self.records.append(_Planned(len(self.records), request, piece, record.key, size, record.content))
+                self.records.append(
+                    _Planned(len(self.records), request, piece, record.key, record.bytes, record.content)
+                )
 
     def _is_new(self, record: Recorded, request: Request) -> bool:
         name, where = record.labels["recording"], f"{request.name} ({request.place})"

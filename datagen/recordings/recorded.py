@@ -26,14 +26,14 @@ from labels.envelope import FALLBACK_SHARES, holds_a_line
 from labels.variables import AXES
 
 LARGEST_ACCELERATION = 1e9
-Key = tuple[float, int, tuple[str, ...], tuple[str, ...]]
+Key = tuple[float, int, tuple[str, ...], tuple[str, ...], bool]
 
 
 @dataclass(frozen=True)
 class Recorded:
     """One record before it has an index: `acceleration` (T, axes) m/s², `labels` as far as they are known.
 
-    `content` is equal for equal samples at an equal rate.
+    `content` is equal for equal samples at an equal rate; `shaft_angle` (T,), rad, is told where the speed changes.
     """
 
     acceleration: NDArray[np.float32]
@@ -42,11 +42,19 @@ class Recorded:
     labels: dict[str, Any]
     provenance: str
     content: str
+    shaft_angle: NDArray[np.float64] | None
 
     @property
     def key(self) -> Key:
-        """What the records of one shard have in common: rate, length, axes, and which labels are known at all."""
-        return (self.rate, self.acceleration.shape[0], self.axes, tuple(sorted(self.labels)))
+        """What the records of one shard have in common: rate, length, axes, which labels are known at all, and whether
+        the angle of the shaft is."""
+        names = tuple(sorted(self.labels))
+        return (self.rate, self.acceleration.shape[0], self.axes, names, self.shaft_angle is not None)
+
+    @property
+    def bytes(self) -> int:
+        """How much memory its signals take."""
+        return self.acceleration.nbytes + (0 if self.shaft_angle is None else self.shaft_angle.nbytes)
 
 
 def read_recording(request: Request) -> Iterator[Recorded]:
@@ -60,12 +68,12 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     shortest = min(stop - start for start, stop in pieces)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, shortest, axes)}
     speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
-    for piece, ((start, stop), (speed, basis)) in enumerate(zip(pieces, speeds, strict=True)):
+    for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
         own = {
             "recording": _name(source) + (f"#{piece}" if request.settings.get("cut_s") else ""),
-            "speed_rpm": speed,
-            "speed_basis": basis,
+            "speed_rpm": speed.rpm,
+            "speed_basis": speed.basis,
             "duration_s": part.shape[0] / rate,
         }
         yield Recorded(
@@ -75,6 +83,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             labels=labels | own,
             provenance=_provenance(source, factor, start, stop),
             content=samples_hash(rate, *part.T),
+            shaft_angle=speed.angle,
         )
 
 

@@ -1,8 +1,12 @@
-"""The speed of the shaft in a recording: stated, measured beside the vibration, from a tach, or nominal."""
+"""The speed of the shaft in a recording: stated, measured beside the vibration, from a tach, or nominal.
+
+Where a tach or a channel of the speed shows that it changes, the angle that the shaft has turned is told too.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -10,33 +14,91 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.recordings.settings import Tach
-from datagen.recordings.source import Source, Span
+from datagen.recordings.source import Source
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
 
 HYSTERESIS = 0.1
 FEWEST_PULSES = 3
+# A shaft that stays this near (turns) to one that turns evenly is steady: the fourth harmonic of a ball pass then
+# strays by two periods at most, which its line's width allows for.
+STEADY_WITHIN = 0.1
 
 
-def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> list[tuple[float, str]]:
-    """Mean speed (rpm, NaN if unknown) in each piece and its basis, a value of the label `speed_basis`.
+@dataclass(frozen=True)
+class ShaftSpeed:
+    """Mean speed in a piece of a recording (rpm, NaN if unknown), its `basis`, a value of the label `speed_basis`, and
+    the `angle` (T,), rad, turned since its start if it is known to change."""
 
-    `rate` is the vibration's, Hz; pieces are a first sample and the one after the last, of `size` in all.
+    rpm: float
+    basis: str
+    angle: NDArray[np.float64] | None = None
+
+
+def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> list[ShaftSpeed]:
+    """The speed in each piece, a first sample and the one after the last, of `size` in all.
+
+    `rate` is the vibration's, Hz.
     """
     tach = source.setting("tach")
     if tach is None:
-        return [_stated_speed(source, (Fraction(start, size), Fraction(stop, size))) for start, stop in pieces]
+        return [_stated_speed(source, rate, size, piece) for piece in pieces]
     times = _pulse_times(source, tach, rate, size)
-    return [(tach_speed(source, tach, times, start / rate, stop / rate), "tach") for start, stop in pieces]
+    return [_tach_speed(source, tach, times, rate, piece) for piece in pieces]
 
 
-def _stated_speed(source: Source, span: Span) -> tuple[float, str]:
+def _tach_speed(
+    source: Source, tach: Tach, times: NDArray[np.float64], rate: float, piece: tuple[int, int]
+) -> ShaftSpeed:
+    rpm = tach_speed(source, tach, times, piece[0] / rate, piece[1] / rate)
+    angle = shaft_angle(times, tach.pulses_per_rev, np.arange(*piece) / rate)
+    return ShaftSpeed(rpm, "tach", _unless_steady(angle))
+
+
+def shaft_angle(
+    times: NDArray[np.float64], pulses_per_rev: float, instants: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Angle (T,), rad, at the `instants` (T,), s, of a shaft that turns evenly between pulses at the `times` (N,), s.
+
+    Before the first and after the last pulse it goes on at the mean speed of the turn nearest to them.
+    """
+    turns = np.arange(times.size) / pulses_per_rev
+    near = min(max(1, round(pulses_per_rev)), times.size - 1)
+    found = np.interp(instants, times, turns)
+    early, late = instants < times[0], instants > times[-1]
+    found[early] -= (times[0] - instants[early]) * (turns[near] / (times[near] - times[0]))
+    found[late] += (instants[late] - times[-1]) * (turns[near] / (times[-1] - times[-1 - near]))
+    return 2.0 * math.pi * found
+
+
+def is_steady(angle: NDArray[np.float64]) -> bool:
+    """Whether a shaft that turns by `angle` (T,), rad, stays near one that turns evenly."""
+    evenly = np.linspace(angle[0], angle[-1], angle.size)
+    return bool(np.abs(angle - evenly).max() <= 2.0 * math.pi * STEADY_WITHIN)
+
+
+def _unless_steady(angle: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    return None if is_steady(angle) else angle - angle[0]
+
+
+def _stated_speed(source: Source, rate: float, size: int, piece: tuple[int, int]) -> ShaftSpeed:
+    span = Fraction(piece[0], size), Fraction(piece[1], size)
     nominal = source.number("nominal_speed_rpm", span)
     for name, factor in (("speed_rpm", 1.0), ("speed_hz", 60.0)):
         measured = source.number(name, span) if nominal is None else source.or_none(name, span)
         if measured is not None:
-            return measured * factor, "measured"
-    return (math.nan, UNKNOWN) if nominal is None else (nominal, "nominal")
+            course = source.course(name)
+            angle = None if course is None else _integrated(course * factor, size / rate, np.arange(*piece) / rate)
+            return ShaftSpeed(measured * factor, "measured", angle)
+    return ShaftSpeed(math.nan, UNKNOWN) if nominal is None else ShaftSpeed(nominal, "nominal")
+
+
+def _integrated(rpm: NDArray[np.float64], duration: float, instants: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Angle (T,), rad, since the first of the `instants` (T,), s, where each of the speeds (N,) holds for an N-th of
+    the `duration` (s); None if it is steady."""
+    edges = np.linspace(0.0, duration, rpm.size + 1)
+    turned = np.concatenate([[0.0], np.cumsum(rpm)]) * (duration / rpm.size * math.pi / 30.0)
+    return _unless_steady(np.interp(instants, edges, turned))
 
 
 def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64]:

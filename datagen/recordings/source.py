@@ -133,6 +133,14 @@ class Source:
             )  # fmt: skip
         return float(np.mean(found, dtype=np.float64))
 
+    def course(self, name: str) -> Array | None:
+        """The numbers (N,), all above 0, that a variable holds along the recording; None if it holds no such row."""
+        said = self.setting(name)
+        found = choose(self.arrays, said.variable, self.path, name) if isinstance(said, FromVariable) else np.empty(0)
+        if found.ndim != 1 or found.size < FEWEST_SAMPLES or not (found > 0).all():
+            return None
+        return found.astype(np.float64) * said.factor
+
     def or_none(self, name: str, span: Span = WHOLE) -> float | None:
         """As `number`, but None where the file lacks the variable."""
         try:

@@ -11,7 +11,8 @@ from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, c
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_mains, without_shaft
 from labels.features.kinematics import Kinematics
-from labels.features.speed import Speed, refine_speed, vibration_lines
+from labels.features.speed import SPEED_TOLERANCE, Speed, refine_speed, vibration_lines
+from labels.features.turning import Turning
 
 NARROWEST_BAND = 3.5
 """Width of the narrowest band, in BPFI: what holds three harmonics of either race's family."""
@@ -60,8 +61,9 @@ class Analysis:
 
     @cached_property
     def speed(self) -> Speed:
-        """The refined speed of the shaft."""
-        return refine_speed(self._vibration[0], self.envelopes, self.given)
+        """The refined speed of the shaft; where it changes, the mean that its turning tells exactly."""
+        tolerance = SPEED_TOLERANCE if self.record.turning is None else 0.0
+        return refine_speed(self._vibration[0], self.envelopes, self.given, tolerance)
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -71,7 +73,9 @@ class Analysis:
     @cached_property
     def envelope_lines(self) -> Lines:
         """Lines of the envelope spectra, without those of the shaft and of the mains."""
-        excess = without_mains(self.envelopes.excess, self.envelopes.step)
+        excess = self.envelopes.excess
+        if self.record.turning is None:
+            excess = without_mains(excess, self.envelopes.step)
         excess = without_shaft(excess, self.envelopes.step, self.speed.shaft_hz)
         return lines_in(excess, self.envelopes.step)
 
@@ -99,7 +103,7 @@ class Analysis:
     def race_window(self, race: str) -> tuple[float, float]:
         """Centre (Hz) and half width (a share) of where the first line of the race "outer" or "inner" may lie."""
         order, window = (self.given.bpfo, OUTER_WINDOW) if race == "outer" else (self.given.bpfi, INNER_WINDOW)
-        if self.speed.evidence < CERTAIN_SPEED:
+        if self.record.turning is None and self.speed.evidence < CERTAIN_SPEED:
             window = UNCERTAIN_WINDOW
         centre = 1.0 + 0.5 * (window[0] + window[1])
         return centre * order * self.speed.shaft_hz, 0.5 * (window[1] - window[0])
@@ -123,6 +127,19 @@ class Analysis:
         return np.array([self.envelope_family(order).evidence.max() for order in chosen])
 
 
-def analyse(signal: Array, rate: float, kinematics: Kinematics, bandwidth: float = COMMON_BANDWIDTH) -> Analysis:
-    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal."""
-    return Analysis(condition(signal, rate, bandwidth), kinematics)
+def analyse(
+    signal: Array,
+    rate: float,
+    kinematics: Kinematics,
+    bandwidth: float = COMMON_BANDWIDTH,
+    turning: Turning | None = None,
+) -> Analysis:
+    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal.
+
+    Where the speed changes, `turning` tells how; it goes before the speed of the `kinematics`, and every frequency is
+    an order times the mean speed.
+    """
+    record = condition(signal, rate, bandwidth, turning)
+    if record.turning is not None:
+        kinematics = kinematics.at(record.turning.revolutions * record.step)
+    return Analysis(record, kinematics)

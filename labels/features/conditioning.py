@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
-Array = NDArray[np.float64]
-Spectrum = NDArray[np.complex128]
+from labels.features.turning import Array, Spectrum, Turning
 
 COMMON_BANDWIDTH = 20_000.0
 """Highest frequency that features look at, Hz: records of any higher rate are limited to it."""
@@ -25,24 +23,38 @@ MEDIAN_OVER_MEAN = float(np.log(2.0))
 
 @dataclass(frozen=True)
 class Conditioned:
-    """Fourier components (F,) of a record from 0 to `bandwidth` (Hz), `step` Hz apart: raw, and flattened."""
+    """Fourier components (F,) of a record from 0 to `bandwidth` (Hz), `step` Hz apart: raw, and flattened.
+
+    `samples` of the record were used; `turning` is given where the speed of its shaft changes.
+    """
 
     raw: Spectrum
     flat: Spectrum
     step: float
     bandwidth: float
+    samples: int
+    turning: Turning | None = None
 
     @property
     def duration(self) -> float:
         """Length of the record that was used, s."""
         return 1.0 / self.step
 
+    def slow(self, count: int) -> Spectrum:
+        """The first `count` raw components, or fewer; where the speed changes, of the record seen at even angles."""
+        if self.turning is None:
+            return self.raw[:count]
+        count = min(count, self.raw.size)
+        return np.asarray(fft.rfft(self.turning.evenly(self.raw, self.samples, count)))[:count]
+
     def waveform(self, spectrum: Spectrum) -> Array:
         """The signal (T,) of a spectrum, sampled at about twice the bandwidth, up to a constant factor."""
         return np.asarray(fft.irfft(spectrum, fft.next_fast_len(2 * spectrum.size, real=True)))
 
 
-def condition(signal: Array, rate: float, bandwidth: float = COMMON_BANDWIDTH) -> Conditioned:
+def condition(
+    signal: Array, rate: float, bandwidth: float = COMMON_BANDWIDTH, turning: Turning | None = None
+) -> Conditioned:
     """Spectrum of the `signal` (T,) sampled at `rate` (Hz) below `bandwidth` and below 0.95 of half the rate.
 
     The end of the record is dropped where its length has no fast transform. The flat spectrum is divided by the square
@@ -61,7 +73,8 @@ def condition(signal: Array, rate: float, bandwidth: float = COMMON_BANDWIDTH) -
     top = min(bandwidth, SHARE_OF_NYQUIST * rate / 2.0)
     spectrum = np.asarray(fft.rfft(centred))[: int(top / step) + 1]
     spectrum[0] = 0.0
-    return Conditioned(spectrum, _flattened(spectrum), step, top)
+    used = turning.first(signal.size) if turning is not None else None
+    return Conditioned(spectrum, _flattened(spectrum), step, top, signal.size, used)
 
 
 def fast_length(size: int) -> int:

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from labels.features.conditioning import Array, Conditioned, Spectrum, local_mean_power
+from labels.features.families import mains_components
+from labels.features.turning import Turning
 
 LEVELS = 4
 ENVELOPE_HARMONICS = 4.0
@@ -51,7 +53,8 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrow
     A band holds no difference of frequencies above its width; there the spectrum is set to its floor.
 
     The floor is the median over stretches of three shaft orders, so it follows the slow fall of an envelope spectrum
-    and passes under lines.
+    and passes under lines. Where the speed changes, they are spectra over the angle turned, and mains, which is no line
+    then, is taken out before.
     """
     edges = band_edges(record.bandwidth, narrowest)
     count = max(FEWEST_FLOOR_BINS, int(top_hz / record.step) + 1)
@@ -59,7 +62,7 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrow
     square_mean, kurtosis = np.zeros(len(edges)), np.zeros(len(edges))
     for band, (low, high) in enumerate(edges):
         inside = record.flat[int(low * record.flat.size) : int(high * record.flat.size)]
-        power[band], square_mean[band], kurtosis[band] = _squared_envelope(inside, count)
+        power[band], square_mean[band], kurtosis[band] = _squared_envelope(inside, count, record)
     block = max(FEWEST_FLOOR_BINS, int(FLOOR_ORDERS * shaft_hz / record.step))
     floor = local_mean_power(power[:, 1:], block)
     excess = np.zeros_like(power)
@@ -72,7 +75,7 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrow
     return EnvelopeSpectra(record.step, excess, depth, kurtosis, edges)
 
 
-def _squared_envelope(inside: Spectrum, count: int) -> tuple[Array, float, float]:
+def _squared_envelope(inside: Spectrum, count: int, record: Conditioned) -> tuple[Array, float, float]:
     """One-sided power (count,) of the Hann-windowed squared envelope of a band's Fourier components, the mean of that
     envelope, and its excess kurtosis (mean fourth power over squared mean square, minus 2)."""
     length = fft.next_fast_len(2 * max(inside.size, count))
@@ -81,6 +84,16 @@ def _squared_envelope(inside: Spectrum, count: int) -> tuple[Array, float, float
     square = np.abs(fft.ifft(padded)) ** 2
     mean = float(square.mean())
     kurtosis = float(np.mean(square**2)) / max(mean**2, np.finfo(np.float64).tiny) - 2.0
-    window: NDArray[np.float64] = 1.0 - np.cos(2.0 * np.pi * np.arange(length) / length)
-    lines = np.asarray(fft.rfft((square - mean) * window))[:count] * (2.0 / length)
+    course = square - mean
+    if record.turning is not None:
+        course = _at_even_angles(course, count, record.step, record.turning)
+    window: NDArray[np.float64] = 1.0 - np.cos(2.0 * np.pi * np.arange(course.size) / course.size)
+    lines = np.asarray(fft.rfft(course * window))[:count] * (2.0 / course.size)
     return np.abs(lines) ** 2, max(mean, float(np.finfo(np.float64).tiny)), kurtosis
+
+
+def _at_even_angles(course: Array, count: int, step: float, turning: Turning) -> Array:
+    """An envelope's `course` over the record seen at even angles of the shaft, without what the mains does to it."""
+    spectrum = np.asarray(fft.rfft(course))
+    spectrum[mains_components(spectrum.size, step)] = 0.0
+    return turning.evenly(spectrum, course.size, count)

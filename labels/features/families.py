@@ -76,11 +76,16 @@ def without_mains(excess: Array, step: float) -> Array:
     Motors and their supplies modulate at twice the mains frequency, often near a ball-pass frequency. In a record too
     short to tell mains from anything else nothing is left out.
     """
-    frequency = np.arange(excess.shape[-1]) * step
+    return np.where(mains_components(excess.shape[-1], step), 1.0, excess)
+
+
+def mains_components(count: int, step: float) -> NDArray[np.bool_]:
+    """Which of `count` components, `step` (Hz) apart from 0, count as mains: none if they lie too far apart."""
     if step > COARSEST_STEP:
-        return excess
+        return np.zeros(count, dtype=bool)
+    frequency = np.arange(count) * step
     margin = np.maximum(np.minimum(MAINS_SPREAD * frequency, MAINS_REACH), STEADY_MAINS * frequency)
-    return np.where(near_mains(frequency, 1.01 * step + margin), 1.0, excess)
+    return near_mains(frequency, 1.01 * step + margin)
 
 
 def near_mains(frequency: NDArray[Any], margin: NDArray[Any]) -> NDArray[np.bool_]:

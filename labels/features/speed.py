@@ -32,9 +32,10 @@ class Speed:
 
 
 def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tuple[Lines, Array]:
-    """Lines of the raw spectrum over its local floor up to `top_hz`, and that excess (1, F)."""
+    """Lines of the raw spectrum, over the angle turned where the speed changes, over its local floor up to `top_hz`,
+    and that excess (1, F)."""
     count = min(record.raw.size, int(top_hz / record.step) + 2)
-    power = np.abs(record.raw[None, :count]) ** 2
+    power = np.abs(record.slow(count)[None]) ** 2
     block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * shaft_hz / record.step))
     floor = local_mean_power(power[:, 1:], min(block, max(2, count // 2)))
     excess = np.zeros_like(power)
@@ -42,15 +43,18 @@ def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tupl
     return lines_in(excess, record.step), excess
 
 
-def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics) -> Speed:
-    """The most likely shaft speed within ± 2.2 % of the one given.
+def refine_speed(
+    spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics, tolerance: float = SPEED_TOLERANCE
+) -> Speed:
+    """The most likely shaft speed within the `tolerance` (a share) of the one given, 0 if that is exact.
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
     slip comes to the strongest outer or inner family. Without evidence the speed given is kept.
     """
     step = spectrum.step
-    count = int(np.ceil(2.0 * SPEED_TOLERANCE * known.shaft_hz * SHAFT_HARMONICS / (0.5 * step))) + 1
-    factors = np.linspace(1.0 - SPEED_TOLERANCE, 1.0 + SPEED_TOLERANCE, max(45, min(count, 800)) // 2 * 2 + 1)
+    count = int(np.ceil(2.0 * tolerance * known.shaft_hz * SHAFT_HARMONICS / (0.5 * step))) + 1
+    places = max(45, min(count, 800)) // 2 * 2 + 1 if tolerance > 0.0 else 1
+    factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
     speeds = known.shaft_hz * factors
     shaft = _tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
     turning = lines_in(envelopes.excess[:1], envelopes.step)

@@ -16,6 +16,7 @@ from datagen.errors import BadInput
 from labels.classifier.liveness import DEAD
 from labels.features.analysis import analyse
 from labels.features.table import FEATURE_NAMES
+from labels.features.turning import Turning
 
 RATE = 12_000.0
 
@@ -52,6 +53,21 @@ def test_a_window_without_signal_leaves_the_vote_to_the_others():
     found = record_rows(signal, labels(), Reading(window=1000 / RATE))
     assert (len(found.rows), found.reason) == (2, "")
     assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows([], DEAD)
+
+
+def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatch):
+    told = []
+
+    def listening(piece, rate, given, bandwidth, turning):
+        told.append((piece.size, turning.revolutions))
+        return analyse(piece, rate, given, bandwidth, turning)
+
+    monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
+    time = np.arange(12000) / RATE
+    turning = Turning(2.0 * np.pi * (20.0 * time + 10.0 * time**2))
+    assert len(record_rows(shaking(12000), labels(), Reading(window=0.5), turning).rows) == 2
+    # From 20 turns a second to 30 and from there to 40.
+    assert told == [(6000, pytest.approx(12.5, rel=1e-3)), (6000, pytest.approx(17.5, rel=1e-3))]
 
 
 def test_a_record_that_begins_in_silence_is_heard():
@@ -92,9 +108,9 @@ def test_noise_added_has_the_level_asked_for(level):
 def test_the_speed_told_in_training_is_off_by_up_to_its_share_either_way(monkeypatch):
     told = []
 
-    def listening(piece, rate, given, bandwidth):
+    def listening(piece, rate, given, *others):
         told.append(given.shaft_hz)
-        return analyse(piece, rate, given, bandwidth)
+        return analyse(piece, rate, given, *others)
 
     monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
     known = known_kinematics(labels())

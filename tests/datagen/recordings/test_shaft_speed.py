@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from datagen.corpora.check import check_corpus
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.recordings.settings import Tach
-from datagen.recordings.shaft_speed import rising_edges, tach_speed
+from datagen.recordings.shaft_speed import is_steady, rising_edges, shaft_angle, tach_speed
 
 Bring = Callable[..., Corpus]
 Mat = Callable[..., np.ndarray]
@@ -98,3 +99,73 @@ def test_the_edges_of_a_recording_are_looked_for_once_however_many_its_pieces(
     )
     assert len(corpus) == 8
     assert looked == [400, 400]  # once to check it, once to write it
+
+
+def course(time: np.ndarray) -> np.ndarray:
+    """Turns of a shaft that goes from 10 to 20 turns a second and swings once a second."""
+    return 10.0 * time + 5.0 * time**2 + 0.2 * np.sin(2.0 * np.pi * time)
+
+
+@pytest.mark.parametrize(("pulses", "allowed"), [(1, 0.02), (60, 2e-4)])
+def test_the_angle_of_a_shaft_is_told_by_its_pulses_and_goes_on_beyond_them(pulses: int, allowed: float) -> None:
+    fine = np.linspace(0.0, 1.0, 2_000_001)
+    numbers = np.arange(np.ceil(course(np.array(0.08)) * pulses), course(np.array(0.93)) * pulses)
+    times = np.interp(numbers / pulses, course(fine), fine)
+    instants = np.arange(4096) / 4096.0
+    off = shaft_angle(times, pulses, instants) / (2.0 * np.pi) - course(instants)
+    between = (instants > times[0]) & (instants < times[-1])
+    off -= off[between].mean()
+    # Between pulses of one turn speed changes by a tenth: an eighth of that, in turns, is what a chord may miss.
+    assert np.abs(off[between]).max() < allowed
+    # Beyond the pulses the speed of the nearest turn goes on, which by then is a few per cent off.
+    assert np.abs(off).max() < 0.15
+    assert (np.diff(off + course(instants)) > 0.0).all()
+
+
+def test_a_shaft_is_steady_if_it_strays_by_less_than_a_tenth_of_a_turn() -> None:
+    time = np.linspace(0.0, 1.0, 1000)
+    for strays, steady in ((0.09, True), (0.11, False)):
+        turns = 30.0 * time + strays * np.sin(2.0 * np.pi * time)
+        assert is_steady(2.0 * np.pi * turns) == steady
+
+
+def test_the_angle_of_the_shaft_is_stored_where_a_tach_says_that_the_speed_changes(bring: Bring, mat: Mat) -> None:
+    time = np.arange(8000) / 4000.0
+    for name, start, stop in (("even", 15.0, 15.0), ("speeding", 10.0, 20.0)):
+        turns = start * time + 0.25 * (stop - start) * time**2
+        noise = np.random.default_rng(int(start)).standard_normal(time.size)
+        mat(f"{name}.mat", noise, tacho=(np.modf(16.0 * turns)[0] < 0.5).astype(float))
+    spec = (
+        '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 4000\ny = "sig"\n'
+        'tach = {variable = "tacho", pulses_per_rev = 16}\n'
+    )
+    corpus = bring(spec, "whole")
+    even, speeding = corpus.labels.set_index("recording").loc[["even", "speeding"], "record"]
+    assert not corpus.has(even, "shaft_angle")
+    # The pulses are known to half a sample of 4 ms.
+    angle = corpus.waveform(speeding, "shaft_angle")
+    assert np.allclose(angle, 2.0 * np.pi * (10.0 * time + 2.5 * time**2), atol=2.0 * np.pi * 20.0 / 4000.0)
+    assert check_corpus(corpus.folder).sound
+    # A piece begins at zero; its speed changes by a tenth, still more than even turning.
+    cut = bring(spec + "cut_s = 0.5\n", "cut")
+    piece = int(cut.labels.set_index("recording").loc["speeding#1", "record"])
+    part = cut.waveform(piece, "shaft_angle")
+    assert part[0] == 0.0
+    assert np.allclose(part, angle[2000:4000] - angle[2000], atol=2.0 * np.pi * 20.0 / 4000.0)
+
+
+def test_a_channel_of_a_changing_speed_is_summed_up_to_the_angle(bring: Bring, mat: Mat) -> None:
+    time = np.arange(8000) / 4000.0
+    rpm = 600.0 + 300.0 * (np.arange(400) + 0.5) / 200.0  # from 10 to 20 turns a second in two seconds
+    mat("a.mat", np.random.default_rng(1).standard_normal(time.size), rpm=rpm, steady=np.full(400, 900.0))
+    spec = 'files = "a.mat"\nunit = "g"\nrate_hz = 4000\ny = "sig"\n'
+    corpus = bring(
+        'same_samples = "keep"\n'
+        f'[[recording]]\nname = "a"\nrecording = "a"\n{spec}speed_rpm = {{variable = "rpm"}}\n'
+        f'[[recording]]\nname = "b"\nrecording = "b"\n{spec}speed_rpm = {{variable = "steady"}}\n'
+        f'[[recording]]\nname = "c"\nrecording = "c"\n{spec}cut_s = 0.5\nspeed_rpm = {{variable = "rpm"}}\n'
+    )
+    angle = corpus.waveform(0, "shaft_angle")
+    assert np.allclose(angle, 2.0 * np.pi * (10.0 * time + 2.5 * time**2), atol=1e-3)
+    assert not corpus.has(1, "shaft_angle")
+    assert np.allclose(corpus.waveform(5, "shaft_angle"), angle[6000:] - angle[6000], atol=1e-9)

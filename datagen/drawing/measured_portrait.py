@@ -10,8 +10,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
-from labels.envelope import FALLBACK_SHARES, band_envelope
+from labels.envelope import FALLBACK_SHARES, band_envelope, squared_envelope_spectrum
+from labels.features.turning import Turning
+from labels.spectrum import amplitude_spectrum
 from labels.variables import AXES
 
 Array = NDArray[np.float64]
@@ -24,7 +27,10 @@ SHOWN_LINES = {"outer": ("BPFO",), "inner": ("BPFI",), "ball": ("BSF",), "cage":
 
 @dataclass(frozen=True)
 class MeasuredPortrait:
-    """One recording: its `acceleration` (T, axes) along `axes`, m/s², and `labels` keyed as in labels.schema."""
+    """One recording: its `acceleration` (T, axes) along `axes`, m/s², and `labels` keyed as in labels.schema.
+
+    `shaft_angle` (T,), rad, is known where the speed changes.
+    """
 
     corpus: str
     labels: Mapping[str, Any]
@@ -32,6 +38,7 @@ class MeasuredPortrait:
     axes: tuple[str, ...]
     acceleration: Array
     clean: None = None
+    shaft_angle: Array | None = None
 
     @property
     def axis(self) -> str:
@@ -56,6 +63,20 @@ class MeasuredPortrait:
         """Envelope in that band (T,), m/s²."""
         return band_envelope(self.main_axis, self.rate, self.band)
 
+    def envelope_spectrum(self, top: float) -> tuple[Array, Array]:
+        """Frequencies (F,) in Hz and amplitudes (F,), (m/s²)², of the squared envelope, up to `top` (Hz) at least.
+
+        Where the speed changes, over the angle of the shaft: frequencies are orders times the mean speed.
+        """
+        if self.shaft_angle is None:
+            return squared_envelope_spectrum(self.envelope, self.rate)
+        square = self.envelope**2
+        components = np.asarray(fft.rfft(square - square.mean()))
+        count = min(int(top * self.duration) + 2, components.size)
+        even = Turning(self.shaft_angle).evenly(components, square.size, count)
+        frequency, amplitude = amplitude_spectrum(even, even.size / self.duration)
+        return frequency[:count], amplitude[:count]
+
     @cached_property
     def time(self) -> Array:
         """Instants of the samples (T,), s."""
@@ -70,6 +91,8 @@ class MeasuredPortrait:
     def frequencies(self) -> dict[str, float]:
         """Those of BPFO, BPFI, BSF, FTF and shaft frequency (Hz, without slip) that are known."""
         shaft = self.labels["speed_rpm"] / 60.0
+        if self.shaft_angle is not None:
+            shaft = Turning(self.shaft_angle).revolutions / self.duration
         orders = {name: self.labels[label] for name, label in ORDERS.items()} | {"shaft": 1.0}
         return {name: order * shaft for name, order in orders.items() if order * shaft > 0.0}
 

@@ -25,7 +25,6 @@ from datagen.drawing.style import (
     png_of,
 )
 from datagen.drawing.time_panels import DYNAMIC_RANGE_DB
-from labels.envelope import squared_envelope_spectrum
 from labels.spectrogram import spectrogram
 
 if TYPE_CHECKING:
@@ -88,12 +87,19 @@ def summary(portrait: MeasuredPortrait) -> str:
     labels = portrait.labels
     parts = [
         f"measured on {labels['rig']}, bearing {labels['bearing']}",
-        f"{labels['speed_rpm']:.4g} rpm ({labels['speed_basis']})" if labels["speed_rpm"] >= 0.0 else "speed unknown",
+        _speed(portrait),
         f"{labels['load_n']:.5g} N" if math.isfinite(labels["load_n"]) else "load unknown",
         f"{labels['extent_mm']:.3g} mm" if labels["extent_mm"] > 0.0 else "",
         f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
     ]
     return "  ·  ".join(part for part in parts if part)
+
+
+def _speed(portrait: MeasuredPortrait) -> str:
+    rpm, basis = portrait.labels["speed_rpm"], portrait.labels["speed_basis"]
+    if not rpm >= 0.0:
+        return "speed unknown"
+    return f"{rpm:.4g} rpm ({basis}{', changing' if portrait.shaft_angle is not None else ''})"
 
 
 def draw_whole(axes: Axes, portrait: MeasuredPortrait) -> None:
@@ -127,9 +133,12 @@ def draw_close_spectrogram(axes: Axes, portrait: MeasuredPortrait) -> None:
 
 
 def draw_expected_lines(axes: Axes, portrait: MeasuredPortrait) -> None:
-    """Squared envelope spectrum, (m/s²)² against Hz, with the lines that the labels lead to expect."""
-    frequency, amplitude = squared_envelope_spectrum(portrait.envelope, portrait.rate)
+    """Squared envelope spectrum, (m/s²)² against Hz, with the lines that the labels lead to expect.
+
+    Where the speed changes, over the angle of the shaft, against orders times its mean speed.
+    """
     top = _top(portrait)
+    frequency, amplitude = portrait.envelope_spectrum(top)
     shown = (frequency > 0.0) & (frequency <= top)
     limits = decades(amplitude[shown])
     axes.semilogy(frequency[shown], above(amplitude[shown], limits), color=BLUE, linewidth=0.7)
@@ -144,8 +153,10 @@ def draw_expected_lines(axes: Axes, portrait: MeasuredPortrait) -> None:
             label=f"{name} {line:.4g} Hz", linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3,
             clip_on=False,
         )  # fmt: skip
-    axes.set(xlim=(0.0, top), ylim=limits, xlabel="frequency (Hz)", ylabel="(m/s²)²")
-    axes.set_title("Squared envelope spectrum")
+    turned = portrait.shaft_angle is not None
+    words = "orders of the shaft times its mean speed (Hz)" if turned else "frequency (Hz)"
+    axes.set(xlim=(0.0, top), ylim=limits, xlabel=words, ylabel="(m/s²)²")
+    axes.set_title("Squared envelope spectrum, by angle" if turned else "Squared envelope spectrum")
     faint_grid(axes)
     if portrait.frequencies:
         outside_legend(axes)

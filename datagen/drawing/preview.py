@@ -16,6 +16,7 @@ from datagen.places import require_file
 from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable
+from labels.variables import SHAFT_ANGLE
 
 if TYPE_CHECKING:
     import xarray
@@ -84,6 +85,7 @@ def measured_portrait(folder: Path, record: int) -> MeasuredPortrait:
         rate=float(found["rate_hz"]),
         axes=tuple(str(axis) for axis in found["axis"].values),
         acceleration=found["acceleration"].values.astype(np.float64),
+        shaft_angle=found[SHAFT_ANGLE.name].values if SHAFT_ANGLE.name in found else None,
     )
 
 

@@ -22,7 +22,8 @@ from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
 from datagen.recordings.source import Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
-from labels.envelope import FALLBACK_SHARES, holds_a_line
+from labels.envelope import holds_a_line
+from labels.kurtogram import most_impulsive_band
 from labels.variables import AXES
 
 LARGEST_ACCELERATION = 1e9
@@ -66,7 +67,8 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     factor = _scale(source)
     pieces = _pieces(source, rate, counts.shape[0])
     shortest = min(stop - start for start, stop in pieces)
-    labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": _band(source, rate, shortest, axes)}
+    band = _band(source, rate, shortest, counts[:, axes.index("y")] if "y" in axes else None)
+    labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
     speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
@@ -141,12 +143,13 @@ def _accelerations(counts: NDArray[np.float64], factor: float, source: Source) -
     return scaled.astype(np.float32)
 
 
-def _band(source: Source, rate: float, samples: int, axes: tuple[str, ...]) -> tuple[float, float]:
-    if "y" not in axes:
+def _band(source: Source, rate: float, samples: int, signal: NDArray[np.float64] | None) -> tuple[float, float]:
+    """Band of the envelope of the y axis, whose `signal` (T,) is cut into pieces of so many `samples` or more."""
+    if signal is None:
         return math.nan, math.nan
     stated = source.setting("envelope_band_hz")
     if stated is None:
-        return FALLBACK_SHARES[0] * rate, FALLBACK_SHARES[1] * rate
+        return most_impulsive_band(signal, rate, samples)
     low, high = stated
     if not 0.0 <= low < high <= rate / 2.0:
         allowed = f"0 <= low < high <= {rate / 2.0:g} (half the rate)"

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -76,3 +77,31 @@ def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
     assert "load unknown" in told
     assert "0.5 mm" in told
     assert "speed unknown" in summary(portrait(**UNKNOWN))
+
+
+def speeding() -> MeasuredPortrait:
+    """Bursts on a carrier of 2500 Hz, 3.6 a turn of a shaft that goes from 15 to 35 turns a second within a second."""
+    time = np.arange(8000) / RATE
+    turns = 15.0 * time + 10.0 * time**2
+    starts = np.interp(np.arange(1, 90) / 3.6, turns, time)
+    since = time - starts[np.maximum(np.searchsorted(starts, time, side="right") - 1, 0)]
+    signal = np.where(time >= starts[0], np.exp(-800.0 * since) * np.sin(2.0 * np.pi * 2500.0 * since), 0.0)
+    return MeasuredPortrait("mine", LABELS, RATE, ("y",), signal[:, None], shaft_angle=2.0 * np.pi * turns)
+
+
+def test_at_a_changing_speed_the_envelope_is_drawn_over_the_angle_of_the_shaft() -> None:
+    drawn = speeding()
+    assert drawn.frequencies["shaft"] == pytest.approx(25.0, rel=1e-3)
+    assert "1500 rpm (nominal, changing)" in summary(drawn)
+    frequency, amplitude = drawn.envelope_spectrum(400.0)
+    near = (frequency > 60.0) & (frequency < 120.0)
+    assert frequency[near][amplitude[near].argmax()] == pytest.approx(90.0, abs=1.0)
+    # A line, with its window, of about half the mean square; over time it is smeared over 54 to 126 Hz.
+    assert np.partition(amplitude[near], -4)[-4] < 0.2 * amplitude[near].max()
+    over_time = replace(drawn, shaft_angle=None).envelope_spectrum(400.0)[1][54:127]
+    assert over_time.max() < 0.5 * amplitude[near].max()
+    with house_style():
+        figure = draw_measured_sheet(drawn)
+        titles = [axes.get_title(loc="left") for axes in figure.axes]
+        plt.close(figure)
+    assert titles[4] == "Squared envelope spectrum, by angle"

@@ -80,7 +80,8 @@ def test_two_axes_and_two_channels_become_records_of_their_own(bring: Bring, tmp
     assert np.array_equal(corpus.signal(1), as_stored(samples[:, 3], 2.0))
     assert corpus.waveform(1).shape == (300, 1)
     along = corpus.signal(0, "y").astype(np.float32).astype(np.float64)  # and not across
-    envelope = band_envelope(along, 1000.0, (300.0, 450.0))  # the usual shares of the rate
+    band = corpus.labels.loc[0, ["envelope_band_low", "envelope_band_high"]]
+    envelope = band_envelope(along, 1000.0, tuple(band.astype(float)))
     assert corpus.waveform(0, "envelope") == pytest.approx(envelope, rel=1e-6)  # float32
     assert corpus.labels["shard"].nunique() == 2
 

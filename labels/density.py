@@ -31,7 +31,7 @@ def power_density(signal: Array, rate: float, resolution: float) -> tuple[Array,
     power[0] /= 2.0
     if size % 2 == 0:
         power[-1] /= 2.0
-    return np.arange(power.size) * (rate / size), power
+    return np.arange(power.size, dtype=np.float64) * (rate / size), power
 
 
 def velocity_density(acceleration: Array, rate: float, resolution: float) -> tuple[Array, Array]:

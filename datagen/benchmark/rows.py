@@ -127,7 +127,7 @@ def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
 
 
 def _turning(corpus: Corpus, record: int) -> Turning | None:
-    """How the shaft of a record turns, if a tach has told that its speed changes."""
+    """How the shaft of a record turns, if its speed is known to change."""
     return Turning(corpus.waveform(record, SHAFT_ANGLE.name)) if corpus.has(record, SHAFT_ANGLE.name) else None
 
 

@@ -71,6 +71,8 @@ def _wrong_times(dataset: xarray.Dataset) -> Iterator[str]:
     for duration in np.unique(dataset["duration_s"].values):
         if abs(time.size - duration * dataset["rate_hz"].values[0]) > 1e-6 * time.size:
             yield f"duration_s = {duration:g} does not fit {time.size} samples"
+    if "shaft_angle" in dataset and not (np.diff(dataset["shaft_angle"].values, axis=1) > 0.0).all():
+        yield "shaft_angle does not grow from sample to sample"
 
 
 def _wrong_labels(dataset: xarray.Dataset) -> Iterator[str]:

@@ -6,6 +6,7 @@ Where a tach or a channel of the speed shows that it changes, the angle that the
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -14,10 +15,11 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.recordings.settings import Tach
-from datagen.recordings.source import Source
+from datagen.recordings.source import Source, Span
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
 
+RPM_PER = {"speed_rpm": 1.0, "speed_hz": 60.0}
 HYSTERESIS = 0.1
 FEWEST_PULSES = 3
 # A shaft that stays this near (turns) to one that turns evenly is steady: the fourth harmonic of a ball pass then
@@ -35,24 +37,26 @@ class ShaftSpeed:
     angle: NDArray[np.float64] | None = None
 
 
-def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> list[ShaftSpeed]:
+def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
     """The speed in each piece, a first sample and the one after the last, of `size` in all.
 
     `rate` is the vibration's, Hz.
     """
     tach = source.setting("tach")
-    if tach is None:
-        return [_stated_speed(source, rate, size, piece) for piece in pieces]
-    times = _pulse_times(source, tach, rate, size)
-    return [_tach_speed(source, tach, times, rate, piece) for piece in pieces]
-
-
-def _tach_speed(
-    source: Source, tach: Tach, times: NDArray[np.float64], rate: float, piece: tuple[int, int]
-) -> ShaftSpeed:
-    rpm = tach_speed(source, tach, times, piece[0] / rate, piece[1] / rate)
-    angle = shaft_angle(times, tach.pulses_per_rev, np.arange(*piece) / rate)
-    return ShaftSpeed(rpm, "tach", _unless_steady(angle))
+    if tach is not None:
+        times = _pulse_times(source, tach, rate, size)
+        for start, stop in pieces:
+            rpm = tach_speed(source, tach, times, start / rate, stop / rate)
+            angle = shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate)
+            yield ShaftSpeed(rpm, "tach", _unless_steady(angle))
+        return
+    turned = _turned(source, size / rate)
+    for start, stop in pieces:
+        mean, basis = _stated_speed(source, (Fraction(start, size), Fraction(stop, size)))
+        course = None
+        if turned is not None and basis == "measured":
+            course = _unless_steady(np.interp(np.arange(start, stop) / rate, *turned))
+        yield ShaftSpeed(mean, basis, course)
 
 
 def shaft_angle(
@@ -81,24 +85,26 @@ def _unless_steady(angle: NDArray[np.float64]) -> NDArray[np.float64] | None:
     return None if is_steady(angle) else angle - angle[0]
 
 
-def _stated_speed(source: Source, rate: float, size: int, piece: tuple[int, int]) -> ShaftSpeed:
-    span = Fraction(piece[0], size), Fraction(piece[1], size)
+def _stated_speed(source: Source, span: Span) -> tuple[float, str]:
+    """Mean speed (rpm) in a span and its basis."""
     nominal = source.number("nominal_speed_rpm", span)
-    for name, factor in (("speed_rpm", 1.0), ("speed_hz", 60.0)):
+    for name, factor in RPM_PER.items():
         measured = source.number(name, span) if nominal is None else source.or_none(name, span)
         if measured is not None:
-            course = source.course(name)
-            angle = None if course is None else _integrated(course * factor, size / rate, np.arange(*piece) / rate)
-            return ShaftSpeed(measured * factor, "measured", angle)
-    return ShaftSpeed(math.nan, UNKNOWN) if nominal is None else ShaftSpeed(nominal, "nominal")
+            return measured * factor, "measured"
+    return (math.nan, UNKNOWN) if nominal is None else (nominal, "nominal")
 
 
-def _integrated(rpm: NDArray[np.float64], duration: float, instants: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Angle (T,), rad, since the first of the `instants` (T,), s, where each of the speeds (N,) holds for an N-th of
-    the `duration` (s); None if it is steady."""
-    edges = np.linspace(0.0, duration, rpm.size + 1)
-    turned = np.concatenate([[0.0], np.cumsum(rpm)]) * (duration / rpm.size * math.pi / 30.0)
-    return _unless_steady(np.interp(instants, edges, turned))
+def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """Instants (N + 1,), s, and the angles (N + 1,), rad, turned by then, if a channel holds N speeds, each of an N-th
+    of the `duration` (s)."""
+    for name, factor in RPM_PER.items():
+        course = source.course(name)
+        if course is not None:
+            step = duration / course.size
+            angle = np.concatenate([[0.0], np.cumsum(course)]) * (factor * step * math.pi / 30.0)
+            return np.linspace(0.0, duration, course.size + 1), angle
+    return None
 
 
 def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64]:

@@ -136,8 +136,10 @@ class Source:
     def course(self, name: str) -> Array | None:
         """The numbers (N,), all above 0, that a variable holds along the recording; None if it holds no such row."""
         said = self.setting(name)
-        found = choose(self.arrays, said.variable, self.path, name) if isinstance(said, FromVariable) else np.empty(0)
-        if found.ndim != 1 or found.size < FEWEST_SAMPLES or not (found > 0).all():
+        if not isinstance(said, FromVariable) or not self.variable(said.variable, name):
+            return None
+        found = choose(self.arrays, said.variable, self.path, name)
+        if found.ndim != 1 or found.dtype.kind not in "iuf" or found.size < FEWEST_SAMPLES or not (found > 0).all():
             return None
         return found.astype(np.float64) * said.factor
 

@@ -187,3 +187,12 @@ def test_the_profile_grid_runs_from_minus_pi_to_pi_without_its_end() -> None:
 def test_the_format_hash_is_16_hexadecimal_digits() -> None:
     assert len(format_hash()) == 16
     assert int(format_hash(), 16) >= 0
+
+
+def test_a_shaft_that_stands_still_between_two_samples_is_named(dataset: xarray.Dataset) -> None:
+    angle = np.tile(0.1 * np.arange(dataset.sizes["time"]), (dataset.sizes["record"], 1))
+    attributes = {"units": "rad", "long_name": "angle of the shaft"}
+    for still in (False, True):
+        angle[0, 3] = angle[0, 4] if still else angle[0, 3]
+        changed = dataset.assign({"shaft_angle": (("record", "time"), angle, attributes)})
+        assert any("shaft_angle does not grow" in found for found in violations(changed)) == still

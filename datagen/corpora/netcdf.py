@@ -2,13 +2,14 @@
 
 netCDF hands its chunks to zlib, whose fastest level takes longer than the physics. ISA-L makes streams of the same
 format several times as fast and about 3 % longer, and HDF5 takes chunks that are ready. Where h5py or isal is not
-installed netCDF does it all: the arrays that readers see are the same.
+installed, or netCDF does not read what they write, netCDF does it all: the arrays that readers see are the same.
 """
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from functools import cache
 from importlib.util import find_spec
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -55,8 +56,28 @@ def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | memoryvie
 
 
 def has_fast_chunks() -> bool:
-    """Whether chunks can be made outside netCDF."""
-    return find_spec("h5py") is not None and find_spec("isal") is not None
+    """Whether chunks can be made outside netCDF: with h5py and isal, if netCDF reads what they write."""
+    return find_spec("h5py") is not None and find_spec("isal") is not None and _reads_back()
+
+
+@cache
+def _reads_back() -> bool:
+    """Whether netCDF reads a small file that h5py has filled, tried once a process.
+
+    Each brings an HDF5 of its own: what 1.14 (h5py 3.15) has filled, 2.2 (netCDF4 1.7.5) cannot open.
+    """
+    import netCDF4
+    import xarray
+
+    numbers, texts = np.arange(40.0), np.array(["one", ""], dtype=object)
+    sample = xarray.Dataset({"number": (("record", "time"), numbers.reshape(2, 20)), "text": ("record", texts)})
+    with ONE_AT_A_TIME:
+        try:
+            content = _filled(_laid_out(sample, "zlib", with_values=False), sample, "zlib")
+            with netCDF4.Dataset("sample.nc", memory=content) as file:
+                return all(np.array_equal(file[name][...], sample[name].values) for name in ("number", "text"))
+        except (OSError, RuntimeError):
+            return False
 
 
 def _is_text(variable: xarray.Variable) -> bool:

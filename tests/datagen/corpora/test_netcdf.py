@@ -113,3 +113,27 @@ def test_without_the_fast_libraries_netcdf_does_it_all(monkeypatch: pytest.Monke
     assert netcdf.has_fast_chunks()
     monkeypatch.setattr(netcdf, "find_spec", lambda name: None if name == "isal" else object())
     assert not netcdf.has_fast_chunks()
+
+
+@pytest.mark.parametrize("filled", [b"", b"CDF", OSError("Unable to synchronously open file"), "half"])
+def test_where_netcdf_does_not_read_what_h5py_writes_it_does_it_all(
+    filled: object, dataset: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plain = netcdf._filled
+
+    def broken(*given: object) -> bytes:
+        if isinstance(filled, Exception):
+            raise filled
+        content = plain(*given)  # type: ignore[arg-type]
+        return filled if isinstance(filled, bytes) else content[: len(content) // 2]
+
+    netcdf._reads_back.cache_clear()
+    monkeypatch.setattr(netcdf, "_filled", broken)
+    try:
+        assert not netcdf.has_fast_chunks()
+        path = tmp_path / "a.nc"
+        path.write_bytes(netcdf_bytes(dataset, "zlib"))
+        with xarray.open_dataset(path) as opened:
+            assert content_hash(opened.load()) == content_hash(dataset)
+    finally:
+        netcdf._reads_back.cache_clear()

@@ -278,10 +278,13 @@ def load_recipe(path_or_name: str | Path) -> Recipe:
 
 def parse_recipe(content: dict[str, Any], path: Path, text: str = "") -> Recipe:
     """The recipe of parsed TOML read from `path`; raises BadInput, with line numbers where `text` is given."""
+    wrong = None
     try:
         recipe = Recipe.model_validate(content, context={FOLDER: path.parent})
     except ValidationError as error:
-        raise bad_recipe(error, Recipe, path, text) from None
+        wrong = bad_recipe(error, Recipe, path, text)
+    if wrong is not None:  # raised out here it has no context, which would not survive a way between processes
+        raise wrong
     recipe._source = str(path)
     require_sampled_fast_enough(recipe, path, text)
     return recipe

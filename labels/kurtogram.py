@@ -10,29 +10,24 @@ import numpy as np
 from scipy import fft
 
 from labels.envelope import Array, Band
+from labels.features.conditioning import COMMON_BANDWIDTH, SHARE_OF_NYQUIST
+from labels.features.envelopes import band_edges
 
-DIVISIONS = (1, 2, 4, 8)
-HIGHEST = 20_000.0
-SHARE_OF_NYQUIST = 0.95
 STRETCHES = 8
+FEWEST_COMPONENTS = 2.0
 
 
 def most_impulsive_band(signal: Array, rate: float, piece: int) -> Band:
     """Lower and upper edge (Hz) of the band of a `signal` (T,) at `rate` (Hz) whose kurtosis is largest.
 
-    The bands are the whole, the halves, quarters and eighths of what lies below 20 kHz and below 0.95 of half the rate,
-    as far as they hold two components of a stretch and of a `piece` of so many samples.
+    The bands are those of the features: the whole, the halves, quarters and eighths of what lies below 20 kHz and below
+    0.95 of half the rate, as far as they hold two components of a stretch and of a `piece` of so many samples.
     """
     spectrum = np.asarray(fft.rfft(np.asarray(signal, dtype=np.float64) - np.mean(signal)))
-    count = int(min(HIGHEST, SHARE_OF_NYQUIST * rate / 2.0) * signal.size / rate)
-    edges = [
-        (part * count // parts, (part + 1) * count // parts)
-        for parts in DIVISIONS
-        for part in range(parts)
-        if parts == 1 or count // parts >= 2 * max(STRETCHES, signal.size / piece)
-    ]
-    first, end = max(edges, key=lambda edge: _kurtosis(spectrum[edge[0] : edge[1]]))
-    return first * rate / signal.size, max(end, 1) * rate / signal.size
+    step, top = rate / signal.size, min(COMMON_BANDWIDTH, SHARE_OF_NYQUIST * rate / 2.0)
+    edges = top * band_edges(top, FEWEST_COMPONENTS * max(STRETCHES * step, rate / piece))
+    low, high = max(edges.tolist(), key=lambda band: _kurtosis(spectrum[int(band[0] / step) : int(band[1] / step)]))
+    return low, high
 
 
 def _kurtosis(inside: np.ndarray) -> float:

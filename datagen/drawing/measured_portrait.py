@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from labels.envelope import FALLBACK_SHARES, band_envelope, squared_envelope_spectrum
+from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.features.turning import Turning
+from labels.kurtogram import most_impulsive_band
 from labels.spectrum import amplitude_spectrum
 from labels.variables import AXES
 
@@ -50,12 +51,12 @@ class MeasuredPortrait:
         """Acceleration along that axis (T,), m/s²."""
         return self.acceleration[:, self.axes.index(self.axis)]
 
-    @property
+    @cached_property
     def band(self) -> tuple[float, float]:
-        """Band of the envelope that is drawn, Hz: the record's, or the usual one if it has no y axis."""
+        """Band of the envelope that is drawn, Hz: the record's, or the most impulsive one if it has no y axis."""
         low, high = self.labels["envelope_band"]
         if math.isnan(low):
-            return FALLBACK_SHARES[0] * self.rate, FALLBACK_SHARES[1] * self.rate
+            return most_impulsive_band(self.main_axis, self.rate, self.main_axis.size)
         return float(low), float(high)
 
     @cached_property

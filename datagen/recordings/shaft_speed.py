@@ -22,8 +22,8 @@ from labels.schema import UNKNOWN
 RPM_PER = {"speed_rpm": 1.0, "speed_hz": 60.0}
 HYSTERESIS = 0.1
 FEWEST_PULSES = 3
-# A shaft that stays this near (turns) to one that turns evenly is steady: the fourth harmonic of a ball pass then
-# strays by two periods at most, which its line's width allows for.
+# A shaft that stays this near (turns) to one that turns evenly is steady. The fourth harmonic of balls that pass five
+# times a turn then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1
 
 
@@ -43,20 +43,29 @@ def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int,
     `rate` is the vibration's, Hz.
     """
     tach = source.setting("tach")
-    if tach is not None:
-        times = _pulse_times(source, tach, rate, size)
-        for start, stop in pieces:
-            rpm = tach_speed(source, tach, times, start / rate, stop / rate)
-            angle = shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate)
-            yield ShaftSpeed(rpm, "tach", _unless_steady(angle))
-        return
+    return (
+        _stated_speeds(source, rate, size, pieces) if tach is None else _tach_speeds(source, tach, rate, size, pieces)
+    )
+
+
+def _tach_speeds(
+    source: Source, tach: Tach, rate: float, size: int, pieces: list[tuple[int, int]]
+) -> Iterator[ShaftSpeed]:
+    times = _pulse_times(source, tach, rate, size)
+    for start, stop in pieces:
+        rpm = tach_speed(source, tach, times, start / rate, stop / rate)
+        angle = shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate)
+        yield ShaftSpeed(rpm, "tach", _unless_steady(angle))
+
+
+def _stated_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
     turned = _turned(source, size / rate)
     for start, stop in pieces:
-        mean, basis = _stated_speed(source, (Fraction(start, size), Fraction(stop, size)))
-        course = None
+        rpm, basis = _stated_speed(source, (Fraction(start, size), Fraction(stop, size)))
+        angle = None
         if turned is not None and basis == "measured":
-            course = _unless_steady(np.interp(np.arange(start, stop) / rate, *turned))
-        yield ShaftSpeed(mean, basis, course)
+            angle = _unless_steady(np.interp(np.arange(start, stop) / rate, *turned))
+        yield ShaftSpeed(rpm, basis, angle)
 
 
 def shaft_angle(

@@ -54,6 +54,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
 
 
 def _velocity_power(analysis: Analysis) -> Array:
+    # Shares are taken of what lies below these orders at most.
     highest = (VELOCITY_HARMONICS + 1.0) * max(analysis.given.bpfo, analysis.given.bpfi)
     count = int(max(highest, VIBRATION_ORDERS + 1.0) * analysis.given.shaft_hz / analysis.record.step) + 2
     power = np.abs(analysis.record.slow(count)) ** 2

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,8 @@ Spectrum = NDArray[np.complex128]
 OVERSAMPLING = 8
 """Samples, for each component asked for, between which the spline runs."""
 REACH = 2
-"""Components up to this many times the number asked for are turned: at half the mean speed they fall below it."""
+"""The highest speed over the mean one, which a shaft that runs up evenly from rest has at the end: there what becomes
+the last component asked for lies at this many times its number."""
 
 
 @dataclass(frozen=True)
@@ -43,10 +45,15 @@ class Turning:
         """How often the shaft turns in the record."""
         return float(self._course[-1]) / (2.0 * math.pi)
 
-    @property
+    @cached_property
     def _course(self) -> Array:
         """Angle turned (T + 1,) up to the end of the last sample, where the speed goes on."""
         return np.append(self.angle, 2.0 * self.angle[-1] - self.angle[-2]) - self.angle[0]
+
+    @cached_property
+    def _shares(self) -> Array:
+        """Share of the record (T + 1,) that has passed by then."""
+        return np.linspace(0.0, 1.0, self._course.size)
 
     def first(self, samples: int) -> Turning:
         """The turning of the first `samples` of the record."""
@@ -59,8 +66,6 @@ class Turning:
         """
         size = fft.next_fast_len(OVERSAMPLING * count, real=True)
         slow = np.asarray(fft.irfft(spectrum[: REACH * count], size)) * (size / samples)
-        course = self._course
-        shares = np.arange(course.size) / (course.size - 1.0)
-        instants = np.interp(np.arange(size) * (course[-1] / size), course, shares)
+        instants = np.interp(np.arange(size) * (self._course[-1] / size), self._course, self._shares)
         spline = CubicSpline(np.arange(size + 1) / size, np.append(slow, slow[0]), bc_type="periodic")
         return np.asarray(spline(instants))

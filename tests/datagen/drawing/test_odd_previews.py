@@ -18,7 +18,6 @@ def axes_of(drawn, beginning):
     """The panel of the drawn sheet whose title begins like that; warnings are errors, here as in every test."""
     with house_style(), warnings.catch_warnings():
         warnings.simplefilter("error")
-        warnings.simplefilter("ignore", DeprecationWarning)  # of matplotlib's own libraries
         figure = draw_sheet(drawn)
         figure.canvas.draw()
         found = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith(beginning))

@@ -99,3 +99,11 @@ def test_only_the_turning_of_the_samples_that_are_used_counts():
     angle = 2.0 * np.pi * (14.0 * np.arange(80_021) / RATE + 1.5 * (np.arange(80_021) / RATE) ** 2)
     found = analyse(np.random.default_rng(6).standard_normal(80_021), RATE, KNOWN, turning=Turning(angle))
     assert found.given.shaft_hz == pytest.approx(20.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(("start", "stop"), [(14.0, 26.0), (1.0, 39.0)])
+def test_an_order_that_is_nearly_the_last_asked_for_is_whole_where_the_shaft_turns_fastest(start, stop):
+    angle = speeding(start, stop)
+    seen = Turning(angle).evenly(np.fft.rfft(np.cos(7.0 * angle)), angle.size, 600)
+    # Order 7 of 80 turns is component 560; read without a window, as it is a whole number of periods.
+    assert 2.0 * np.abs(np.fft.rfft(seen))[560] / seen.size == pytest.approx(1.0, abs=0.02)

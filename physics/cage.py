@@ -130,18 +130,19 @@ def slip_knot_scale(correlation: float) -> float:
 
 
 def draw_slip_knots(
-    generator: np.random.Generator, deviation: float, correlation_time: float, duration: float
+    generator: np.random.Generator, deviation: float, correlation_time: float, duration: float, lead_in: float = 0.0
 ) -> tuple[float, float, tuple[float, ...]]:
     """Knot step (s), first knot time (s) and knot values of a stationary slip with the stated `deviation` (1).
 
-    The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck) sequence, four per correlation time, scaled
-    so that the spline through them has the stated deviation on average; they are rounded to 1e-12 so that their
-    decimal text is exact.
+    They cover −`lead_in` to `duration` (s). The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck)
+    sequence, four per correlation time, scaled so that the spline through them has the stated deviation on average;
+    they are rounded to 1e-12 so that their decimal text is exact.
     """
     require_not_negative("deviation", deviation)
     require_positive("correlation_time", correlation_time, "s")
+    require_not_negative("lead_in", lead_in, "s")
     step = correlation_time / KNOTS_PER_CORRELATION_TIME
-    start = -2.0 * step
+    start = -2.0 * step - lead_in
     count = math.ceil((duration - start) / step) + 3
     correlation = math.exp(-1.0 / KNOTS_PER_CORRELATION_TIME)
     noise = generator.standard_normal(count)

@@ -14,6 +14,7 @@ from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.adaptive import ACCELERATION_ALONE, respond_accurately
 from physics.response.fixed_steps import respond_by_fixed_steps
+from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.march import MODEL, respond_by_reference
 from physics.response.modal_case import Kept, resting
 from physics.response.oversampling import oversampling
@@ -43,8 +44,14 @@ def simulate(
     fastest_path: float = 0.0,
     estimate_error: bool = True,
     repeat: bool = True,
+    lead_in: float = 0.0,
+    keep_lead_in: bool = False,
 ) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), k = 0 … duration · rate − 1, from its quasi-static position.
+
+    That is its position at t = 0, at rest, or `lead_in` seconds before (rounded to whole samples), so that a machine
+    that runs is recorded and not its start; `keep_lead_in` gives the instants before 0 as well. Accuracy and error
+    estimate of the modal method are of what comes from t = 0 on.
 
     By default the modal method chooses its own steps so that the relative RMS error of the acceleration stays within
     `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made;
@@ -62,27 +69,70 @@ def simulate(
     """
     method = method or (MODAL if substeps is None else "exponential_rk4")
     _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy, least_error, fastest_path)
-    samples = round(scene.duration * rate)
-    if model != MODEL:
-        simpler = SIMPLER_MODELS[model]
-        factor = oversampling(scene, rate, fastest_path) if simpler.rings else 1
-        return _lowered(simpler.respond(scene, rate * factor), rate, factor, samples)
+    _check_lead_in(scene, lead_in)
     kept = Kept(keep_state, keep_force, keep_outer)
-    if method == MODAL:
-        standing, factor = resting(scene), oversampling(scene, rate, fastest_path)
-        wanted = (scene, standing, rate * factor, samples * factor, accuracy, least_error)
-        repeated = repeat and kept == ACCELERATION_ALONE and worth_repeating(scene, samples / rate, accuracy)
-        trace = respond_until_repeated(*wanted) if repeated else respond_accurately(*wanted, kept)
-        return _lowered(trace, rate, factor, samples)
-    rest, factor = carried(scene, np.zeros(1)), oversampling(scene, rate, fastest_path)
+
+    def respond(scene: Scene, accuracy: float) -> Trace:
+        if model != MODEL:
+            return _respond_simply(scene, rate, model, fastest_path)
+        if method == MODAL:
+            wanted = max(accuracy, SMALLEST_ACCURACY)
+            return _respond_modally(scene, rate, wanted, least_error, kept, fastest_path, repeat)
+        return _respond_by_steps(
+            scene, rate, method, substeps, accuracy if estimate_error else None, kept, fastest_path
+        )
+
+    before = round(lead_in * rate)
+    if before == 0:
+        return respond(scene, accuracy)
+    earlier = started_earlier(scene, before / rate)
+    if model == MODEL and method == MODAL:
+        trace = respond_behind(lambda asked: respond(earlier, asked), before, accuracy, least_error)
+    else:
+        trace = respond(earlier, accuracy)
+    trace = starting_at(trace, before)
+    return trace if keep_lead_in else from_start(trace)
+
+
+def _respond_simply(scene: Scene, rate: float, model: str, fastest_path: float) -> Trace:
+    """By a model of physics.ladder."""
+    simpler = SIMPLER_MODELS[model]
+    factor = oversampling(scene, rate, fastest_path) if simpler.rings else 1
+    return _lowered(simpler.respond(scene, rate * factor), rate, factor, _samples(scene, rate))
+
+
+def _respond_modally(
+    scene: Scene, rate: float, accuracy: float, least_error: float, kept: Kept, fastest_path: float, repeat: bool
+) -> Trace:
+    """By steps that the modal method chooses."""
+    rest, factor, samples = resting(scene), oversampling(scene, rate, fastest_path), _samples(scene, rate)
+    wanted = (scene, rest, rate * factor, samples * factor, accuracy, least_error)
+    repeated = repeat and kept == ACCELERATION_ALONE and worth_repeating(scene, samples / rate, accuracy)
+    trace = respond_until_repeated(*wanted) if repeated else respond_accurately(*wanted, kept)
+    return _lowered(trace, rate, factor, samples)
+
+
+def _respond_by_steps(
+    scene: Scene,
+    rate: float,
+    method: str,
+    substeps: int | None,
+    accuracy: float | None,
+    kept: Kept,
+    fastest_path: float,
+) -> Trace:
+    """By fixed steps, or by the slow reference method."""
+    rest, factor, samples = carried(scene, np.zeros(1)), oversampling(scene, rate, fastest_path), _samples(scene, rate)
     if method == REFERENCE:
         start = starting_state(motion_model(scene), rest.displacement[0])
-        trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=keep_state)
-        return _lowered(trace, rate, factor, samples)
-    trace = respond_by_fixed_steps(
-        scene, rest, rate * factor, samples * factor, method, substeps, accuracy if estimate_error else None, kept
-    )
+        trace = respond_by_reference(scene, start, rate * factor, samples * factor, keep_state=kept.state)
+    else:
+        trace = respond_by_fixed_steps(scene, rest, rate * factor, samples * factor, method, substeps, accuracy, kept)
     return _lowered(trace, rate, factor, samples)
+
+
+def _samples(scene: Scene, rate: float) -> int:
+    return round(scene.duration * rate)
 
 
 def _check_request(
@@ -118,6 +168,16 @@ def _check_request(
     elif method == REFERENCE and keeps:
         problem = "keep_force or keep_outer = True; the reference method keeps no forces"
     if problem:
+        raise SimulationFailed(Outcome.BAD_REQUEST, problem)
+
+
+def _check_lead_in(scene: Scene, lead_in: float) -> None:
+    known_from = max((cage.knot_start for cage in scene.cages if cage.knot_values), default=-math.inf)
+    if not 0.0 <= lead_in < math.inf:
+        problem = f"lead_in = {lead_in!r} s; it must be 0 or more, and finite"
+        raise SimulationFailed(Outcome.BAD_REQUEST, problem)
+    if -lead_in < known_from:
+        problem = f"lead_in = {lead_in!r} s; the cage's slip is known from {known_from:g} s on"
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
 

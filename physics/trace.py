@@ -16,7 +16,7 @@ class ContactChanges:
     """Every located change of the contact set, in time order, shapes (E,).
 
     `time` s; `row` and `ball` count from 1; `made` is True where contact begins and False where it is lost.
-    `initial` (rows, balls) says which balls touch at t = 0.
+    `initial` (rows, balls) says which balls touch at the trace's first instant.
     """
 
     time: Array
@@ -30,7 +30,8 @@ class ContactChanges:
 class Trace:
     """The response of a Scene sampled at `rate` (Hz).
 
-    `time` (T,) s from 0; `acceleration` (T, 2) of the resonator's mass along x and y, m/s²;
+    `time` (T,) s from 0, or from before it where a lead-in is kept;
+    `acceleration` (T, 2) of the resonator's mass along x and y, m/s²;
     `state` (T, 12): displacements (xi, yi, xo, yo, xr, yr) in m, then velocities in m/s, or None if not asked for;
     `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for;
     `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring

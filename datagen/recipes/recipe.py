@@ -43,6 +43,8 @@ class Signal(Table):
     """Sampling rate, Hz."""
     duration_s: Annotated[Distribution, Between(0.001, 3600.0)]
     """Length of a record, s, rounded to whole samples."""
+    settle_s: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
+    """Time that a machine runs before each of its records, s, rounded to whole samples; otherwise it starts at rest."""
     envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the stored envelope, Hz; by default the resonator's coupled mode ± 5 %."""
 

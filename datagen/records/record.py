@@ -21,6 +21,7 @@ from labels.noise import signal_to_noise
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
 from physics.paths.profile import race_depth
+from physics.response.lead_in import from_start
 from physics.scene import Scene
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.recorder import recorded
@@ -67,7 +68,8 @@ class Record:
 def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     """The record of `scenario` with the optional signals named in `stored`; raises SimulationFailed."""
     trace = _simulated(scenario, keep_force="contact_force" in stored)
-    signal = sensed(scenario.chain, trace)
+    # The chain settles together with the machine.
+    signal, trace = sensed(scenario.chain, trace)[-scenario.samples :], from_start(trace)
     layers = background_layers(scenario, signal)
     acceleration, clipped = _recorded(scenario.chain, sum(layers.values(), signal))
     stiffness_time = stiffness_axis(scenario)
@@ -100,6 +102,8 @@ def _simulated(scenario: Scenario, keep_force: bool) -> Trace:
         keep_force=keep_force,
         keep_outer=scenario.chain.needs_outer_ring,
         fastest_path=scenario.chain.fastest,
+        lead_in=scenario.settle,
+        keep_lead_in=True,
     )
 
 

@@ -73,7 +73,7 @@ def lowest_rate(scenario: Scenario) -> float:
 def require_memory(recipe: Recipe) -> None:
     """Raise BadInput if even the shortest record of the recipe does not fit into memory; nothing is drawn."""
     rate, duration = min(recipe.signal.rate_hz.stated()), min(recipe.signal.duration_s.stated())
-    _require_record(recipe, rate, duration, SAMPLE_BYTES * rate * duration)
+    _require_record(recipe, rate, duration, SAMPLE_BYTES * rate * (duration + recipe.signal.settle_s))
 
 
 def require_record_memory(recipe: Recipe, scenario: Scenario, stored: tuple[str, ...]) -> None:
@@ -84,7 +84,7 @@ def require_record_memory(recipe: Recipe, scenario: Scenario, stored: tuple[str,
 def record_memory(scenario: Scenario, stored: tuple[str, ...]) -> float:
     """About how many bytes of memory a record takes while it is made."""
     factor = 1 if _against_rate(scenario) else oversampling(scenario.scene, scenario.rate, scenario.chain.fastest)
-    return SAMPLE_BYTES * scenario.samples * factor + COPIES * stored_bytes(scenario, stored, "none")
+    return SAMPLE_BYTES * scenario.simulated_samples * factor + COPIES * stored_bytes(scenario, stored, "none")
 
 
 def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) -> None:

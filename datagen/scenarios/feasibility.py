@@ -14,11 +14,11 @@ from physics.statics.load_distribution import equilibrium
 CERTAIN_REACH = 5e-3
 
 
-def require_equilibrium(scene: Scene) -> None:
-    """Raise InvalidParameter if no position of the shaft carries the load at t = 0 (solved only if in doubt)."""
+def require_equilibrium(scene: Scene, start: float) -> None:
+    """Raise InvalidParameter if no position of the shaft carries the load at `start`, s (solved only if in doubt)."""
     if farthest_rest(scene) < CERTAIN_REACH:
         return
-    outcome = equilibrium(scene, np.zeros(1)).outcome(0)
+    outcome = equilibrium(scene, np.array([start])).outcome(0)
     require(outcome is not StaticOutcome.NO_EQUILIBRIUM, f"{outcome.value} of {scene.operation.load:g} N", "load")
 
 

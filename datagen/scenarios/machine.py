@@ -28,8 +28,9 @@ from physics.sensor.chain import SensorChain
 class Machine:
     """A virtual machine: everything that all its records share.
 
-    `rate` (Hz) and `samples` say how it is recorded, `envelope_band` (Hz) where its envelope is taken; `redraws` lists
-    the impossible draws before this one; `turn` is its place among machines with its values of balanced settings.
+    `rate` (Hz) and `samples` say how it is recorded, `settle` (s) how long it runs before, `envelope_band` (Hz) where
+    its envelope is taken; `redraws` lists the impossible draws before this one; `turn` is its place among machines with
+    its values of balanced settings.
     """
 
     number: int
@@ -43,6 +44,7 @@ class Machine:
     split: str
     rate: float
     samples: int
+    settle: float
     envelope_band: tuple[float, float]
     turn: Turn
     redraws: tuple[Redraw, ...]
@@ -92,6 +94,7 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
         split=_split(recipe.split, replace(draw, attempt=0).picker("split").share()),
         rate=rate,
         samples=samples,
+        settle=round(rate * recipe.signal.settle_s) / rate,
         envelope_band=_envelope_band(recipe.signal, rig, rate, samples),
         redraws=redraws,
         turn=draw.turns.turn,

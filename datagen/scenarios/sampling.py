@@ -53,17 +53,20 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
     scene = Scene(
         rig=rig,
         operation=operation,
-        cage=slip.path(duration, slip.start_angle, draw),
+        cage=slip.path(duration, machine.settle, slip.start_angle, draw),
         spalls=_spalls(draw, machine, place, operation.load),
         imperfections=machine.imperfections,
         contact_law=contact_law,
-        second_cage=slip.path(duration, slip.second_start_angle, draw, 1) if machine.separate_cages else None,
+        second_cage=slip.path(duration, machine.settle, slip.second_start_angle, draw, 1)
+        if machine.separate_cages
+        else None,
     )
-    require_equilibrium(scene)
+    require_equilibrium(scene, -machine.settle)
     background = recipe.background_of(part)
     return Scenario(
         scene=scene,
         rate=machine.rate,
+        settle=machine.settle,
         seeds=Seeds(recipe.seed, draw.number, draw.attempt, machine.number, machine.attempt),
         part=part.name,
         bearing_id=machine.bearing_id,
@@ -139,12 +142,12 @@ class _Slip:
     start_angle: float
     second_start_angle: float
 
-    def path(self, duration: float, start_angle: float, draw: Draw, item: int = 0) -> CagePath:
-        """The path of cage `item` (from 0) over `duration` (s), its knots drawn from its own stream."""
+    def path(self, duration: float, settle: float, start_angle: float, draw: Draw, item: int = 0) -> CagePath:
+        """The path of cage `item` (from 0) from −`settle` to `duration` (s), its knots drawn from its own stream."""
         if self.deviation == 0.0:
             return CagePath(self.nominal_speed, duration, start_angle, self.mean_slip)
         generator = draw.stream("slip", item)
-        step, start, values = draw_slip_knots(generator, self.deviation, self.correlation_time, duration)
+        step, start, values = draw_slip_knots(generator, self.deviation, self.correlation_time, duration, settle)
         return CagePath(self.nominal_speed, duration, start_angle, self.mean_slip, step, start, values)
 
 

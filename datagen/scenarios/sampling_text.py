@@ -18,9 +18,11 @@ LOWERING_RULE = (
 
 
 def sampling_data(scenario: Scenario) -> dict[str, Any]:
-    """The sampling as plain data; `lowering` is None where the simulation runs at the record's own rate."""
+    """The sampling as plain data; `lowering` is None where the simulation runs at the record's own rate, and
+    `settle_s` is there only where a record does not begin at rest."""
     factor = raised_times(scenario.scene, scenario.rate, scenario.chain.fastest)
-    return {
+    settled = {"settle_s": scenario.settle} if scenario.settle > 0.0 else {}
+    return settled | {
         "rate_hz": scenario.rate,
         "duration_s": scenario.duration,
         "samples": scenario.samples,

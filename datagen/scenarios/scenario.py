@@ -34,10 +34,11 @@ class Seeds:
 class Scenario:
     """A physical scene with how it is recorded and where it belongs.
 
-    `rate` Hz; `envelope_band` Hz, lower and upper edge; `slip_deviation` and `slip_correlation_time` (s) are the
-    statistics that the slip was drawn from; `stretch` what it takes of a recording, `noise_target` what its background
-    is scaled to, `snr_band` Hz the band of its second signal-to-noise ratio (None: the envelope's); `redraws` the
-    impossible draws before it; `accuracy` the error that its simulation may have.
+    `rate` Hz; `settle` s that the machine has run, from rest, when the record begins; `envelope_band` Hz, lower and
+    upper edge; `slip_deviation` and `slip_correlation_time` (s) are the statistics that the slip was drawn from;
+    `stretch` what it takes of a recording, `noise_target` what its background is scaled to, `snr_band` Hz the band of
+    its second signal-to-noise ratio (None: the envelope's); `redraws` the impossible draws before it; `accuracy` the
+    error that its simulation may have.
     """
 
     scene: Scene
@@ -47,6 +48,7 @@ class Scenario:
     bearing_id: str
     split: str
     envelope_band: tuple[float, float]
+    settle: float = 0.0
     slip_deviation: float = 0.0
     slip_correlation_time: float = 0.0
     chain: SensorChain = PLAIN_CHAIN
@@ -71,6 +73,11 @@ class Scenario:
     def samples(self) -> int:
         """Number of samples."""
         return round(self.rate * self.duration)
+
+    @property
+    def simulated_samples(self) -> int:
+        """Number of samples with those before the record begins."""
+        return self.samples + round(self.rate * self.settle)
 
     @property
     def noise_band(self) -> tuple[float, float]:

@@ -23,7 +23,8 @@ from physics.rig import Rig
 from physics.scene import Scene
 from physics.spall import Spall
 
-FORMAT = "spallgen scenario 1"
+# The second is of records that do not begin at rest, so that nobody who knows the first alone replays them wrongly.
+FORMATS = AT_REST, SETTLED = "spallgen scenario 1", "spallgen scenario 2"
 # Keys of the flat `parameters` and the fields that they hold.
 BEARING_KEYS = {
     "Nb": "balls",
@@ -99,6 +100,10 @@ SCENE_RULES = {
     "unbalance_force (cos, sin)(omega_s t + unbalance_phase)",
     "start": "at rest in equilibrium under the load vector of t = 0, velocities zero",
 }
+SETTLED_START = (
+    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero; all that depends on t goes on to "
+    "negative t; the record begins at t = 0, and its resonances of the chain have been at rest at t = -settle_s too"
+)
 
 
 def to_json(scenario: Scenario) -> str:
@@ -111,8 +116,8 @@ def from_json(text: str) -> Scenario:
     try:
         data = json.loads(text)
         found = data["format"]
-        if found != FORMAT:
-            raise BadInput(field="format", value=found, allowed=FORMAT)
+        if found not in FORMATS:
+            raise BadInput(field="format", value=found, allowed=", ".join(FORMATS))
         return _from_data(data)
     except (KeyError, IndexError, AttributeError, TypeError, ValueError, zlib.error) as error:
         raise BadInput(f"not the text of a scenario ({type(error).__name__}: {error})") from None
@@ -122,7 +127,7 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
     scene = scenario.scene
     bearing, rig = scene.rig.bearing, scene.rig
     return {
-        "format": FORMAT,
+        "format": SETTLED if scenario.settle > 0.0 else AT_REST,
         "record": scenario.record,
         "part": scenario.part,
         "split": scenario.split,
@@ -148,7 +153,7 @@ def _to_data(scenario: Scenario) -> dict[str, Any]:
         "background": background_data(scenario),
         "seeds": vars(scenario.seeds) | {"rule": RULE, "scopes": list(SCOPES), "purposes": list(PURPOSES)},
         "redraws": [vars(redraw) for redraw in scenario.redraws],
-        "rules": SCENE_RULES,
+        "rules": SCENE_RULES | ({"start": SETTLED_START} if scenario.settle > 0.0 else {}),
     }
 
 
@@ -198,6 +203,7 @@ def _from_data(data: dict[str, Any]) -> Scenario:
     return Scenario(
         scene=_scene(data),
         rate=sampling["rate_hz"],
+        settle=sampling.get("settle_s", 0.0),
         seeds=Seeds(**{field.name: data["seeds"][field.name] for field in fields(Seeds)}),
         part=data["part"],
         bearing_id=data["bearing_id"],

@@ -240,16 +240,16 @@ def runge_kutta(
         z += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
 
 
-def static_displacement(m: Machine, cage: Array) -> Array:
-    """Displacement (2,) of the inner against the outer ring where the contacts carry the load of t = 0 at rest.
+def static_displacement(m: Machine, cage: Array, t: float = 0.0) -> Array:
+    """Displacement (2,) of the inner against the outer ring where the contacts carry the load of time t at rest.
 
     The energy of the contacts is convex, so damped Newton steps that lower it end at the equilibrium.
     """
     phi = m.ball_offset + cage[:, None]
     normal = np.stack([np.cos(phi), np.sin(phi)], axis=-1) * m.cos_alpha
-    depth = [[relief(m, r, phi[r, j], 0.0, 0.0)[0] for j in range(phi.shape[1])] for r in range(phi.shape[0])]
+    depth = [[relief(m, r, phi[r, j], 0.0, t)[0] for j in range(phi.shape[1])] for r in range(phi.shape[0])]
     free = (np.array(depth) + m.c) * m.cos_alpha - m.ball_deviation
-    load = np.array(external_load(m, 0.0))
+    load = np.array(external_load(m, t))
     size = max(float(np.hypot(*load)), 1e-300)
 
     def energy(d: Array) -> float:
@@ -269,17 +269,23 @@ def static_displacement(m: Machine, cage: Array) -> Array:
     return d
 
 
-def initial_state(m: Machine, cage: Array) -> Array:
-    """State (12,) at rest at t = 0: the supports carry the load, the resonator sits still on the outer ring."""
-    outer = np.array(external_load(m, 0.0)) / [m.k_ox, m.k_oy]
-    return np.concatenate([outer + static_displacement(m, cage), outer, outer, np.zeros(6)])
+def initial_state(m: Machine, cage: Array, t: float = 0.0) -> Array:
+    """State (12,) at rest at time t: the supports carry the load, the resonator sits still on the outer ring."""
+    outer = np.array(external_load(m, t)) / [m.k_ox, m.k_oy]
+    return np.concatenate([outer + static_displacement(m, cage, t), outer, outer, np.zeros(6)])
 
 
 def replay(scenario: dict[str, Any], substeps: int = SUBSTEPS) -> dict[str, Array]:
     """Time, resonator acceleration, state and contact forces of the record that a parsed scenario describes."""
     factor = scenario["sampling"].get("oversampling", 1)
     run = march(scenario, factor, -(-substeps // factor))
-    return {key: run[key][::factor] for key in run} | {"acceleration": lowered(run["acceleration"], scenario)}
+    lower = {key: run[key][::factor] for key in run} | {"acceleration": lowered(run["acceleration"], scenario)}
+    return {key: recorded(lower[key], scenario) for key in lower}
+
+
+def recorded(signal: Array, scenario: dict[str, Any]) -> Array:
+    """What the record has of a `signal` at its rate: nothing from before t = 0."""
+    return signal[round(scenario["sampling"].get("settle_s", 0.0) * scenario["sampling"]["rate_hz"]) :]
 
 
 def lowered(signal: Array, scenario: dict[str, Any]) -> Array:
@@ -296,23 +302,29 @@ def lowered(signal: Array, scenario: dict[str, Any]) -> Array:
 
 
 def march(scenario: dict[str, Any], factor: int, substeps: int) -> dict[str, Array]:
-    """What `replay` gives, at `factor` times the record's rate and before it is lowered to that."""
+    """What `replay` gives, at `factor` times the record's rate, before it is lowered, and from t = -settle_s on."""
     m, second = read_machine(scenario), scenario.get("second_cage")
     paths = [cage_path(scenario["slip"], scenario["parameters"]["phi_c0"])] * m.ball_offset.shape[0]
     if second:
         paths[1] = cage_path(second, second["start_angle"])
     rate = factor * scenario["sampling"]["rate_hz"]
-    samples = factor * round(rate / factor * scenario["sampling"]["duration_s"])
-    z, h = initial_state(m, np.array([float(angle(np.array(0.0))) for angle, _ in paths])), 1.0 / rate / substeps
+    settle = scenario["sampling"].get("settle_s", 0.0)
+    samples = factor * round(rate / factor * (scenario["sampling"]["duration_s"] + settle))
+    z, h = (
+        initial_state(m, np.array([float(angle(np.array(-settle))) for angle, _ in paths]), -settle),
+        1.0 / rate / substeps,
+    )
     states, forces = np.empty((samples, 12)), np.empty((samples, *m.ball_offset.shape))
     for first in range(0, samples, SAMPLES_PER_BLOCK):
         last = min(first + SAMPLES_PER_BLOCK, samples)
-        times = first / rate + 0.5 * h * np.arange(2 * substeps * (last - first) + 1)
+        begin = first / rate - settle
+        times = begin + 0.5 * h * np.arange(2 * substeps * (last - first) + 1)
         cage = np.stack([angle(times) for angle, _ in paths], axis=-1)
         speed = np.stack([speed(times) for _, speed in paths], axis=-1)
-        runge_kutta(m, z, first / rate, h, cage, speed, states[first:last], forces[first:last])
+        runge_kutta(m, z, begin, h, cage, speed, states[first:last], forces[first:last])
     link = m.k_r * (states[:, 2:4] - states[:, 4:6]) + m.c_r * (states[:, 8:10] - states[:, 10:12])
-    return {"time": np.arange(samples) / rate, "acceleration": link / m.m_r, "state": states, "contact_force": forces}
+    time = np.arange(samples) / rate - settle
+    return {"time": time, "acceleration": link / m.m_r, "state": states, "contact_force": forces}
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from replay import lowered, march
+from replay import lowered, march, recorded
 from scipy.signal import butter, lfilter, lsim
 
 Array = NDArray[np.float64]
@@ -28,13 +28,13 @@ def sensor_signal(scenario: Data, substeps: int = 16) -> Array:
     place, speed = run["state"][:, 2:4], run["state"][:, 8:10]
     total = chain["resonator_gain"] * run["acceleration"]
     for mode in chain["modes"]:
-        total += mode["gain"] * carried_mass(mode, run["time"], place, speed)
+        total += mode["gain"] * carried_mass(mode, run["time"] - run["time"][0], place, speed)
     total = lowered(total[::FINER], scenario)
     mounting = chain["mounting"]
     if mounting:
         numerator, denominator = butter(mounting["order"], mounting["cutoff_hz"] / (rate / 2.0))
         total = lfilter(numerator, denominator, total, axis=0)
-    return np.asarray(total)
+    return recorded(np.asarray(total), scenario)
 
 
 def carried_mass(mode: Data, time: Array, place: Array, speed: Array) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -142,6 +143,8 @@ def test_a_record_takes_memory_for_every_simulated_sample(tmp_path: Path) -> Non
     # 10548 Hz four times a period need 42192 Hz, twice the rate; 220 bytes a sample, and four copies of what is stored.
     simulated = 220.0 * 2.0 * scenario.samples
     assert record_memory(scenario, ()) == pytest.approx(simulated + 4.0 * stored_bytes(scenario, (), "none"))
+    settled = replace(scenario, settle=scenario.duration)
+    assert record_memory(settled, ()) - record_memory(scenario, ()) == pytest.approx(simulated)
 
 
 def test_the_largest_shard_allowed_fits_beside_the_record_that_is_being_made(

@@ -42,13 +42,13 @@ def test_no_usual_scene_is_in_doubt() -> None:
 
 def test_a_load_that_no_position_carries_is_refused() -> None:
     with pytest.raises(InvalidParameter, match="no position of the shaft carries the load of 1e"):
-        require_equilibrium(scene(1e7, factor=1e-5))
+        require_equilibrium(scene(1e7, factor=1e-5), 0.0)
 
 
 def test_a_doubtful_load_that_is_carried_after_all_is_accepted() -> None:
     doubtful = scene(1e3, factor=2e-4)
     assert farthest_rest(doubtful) > CERTAIN_REACH
-    require_equilibrium(doubtful)
+    require_equilibrium(doubtful, 0.0)
 
 
 def test_the_bound_grows_by_six_roughnesses_of_the_floor_and_with_the_unbalance_as_with_load() -> None:

@@ -69,6 +69,7 @@ def full_scenario() -> Scenario:
         bearing_id="x-00002",
         split="validation",
         envelope_band=(9000.1, 9999.9),
+        settle=0.05,
         slip_deviation=0.0123,
         slip_correlation_time=0.0345,
         chain=SensorChain(
@@ -178,8 +179,10 @@ def test_the_text_tells_the_raised_rate_and_the_filter_that_lowers_it(rate: floa
 
 def test_the_text_tells_how_to_remake_the_record() -> None:
     data = json.loads(full_scenario().to_json())
-    assert data["format"] == "spallgen scenario 1"
+    assert data["format"] == "spallgen scenario 2"
     assert data["sampling"]["samples"] == 5120
+    assert data["sampling"]["settle_s"] == 0.05
+    assert "t = -settle_s" in data["rules"]["start"]
     assert "bc_type='natural'" in data["slip"]["interpolation"]
     assert data["slip"]["knots"] == [0.001, -0.002, 0.003, 0.004, 0.1]
     assert data["second_cage"]["start_angle"] == 0.77
@@ -237,8 +240,16 @@ def test_a_damaged_text_of_a_scenario_is_refused(spoil: Callable[[Any], None]) -
 
 
 def test_a_format_of_the_future_is_refused_by_name() -> None:
-    with pytest.raises(BadInput, match='format = "spallgen scenario 2"; allowed: spallgen scenario 1'):
-        Scenario.from_json(full_scenario().to_json().replace("scenario 1", "scenario 2"))
+    allowed = "spallgen scenario 1, spallgen scenario 2"
+    with pytest.raises(BadInput, match=f'format = "spallgen scenario 3"; allowed: {allowed}'):
+        Scenario.from_json(full_scenario().to_json().replace("scenario 2", "scenario 3"))
+
+
+def test_the_text_of_a_record_that_begins_at_rest_is_of_the_first_format() -> None:
+    data = json.loads(dataclasses.replace(full_scenario(), settle=0.0).to_json())
+    assert data["format"] == "spallgen scenario 1"
+    assert "settle_s" not in data["sampling"]
+    assert data["rules"]["start"] == "at rest in equilibrium under the load vector of t = 0, velocities zero"
 
 
 @pytest.mark.parametrize("name", ["quickstart", "gearbox_rig", "fan_rig"])

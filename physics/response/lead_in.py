@@ -1,0 +1,106 @@
+"""A response of a machine that has run for a while: it starts before t = 0, where the record begins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from physics.cage import CagePath
+from physics.response.adaptive import rms
+from physics.scene import Scene
+from physics.trace import ContactChanges, Trace
+
+# Of the accuracy that would just do, what a response that was not exact enough is made to next; how many are made.
+NEXT_SHARE, MOST_ATTEMPTS = 0.9, 3
+
+
+def respond_behind(respond: Callable[[float], Trace], before: int, accuracy: float, least: float) -> Trace:
+    """The trace that `respond` gives to a relative RMS accuracy, made to the `accuracy` of what comes behind its first
+    samples, and its error estimate relative to that.
+
+    What comes behind the first `before` samples may be much quieter than these: the response is then made again until
+    its error is within the accuracy of that, or within `least` (m/s², RMS).
+    """
+    asked = accuracy
+    for _ in range(MOST_ATTEMPTS):
+        trace = respond(asked)
+        error, size = trace.error_estimate * rms(trace.acceleration), rms(trace.acceleration[before:])
+        allowed = max(accuracy * size, least)
+        if trace.chaotic or error <= allowed:
+            break
+        asked *= NEXT_SHARE * allowed / error
+    return trace if trace.chaotic or size == 0.0 else replace(trace, error_estimate=error / size)
+
+
+def started_earlier(scene: Scene, lead_in: float) -> Scene:
+    """The same machine with its clock set back: what `scene` does at t it does at t + `lead_in` (s), and lasts longer.
+
+    Raises InvalidParameter if the slip is not known from t = −`lead_in` on.
+    """
+    run, waves, turned = scene.operation, scene.imperfections.waviness, _turned(scene, "inner", lead_in)
+    return replace(
+        scene,
+        operation=replace(
+            run,
+            unbalance_phase=run.unbalance_phase - turned,
+            fluctuation_phase=run.fluctuation_phase - turned,
+        ),
+        cage=_cage_earlier(scene.cage, lead_in),
+        second_cage=None if scene.second_cage is None else _cage_earlier(scene.second_cage, lead_in),
+        spalls=tuple(replace(spall, angle=spall.angle - _turned(scene, spall.race, lead_in)) for spall in scene.spalls),
+        imperfections=replace(
+            scene.imperfections,
+            waviness=tuple(
+                replace(wave, phase=wave.phase + _turned(scene, wave.race, lead_in, wave.order)) for wave in waves
+            ),
+        ),
+    )
+
+
+def starting_at(trace: Trace, before: int) -> Trace:
+    """The `trace` with its time, and that of its changes, counted from its sample number `before`."""
+    time = (np.arange(trace.time.size) - before) / trace.rate
+    return replace(trace, time=time, changes=replace(trace.changes, time=trace.changes.time - before / trace.rate))
+
+
+def from_start(trace: Trace) -> Trace:
+    """What a `trace` with a lead-in has from t = 0 on."""
+    first = int(np.searchsorted(trace.time, 0.0))
+    raised = first * round(trace.outer_rate / trace.rate) if trace.outer_displacement is not None else 0
+    return replace(
+        trace,
+        time=trace.time[first:],
+        acceleration=trace.acceleration[first:],
+        state=None if trace.state is None else trace.state[first:],
+        contact_force=None if trace.contact_force is None else trace.contact_force[first:],
+        outer_displacement=None if trace.outer_displacement is None else trace.outer_displacement[raised:],
+        outer_velocity=None if trace.outer_velocity is None else trace.outer_velocity[raised:],
+        outer_acceleration=None if trace.outer_acceleration is None else trace.outer_acceleration[raised:],
+        changes=_changes_from_start(trace.changes),
+    )
+
+
+def _turned(scene: Scene, race: str, lead_in: float, order: int = 1) -> float:
+    """Phase (rad, −π to π) of a wave of this `order` on a race by which it turns during the lead-in."""
+    return math.remainder(order * scene.race_speed(race) * lead_in, math.tau)
+
+
+def _cage_earlier(cage: CagePath, lead_in: float) -> CagePath:
+    return replace(
+        cage,
+        duration=cage.duration + lead_in,
+        start_angle=float(cage.polynomial(-lead_in)),
+        knot_start=cage.knot_start + lead_in if cage.knot_values else cage.knot_start,
+    )
+
+
+def _changes_from_start(changes: ContactChanges) -> ContactChanges:
+    early = changes.time < 0.0
+    initial = changes.initial.copy()
+    # In time order: of several changes of a ball the last one counts.
+    initial[changes.row[early] - 1, changes.ball[early] - 1] = changes.made[early]
+    late = ~early
+    return ContactChanges(changes.time[late], changes.row[late], changes.ball[late], changes.made[late], initial)

@@ -6,6 +6,7 @@ from typing import Any
 import numba
 
 from physics.contact import contact_set, forces
+from physics.integrators import events
 from physics.integrators.modal import carried, flow, grazing, weights
 from physics.statics import rest
 
@@ -20,6 +21,7 @@ def from_python(kernel: Callable[..., Any]) -> Callable[..., Any]:
     return handed_on
 
 
+earliest_change = from_python(events.earliest_change)
 count_changes = from_python(contact_set.count_changes)
 of_ball = from_python(forces.of_ball)
 press = from_python(forces.press)

@@ -1,11 +1,18 @@
 """Where a contact change is looked for first."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kernels import earliest_change, press, set_time
 
+from physics.assembly import assemble
+from physics.contact.forces import ACTIVE
 from physics.integrators import events
+from physics.integrators.events import Way
+from physics.reference_scenes import reference_scene
 
 hermite_root = events.hermite_root.py_func
 
@@ -30,3 +37,35 @@ def test_a_cubic_that_hardly_bends_is_met_as_exactly_as_numbers_go():
 
 def test_without_slopes_the_root_is_that_of_the_chord():
     assert hermite_root(0.2, 0.6, 3.0, -1.0, 0.0, 0.0) == pytest.approx(0.5, rel=1e-12)
+
+
+CLEARANCE, STEP, BOTTOM = (
+    5e-6,
+    1e-5,
+    9,
+)  # at 270 degrees; those of the other row beside it follow after 0.89 of the step
+
+
+@pytest.fixture
+def falling():
+    """A loose gearbox bearing, and a step after 0.8 of which its falling inner ring meets the ball below."""
+    scene = reference_scene("G0", 0.1)
+    rig = replace(scene.rig, bearing=replace(scene.rig.bearing, clearance=CLEARANCE))
+    contacts = assemble(replace(scene, rig=rig))
+    contacts.balls[:, ACTIVE] = 0.0
+    begin, end = np.zeros((3, 2)), np.zeros((3, 2))
+    begin[0, 1], end[0, 1] = -3.4e-6, -5.4e-6
+    begin[1, 1] = end[1, 1] = -2.0e-6
+    set_time(contacts, STEP)
+    press(contacts, 0.0, end[0, 1], 0.0, end[1, 1] / STEP)
+    return contacts, Way(0.0, STEP, begin, end)
+
+
+@pytest.mark.parametrize("seen", [0.0, 0.5, 0.9], ids=["at the end", "where it does not touch yet", "where it touches"])
+def test_a_ball_that_touches_in_a_step_is_found_wherever_it_was_seen(falling, seen):
+    contacts, way = falling
+    suspects = np.zeros((1, contacts.balls.shape[2]))
+    suspects[0, BOTTOM] = seen
+    share, ball, rate = earliest_change(contacts, way, False, suspects)
+    assert (share, ball) == (pytest.approx(0.8, abs=1e-6), BOTTOM)
+    assert rate == pytest.approx(0.2, rel=1e-3)  # 2 µm in 10 µs; the cage turns by 0.01 degrees meanwhile

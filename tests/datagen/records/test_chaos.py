@@ -9,6 +9,7 @@ from datagen.recipes.recipe import load_recipe
 from datagen.records.record import _missed, make_record
 from datagen.scenarios.sampling import draw_scenario
 from labels.description import label_values
+from physics.response.modal_case import March
 from physics.simulate import simulate
 
 LOOSE_RECORD = 5697  # of the wide corpus: 0.6 changes of contact a millisecond and ball
@@ -44,6 +45,27 @@ def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
     assert ((one - other) ** 2).mean() > 0.01 * (other**2).mean()
     assert trace.chaotic
     assert trace.error_estimate == 1.0
+
+
+@pytest.mark.parametrize(
+    ("record", "confirmations", "chaotic"),
+    [(110, 0, True), (291, 1, True), (289, 2, False)],
+    ids=["parted in the first tenth", "parted in the first third", "parted near the middle, and confirmed at last"],
+)
+def test_a_response_is_confirmed_as_often_as_that_can_help(record, confirmations, chaotic, monkeypatch):
+    marches = []
+
+    class Counted(March):
+        def __post_init__(self):
+            marches.append(self.samples)
+            super().__post_init__()
+
+    monkeypatch.setattr("physics.response.adaptive.March", Counted)
+    drawn = draw_scenario(load_recipe("corpus"), record)
+    trace = simulate(drawn.scene, drawn.rate)
+    assert trace.chaotic is chaotic
+    # Before them: the response and a finer one, and two coarse pilots, the first of which is short.
+    assert len(marches) == 4 + confirmations
 
 
 def test_an_accuracy_that_was_not_reached_is_told(scenario, monkeypatch):

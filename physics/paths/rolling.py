@@ -218,18 +218,16 @@ def _between_points(
     outer: bool,
 ) -> tuple[float, float]:
     """How far from the point `best` the ball touches, in points, and by how much (m) it is held higher there; both 0 on
-    an edge, where the drops on the neighbours lie on no parabola."""
+    an edge, or beside one, where the drops on the neighbours of one side or of both lie on no parabola."""
     a, b = abs(best - 1 - centre), abs(best + 1 - centre)
     before = _drop_on(depth[best - 1], cosine[a], sine[a], race_radius, ball_radius, outer) - least
     after = _drop_on(depth[best + 1], cosine[b], sine[b], race_radius, ball_radius, outer) - least
     a, b = abs(best - 2 - centre), abs(best + 2 - centre)
-    wide = (
-        _drop_on(depth[best - 2], cosine[a], sine[a], race_radius, ball_radius, outer)
-        + _drop_on(depth[best + 2], cosine[b], sine[b], race_radius, ball_radius, outer)
-        - 2.0 * least
-    )
+    early = _drop_on(depth[best - 2], cosine[a], sine[a], race_radius, ball_radius, outer) - least
+    late = _drop_on(depth[best + 2], cosine[b], sine[b], race_radius, ball_radius, outer) - least
     bend = before + after
-    if not (bend > ROUNDING and abs(0.25 * wide - bend) < SMOOTH * bend):
+    astray = max(abs(early - 3.0 * before - after), abs(late - before - 3.0 * after))
+    if not (bend > ROUNDING and astray < 4.0 * SMOOTH * bend):
         return 0.0, 0.0
     shift = 0.5 * (before - after) / bend
     return shift, 0.5 * bend * shift * shift

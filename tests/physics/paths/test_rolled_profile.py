@@ -137,3 +137,16 @@ def test_the_deepest_point_of_a_rough_path_may_lie_between_nodes(gearbox, race, 
     depth = path.depth(arcs)
     assert path.largest_depth == pytest.approx(depth.max(), abs=1e-10)  # m: half a step beside a corner of the path
     assert path.deepest == pytest.approx(arcs[np.argmax(depth)], abs=1e-7)  # one step, 9e-8; nodes are 2e-4 apart
+
+
+@RACES
+def test_a_surface_that_is_nowhere_proud_of_the_race_never_lifts_the_ball_above_it(gearbox, race):
+    # Taper and race meet without a step or a kink, but only the taper bends: no parabola runs through both.
+    values = np.zeros(41)
+    values[5:-5] = 0.7e-6 * np.sin(np.arange(31))
+    spall = Spall(race, 1, BOTTOM, 0.016, 180e-6, 0.0059, 0.0008, "ball_path", 0.5e-6, tuple(values))
+    path = build_path(spall, gearbox.bearing)
+    depth = path.depth(np.linspace(path.breaks[0], path.breaks[-1], 20_001))
+    assert depth.min() > -1e-13
+    assert np.abs(path.depth(path.breaks[[0, -1]])).max() < 1e-13
+    assert np.abs(path.slope(path.breaks[-1:] - 1e-9)).max() < 1e-7  # m/rad: 2 nm/s at the rated speed

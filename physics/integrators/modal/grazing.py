@@ -1,8 +1,9 @@
 """Balls that may touch a bump of a rough spall, or lift over a dent of it, between the instants a step looks at.
 
 A path over a rough surface has features finer than a step. How far it can stray from its chord over the arc that a ball
-covers in the step is known beforehand; only a ball nearer to a change than that is followed through the step. What its
-compression would be over a smooth race runs as the cubic between both ends, so only the path has to be looked at.
+covers in the step is known beforehand; only a ball nearer to a change than that, or one that is compressed and yet let
+go of, is followed through the step. What its compression would be over a smooth race runs as the cubic between both
+ends, so only the path has to be looked at.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_f
 from physics.contact.track import (
     CAGE,
     CELL,
+    FIRST_BREAK,
+    PIECES,
     RELIEF,
     SIGN,
     SPEED,
@@ -32,6 +35,9 @@ Array = NDArray[np.float64]
 
 # A ball near a change is looked at once a cell of its path, at most this often in a step.
 MOST_LOOKS = 64
+# A share of no step; how far behind a corner one looks at its far side, as a share of the step: slip changes by less
+# within it.
+LATER, BEHIND = 2.0, 1e-4
 
 
 @njit_inner
@@ -65,7 +71,11 @@ def mark_grazing(contacts: Contacts, noted: Array, time: float, step: float, sus
         arc, turns, leave = hindmost(track, spall, start, time, travel)
         while arc <= leave:
             place = place_of(track, spall, turns)
-            if min(abs(balls[cage, COMPRESSION, place]), abs(noted[cage, 0, place])) < row[RELIEF + level]:
+            begin, final = noted[cage, 0, place], balls[cage, COMPRESSION, place]
+            near = min(abs(final), abs(begin)) < row[RELIEF + level]
+            # A ball that is compressed and yet free, as the film would have to pull it, may be pressed at any corner.
+            let_go = contacts.law.no_tension and balls[cage, ACTIVE, place] < 0.5 and max(begin, final) > 0.0
+            if near or let_go:
                 looks = int(min(float(MOST_LOOKS), math.ceil(cells) + 1.0))
                 seen = _first_contradiction(contacts, noted, spall, place, step, arc, travel, looks)
                 if seen > 0.0:
@@ -94,19 +104,54 @@ def _first_contradiction(
     c3 = begin_rate + end_rate - 2.0 * (end - begin)
     over_race = c3, c2, begin_rate, begin
     held = balls[cage, ACTIVE, place] > 0.5
+    corner = LATER
+    if contacts.law.no_tension and not held:
+        corner = _first_corner(contacts, spall, step, arc, travel, over_race)
     before, rate_before = 0.0, step * noted[cage, 1, place]
     for look in range(1, looks + 1):
         share = look / looks
+        if before >= corner:
+            break
         touching, rate = _touching_at(contacts, spall, step, arc, travel, over_race, share)
         if rate_before * rate < 0.0 and (rate < 0.0) != held:
             turn = before + (share - before) * rate_before / (rate_before - rate)
             touching_there, _ = _touching_at(contacts, spall, step, arc, travel, over_race, turn)
             if touching_there != held:
-                return turn
+                return min(turn, corner)
         if touching != held and look < looks:
-            return share
+            return min(share, corner)
         before, rate_before = share, rate
-    return 0.0
+    return corner if corner < LATER else 0.0
+
+
+@njit_inner
+def _first_corner(
+    contacts: Contacts,
+    spall: int,
+    step: float,
+    arc: float,
+    travel: float,
+    over_race: tuple[float, float, float, float],
+) -> float:
+    """Share of the step at which a ball that starts at `arc` and covers `travel` is first taken hold of at a corner of
+    its path, where it begins to be pressed all at once; LATER if at none."""
+    track = contacts.track
+    first, low, high = int(track.spalls[spall, FIRST_BREAK]), 0, int(track.spalls[spall, PIECES]) + 1
+    end = first + high
+    while low < high:
+        middle = (low + high) // 2
+        if track.breaks[first + middle] > arc:
+            high = middle
+        else:
+            low = middle + 1
+    for edge in range(first + low, end):
+        behind = (track.breaks[edge] - arc) / travel + BEHIND
+        if not behind < 1.0:
+            break
+        touching, _ = _touching_at(contacts, spall, step, arc, travel, over_race, behind)
+        if touching:
+            return behind
+    return LATER
 
 
 @njit_inline

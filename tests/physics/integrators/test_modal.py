@@ -16,12 +16,13 @@ from kernels import (
     set_time,
     through_end,
     through_middle,
+    touches,
     turn,
 )
 from scipy.linalg import expm
 
 from physics.assembly import assemble
-from physics.contact.forces import COMPRESSION
+from physics.contact.forces import ACTIVE, COMPRESSION
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.modal.flow import (
     AMPLITUDES,
@@ -497,6 +498,46 @@ def test_a_ball_that_touches_between_two_looks_at_a_rough_path_is_seen(reference
         mark_grazing(contacts, noted, begin, step, suspects)
         assert 0.0 < suspects[0, ball] < 1.0
         tried += 1
+
+
+def test_a_ball_that_is_pressed_all_at_once_at_a_corner_of_its_path_is_seen_there(reference_scene):
+    scene = reference_scene("F2r", 0.2)
+    rolled = dataclasses.replace(scene.spalls[0], profile="ball_path", depth=20e-6)
+    scene, step = dataclasses.replace(scene, spalls=(rolled,), contact_law="no_tension"), 1.0 / RATE
+    bearing, path, contacts = scene.rig.bearing, build_path(rolled, scene.rig.bearing), assemble(scene)
+    noted, suspects = np.zeros((1, 2, contacts.balls.shape[2])), np.zeros((1, contacts.balls.shape[2]))
+    speed, generator, tried, compressed = scene.cage.mean_speed, np.random.default_rng(2), 0, 1e-8
+
+    def pressed(time, across, falling, ball):
+        set_time(contacts, time)
+        press(contacts, 0.0, across, 0.0, falling)
+        return touches(contacts, 0, ball)
+
+    for corner in path.breaks[1:-1][np.abs(path.breaks[1:-1]) < 0.2]:
+        ball, share = int(generator.integers(bearing.balls)), generator.uniform(0.05, 0.2)
+        met = (rolled.angle + corner - bearing.spacing * ball) % (2.0 * np.pi) / speed
+        if met > 0.19:
+            continue
+        before, behind = path.slope(corner + np.array([-1e-9, 1e-9]))
+        # The ring leaves the ball so fast that the film just lets go of it before the corner, and presses it behind.
+        spring = contacts.law.stiffness * compressed**bearing.exponent
+        rate = -spring / contacts.law.damping + speed * (before + behind) / 2.0
+        sine = np.sin(rolled.angle + corner)
+        drop = path.depth(np.array([corner]))[0]
+        across, falling, begin = (compressed + drop + bearing.clearance) / sine, rate / sine, met - share * step
+        shares = np.linspace(0.0, 1.0, 2001)
+        seen = [pressed(begin + s * step, across + (s - share) * step * falling, falling, ball) for s in shares]
+        if not any(seen) or abs(shares[np.argmax(seen)] - share) > 1e-3:
+            continue
+        pressed(begin, across - share * step * falling, falling, ball)
+        contacts.balls[:, ACTIVE] = 0.0
+        note_motion(contacts.balls, noted)
+        pressed(begin + step, across + (1.0 - share) * step * falling, falling, ball)
+        suspects[:] = 0.0
+        mark_grazing(contacts, noted, begin, step, suspects)
+        assert suspects[0, ball] == pytest.approx(share, abs=1e-3)
+        tried += 1
+    assert tried > 10
 
 
 def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_scene):

@@ -111,11 +111,12 @@ def earliest_change(contacts: Contacts, way: Way, halfway: bool, suspects: Array
         for j in range(suspects.shape[1]):
             if suspects[cage, j] > 0.0:
                 ball, upper = cage * suspects.shape[1] + j, min(suspects[cage, j], first_share)
-                share, rate = _root(contacts, way, ball, upper)
-                while share > 1.0 and upper < min(1.0, first_share):
-                    # It does not contradict where it was seen to, between the ends, but it may halfway or at the end.
-                    upper = min(0.5 if upper < 0.5 else 1.0, first_share)
+                share, rate, beyond, looking = 2.0, 0.0, min(1.0, first_share), True
+                while looking:
                     share, rate = _root(contacts, way, ball, upper)
+                    looking = share > 1.0 and upper < beyond
+                    # Where it does not contradict where it was seen to, it may halfway or at the end.
+                    upper = min(0.5 if upper < 0.5 else 1.0, beyond)
                 if share < first_share:
                     first_share, first_ball, first_rate = share, ball, rate
     return first_share, first_ball, first_rate

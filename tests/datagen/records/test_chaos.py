@@ -47,25 +47,40 @@ def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
     assert trace.error_estimate == 1.0
 
 
+@pytest.fixture
+def marches(monkeypatch):
+    """The samples of every march that a simulation makes."""
+    made = []
+
+    class Counted(March):
+        def __post_init__(self):
+            made.append(self.samples)
+            super().__post_init__()
+
+    monkeypatch.setattr("physics.response.adaptive.March", Counted)
+    return made
+
+
 @pytest.mark.parametrize(
     ("record", "confirmations", "chaotic"),
     [(110, 0, True), (291, 1, True), (289, 2, False)],
     ids=["parted in the first tenth", "parted in the first third", "parted near the middle, and confirmed at last"],
 )
-def test_a_response_is_confirmed_as_often_as_that_can_help(record, confirmations, chaotic, monkeypatch):
-    marches = []
-
-    class Counted(March):
-        def __post_init__(self):
-            marches.append(self.samples)
-            super().__post_init__()
-
-    monkeypatch.setattr("physics.response.adaptive.March", Counted)
+def test_a_response_is_confirmed_as_often_as_that_can_help(record, confirmations, chaotic, marches):
     drawn = draw_scenario(load_recipe("corpus"), record)
     trace = simulate(drawn.scene, drawn.rate)
     assert trace.chaotic is chaotic
     # Before them: the response and a finer one, and two coarse pilots, the first of which is short.
     assert len(marches) == 4 + confirmations
+
+
+def test_a_response_is_not_confirmed_after_one_that_took_too_many_steps(marches, monkeypatch):
+    monkeypatch.setattr("physics.response.adaptive.MUCH_WORK", 1)
+    drawn = draw_scenario(load_recipe("corpus"), 289)
+    trace = simulate(drawn.scene, drawn.rate)
+    assert len(marches) == 5  # one fewer than above
+    assert not trace.chaotic
+    assert trace.error_estimate > 1e-3  # and the record says that it may be so far off
 
 
 def test_an_accuracy_that_was_not_reached_is_told(scenario, monkeypatch):

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.freed_memory import keep_freed_memory
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
@@ -67,6 +68,7 @@ def simulate(
     or not.
     Raises SimulationFailed with a typed outcome.
     """
+    keep_freed_memory()
     method = method or (MODAL if substeps is None else "exponential_rk4")
     _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy, least_error, fastest_path)
     _check_lead_in(scene, lead_in)

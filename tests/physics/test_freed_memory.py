@@ -1,0 +1,42 @@
+"""Arrays that are freed leave their memory to the next ones."""
+
+import os
+import platform
+import subprocess
+import sys
+
+import pytest
+
+from physics.freed_memory import CHOSEN_BY
+
+PROGRAM = """
+import resource
+import numpy as np
+from physics.freed_memory import keep_freed_memory
+
+print(int({call}))
+for _ in range(3):
+    np.ones(1 << 19)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+for _ in range(50):
+    np.ones(1 << 19)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
+"""
+
+
+def run(call: str, **environment: str) -> list[int]:
+    clean = {name: value for name, value in os.environ.items() if name not in CHOSEN_BY}
+    command = [sys.executable, "-c", PROGRAM.format(call=call)]
+    said = subprocess.run(command, env=clean | environment, capture_output=True, text=True, check=True)
+    return [int(word) for word in said.stdout.split()]
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only glibc is told to keep what is freed")
+def test_pages_of_freed_arrays_are_not_fetched_again():
+    kept, faults = run("keep_freed_memory()")
+    assert kept == 1
+    assert faults < 1000  # 50 arrays of 4 MB are 51 200 pages
+
+
+def test_what_the_user_has_chosen_is_left_alone():
+    assert run("keep_freed_memory()", MALLOC_MMAP_THRESHOLD_="65536")[0] == 0

@@ -101,8 +101,9 @@ SCENE_RULES = {
     "start": "at rest in equilibrium under the load vector of t = 0, velocities zero",
 }
 SETTLED_START = (
-    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero; all that depends on t goes on to "
-    "negative t; the record begins at t = 0, and its resonances of the chain have been at rest at t = -settle_s too"
+    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero, and so are the resonances of the "
+    "chain; the simulated instants begin there, and whatever depends on t holds for negative t too; the record has the "
+    "samples from t = 0 on"
 )
 
 

@@ -9,6 +9,7 @@ ends, so only the path has to be looked at.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,18 @@ MOST_LOOKS = 64
 # A share of no step; how far behind a corner one looks at its far side, as a share of the step: slip changes by less
 # within it.
 LATER, BEHIND = 2.0, 1e-4
+
+
+class Ride(NamedTuple):
+    """How a ball rides over a `spall` in a `step` (s): the `arc` (rad) at which it starts, its `travel` (rad, above 0),
+    and the coefficients, from the cube of the share of the step down, of what its compression (m) would be over a
+    smooth race."""
+
+    spall: int
+    step: float
+    arc: float
+    travel: float
+    over_race: tuple[float, float, float, float]
 
 
 @njit_inner
@@ -102,20 +115,18 @@ def _first_contradiction(
     end, end_rate = balls[cage, COMPRESSION, place] + depth, step * balls[cage, CLOSING, place] + slope * travel
     c2 = 3.0 * (end - begin) - 2.0 * begin_rate - end_rate
     c3 = begin_rate + end_rate - 2.0 * (end - begin)
-    over_race = c3, c2, begin_rate, begin
+    ride = Ride(spall, step, arc, travel, (c3, c2, begin_rate, begin))
     held = balls[cage, ACTIVE, place] > 0.5
-    corner = LATER
-    if contacts.law.no_tension and not held:
-        corner = _first_corner(contacts, spall, step, arc, travel, over_race)
+    corner = _first_corner(contacts, ride) if contacts.law.no_tension and not held else LATER
     before, rate_before = 0.0, step * noted[cage, 1, place]
     for look in range(1, looks + 1):
         share = look / looks
         if before >= corner:
             break
-        touching, rate = _touching_at(contacts, spall, step, arc, travel, over_race, share)
+        touching, rate = _touching_at(contacts, ride, share)
         if rate_before * rate < 0.0 and (rate < 0.0) != held:
             turn = before + (share - before) * rate_before / (rate_before - rate)
-            touching_there, _ = _touching_at(contacts, spall, step, arc, travel, over_race, turn)
+            touching_there, _ = _touching_at(contacts, ride, turn)
             if touching_there != held:
                 return min(turn, corner)
         if touching != held and look < looks:
@@ -125,52 +136,30 @@ def _first_contradiction(
 
 
 @njit_inner
-def _first_corner(
-    contacts: Contacts,
-    spall: int,
-    step: float,
-    arc: float,
-    travel: float,
-    over_race: tuple[float, float, float, float],
-) -> float:
-    """Share of the step at which a ball that starts at `arc` and covers `travel` is first taken hold of at a corner of
-    its path, where it begins to be pressed all at once; LATER if at none."""
+def _first_corner(contacts: Contacts, ride: Ride) -> float:
+    """Share of the step at which a free ball is first taken hold of at a corner of its path, where it begins to be
+    pressed all at once; LATER if at none."""
     track = contacts.track
-    first, low, high = int(track.spalls[spall, FIRST_BREAK]), 0, int(track.spalls[spall, PIECES]) + 1
-    end = first + high
-    while low < high:
-        middle = (low + high) // 2
-        if track.breaks[first + middle] > arc:
-            high = middle
-        else:
-            low = middle + 1
-    for edge in range(first + low, end):
-        behind = (track.breaks[edge] - arc) / travel + BEHIND
+    first = int(track.spalls[ride.spall, FIRST_BREAK])
+    corners = track.breaks[first : first + int(track.spalls[ride.spall, PIECES]) + 1]
+    for corner in range(np.searchsorted(corners, ride.arc, side="right"), corners.size):
+        behind = (corners[corner] - ride.arc) / ride.travel + BEHIND
         if not behind < 1.0:
             break
-        touching, _ = _touching_at(contacts, spall, step, arc, travel, over_race, behind)
+        touching, _ = _touching_at(contacts, ride, behind)
         if touching:
             return behind
     return LATER
 
 
 @njit_inline
-def _touching_at(
-    contacts: Contacts,
-    spall: int,
-    step: float,
-    arc: float,
-    travel: float,
-    over_race: tuple[float, float, float, float],
-    share: float,
-) -> tuple[bool, float]:
-    """Whether a ball touches at a share of the step, and its rate of compression (m a step) there; `over_race` are the
-    coefficients, from the cube down, of what its compression (m) would be over a smooth race."""
-    c3, c2, c1, c0 = over_race
-    depth, slope = path_under(contacts.track, spall, arc + share * travel)
+def _touching_at(contacts: Contacts, ride: Ride, share: float) -> tuple[bool, float]:
+    """Whether a ball touches at a share of the step, and its rate of compression (m a step) there."""
+    c3, c2, c1, c0 = ride.over_race
+    depth, slope = path_under(contacts.track, ride.spall, ride.arc + share * ride.travel)
     compression = ((c3 * share + c2) * share + c1) * share + c0 - depth
-    rate = (3.0 * c3 * share + 2.0 * c2) * share + c1 - slope * travel
+    rate = (3.0 * c3 * share + 2.0 * c2) * share + c1 - slope * ride.travel
     touching = compression > 0.0
     if contacts.law.no_tension and touching:
-        touching = law_force(contacts.law, compression, rate / step) > 0.0
+        touching = law_force(contacts.law, compression, rate / ride.step) > 0.0
     return touching, rate

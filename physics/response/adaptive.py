@@ -34,10 +34,10 @@ ACCELERATION_ALONE = Kept()
 ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
-# A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where contacts may
-# make errors grow: it is made again with this share of the tolerance, and what both are apart tells. So is one in which
-# the rings part, with a smaller share.
-DOUBTFUL, FEEDING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
+# A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where errors may
+# grow: it is made again with this share of the tolerance, and what both are apart tells. So is one in which the rings
+# part, with a smaller share.
+DOUBTFUL, GROWING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
 # Of a response that is farther than LOST of its size from a coarser one no point is known. To confirm one, up to so
@@ -94,12 +94,12 @@ def respond_accurately(
     seen, sensitivity = _beginning(march, pilot, accuracy, least)
     tame = 1.0 if sensitivity > CHAOTIC else _tame(sensitivity)
     output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, tame)
-    fewest = _fewest_touching(output)
-    if case.memory == 0.0 and 0 < fewest <= scene.rig.bearing.rows:
+    fewest, growing = _fewest_touching(output), case.memory > 0.0
+    if not growing and 0 < fewest <= scene.rig.bearing.rows:
         # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
         coarse = go_on(March(case, samples), _grid(case, samples, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
-        sensitivity = max(sensitivity, _shown(case, coarse, output))
-    if sensitivity > (FEEDING_DOUBTFUL if case.memory > 0.0 else DOUBTFUL) or fewest == 0:
+        sensitivity, growing = max(sensitivity, _shown(case, coarse, output)), True
+    if sensitivity > (GROWING_DOUBTFUL if growing else DOUBTFUL) or fewest == 0:
         again, share = March(case, samples, kept), SURE if sensitivity > CHAOTIC or fewest == 0 else FINER
         output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, share, sensitivity)
     marched = output.acceleration.shape[0]

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from physics._jit import njit_inline, njit_pasted
 from physics.contact.contact_set import count_dips
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
+from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
 from physics.integrators.modal.memory import (
     BEFORE,
     BUDGET,
+    BUMPY,
     PACE,
     SHORTEST,
     SQUARES,
@@ -28,8 +30,6 @@ Array = NDArray[np.float64]
 LEAST_RATIO = 0.24
 # Error of Simpson's rule over a step, of the fourth power of the share of the step.
 FOURTH_POWER_ERROR = 1.0 / 120.0
-# And, over the step's length, in terms of how far the middle strays from the cubic of values and rates at both ends.
-HERMITE_ERROR = 2.0 / 15.0
 # And of a swing, relative, over the fourth power of how far it turns (rad).
 FLIGHT_ERROR = 1.0 / 2880.0
 # The tolerance grows or shrinks by what the errors so far make of the budget, within these bounds, as if this many
@@ -119,7 +119,8 @@ def carried_error(memory: Memory, step: float) -> float:
 def error_of(contacts: Contacts, memory: Memory, step: float) -> float:
     """Momentum (N s) by which the step that was just made is wrong."""
     if is_carried(memory, step):
-        return carried_error(memory, step)
+        error = carried_error(memory, step)
+        return error if memory.marks[BUMPY] == 0 else max(error, passed_over(contacts, memory, step))
     error = resolution_error(contacts, memory.noted, memory.midway, step)
     return error if error > 0.0 else flight_error(memory, step)
 

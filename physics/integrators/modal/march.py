@@ -18,6 +18,7 @@ from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import SMALLEST_STEP_SHARE
 from physics.integrators.modal.approach import leads_astray
 from physics.integrators.modal.between import set_between
+from physics.integrators.modal.bumps import is_bumpy
 from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
 from physics.integrators.modal.choice import Choice, next_step
@@ -35,6 +36,7 @@ from physics.integrators.modal.memory import (
     BEFORE,
     BETWEEN,
     BUDGET,
+    BUMPY,
     CELL,
     LEFT,
     NO_BALL,
@@ -90,6 +92,7 @@ def begin(contacts: Contacts, flow: LinearFlow, grid: Stride, memory: Memory, ou
     clock[:] = 0.0
     marks[:] = 0
     clock[PACE], marks[BALL], marks[ON_GRID] = grid.interval, NO_BALL, 1
+    marks[BUMPY] = int(is_bumpy(contacts.track))
     clock[SQUARES] = record(flow, state, rest, 0, output)
     set_tolerance(grid, memory, 1)
     keep(contacts.balls, flow, rest, 0.0, state, force, 0, output)

@@ -70,6 +70,14 @@ def test_errors_that_grow_late_where_a_single_ball_holds_the_ring_are_found():
     assert trace.error_estimate <= 1e-3
 
 
+def test_a_single_ball_s_growing_errors_are_found_where_a_coarse_response_happens_to_come_near():
+    drawn = _drawn(20271201, 3684)  # its coarse response is two errors of its steps away, the truth twenty
+    scene = _shortened(drawn.scene, 0.1)
+    trace = simulate(scene, drawn.rate)
+    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
+
+
 def test_steps_in_which_no_ball_touches_are_judged_before_errors_grow_on_them():
     drawn = _drawn(20270105, 3457)  # its rings part, and what a step in flight misses grows by some thousands
     scene = _shortened(drawn.scene, 0.1)

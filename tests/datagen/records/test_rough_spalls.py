@@ -73,3 +73,13 @@ def test_a_ball_that_is_held_again_at_a_corner_of_the_path_is_taken_at_its_word(
     error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
     assert error <= trace.error_estimate <= 1e-3
     assert trace.unlocated_changes == 0
+
+
+def test_bumps_between_the_instants_of_a_step_are_not_passed_over():
+    drawn = _drawn(777, 3075)  # rolled over bumps some cells of its path long, where steps are as long
+    scene = _shortened(drawn)
+    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    for accuracy in (1e-3, 1e-4):  # 1.1e-3 and 4.1e-4 wrong if only the force at three instants is looked at
+        trace = simulate(scene, drawn.rate, accuracy=accuracy)
+        error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
+        assert error <= trace.error_estimate <= accuracy

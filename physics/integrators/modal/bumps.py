@@ -1,0 +1,66 @@
+"""What a carried step does not see of a rolled path: bumps between the three instants at which it meets the force.
+
+Over a rough surface a ball changes from bump to bump. Every corner that this makes is a step's end, but where the
+bumps are close together the path bends between corners as sharply, and the force then swings faster than its values at
+the beginning, in the middle and at the end of a step tell. Slopes and depths of the path there together do tell.
+"""
+
+from __future__ import annotations
+
+from physics._jit import njit_inline, njit_inner
+from physics.contact.forces import ACTIVE, COMPRESSION, Contacts, law_power
+from physics.contact.track import CAGE, PIECES, RELIEF, SIGN, SPEED, Track, cage_at, hindmost, path_under, place_of
+from physics.integrators.modal.memory import TIME, Memory
+
+# Error of a step, over its length, in terms of how far the middle strays from the cubic of values and rates at both
+# ends.
+HERMITE_ERROR = 2.0 / 15.0
+# A smooth path has two edges and a floor; one of more pieces has corners where the ball changes from bump to bump.
+SMOOTH_PIECES = 3.0
+
+
+@njit_inner
+def is_bumpy(track: Track) -> bool:
+    """Whether some path has corners on its floor."""
+    bumpy = False
+    for spall in range(track.spalls.shape[0]):
+        bumpy = bumpy or _has_corners(track, spall)
+    return bumpy
+
+
+@njit_inline
+def _has_corners(track: Track, spall: int) -> bool:
+    return track.spalls[spall, RELIEF] > 0.0 and track.spalls[spall, PIECES] > SMOOTH_PIECES
+
+
+@njit_inner
+def passed_over(contacts: Contacts, memory: Memory, step: float) -> float:
+    """Momentum (N s) by which a step from the memory's time is wrong about the paths of the balls that touch.
+
+    As `resolution_error` measures it of a whole motion: of the film, Simpson's rule on the path's slopes against its
+    depths; of the elastic contact, how far its middle is from the cubic through depths and slopes at both ends.
+    """
+    balls, track, law = contacts.balls, contacts.track, contacts.law
+    time, total = memory.clock[TIME], 0.0
+    for spall in range(track.spalls.shape[0]):
+        row, cage = track.spalls[spall], int(track.spalls[spall, CAGE])
+        if not _has_corners(track, spall):
+            continue
+        start, _ = cage_at(track, cage, time)
+        end, _ = cage_at(track, cage, time + step)
+        travel = row[SIGN] * (end - start - row[SPEED] * step)
+        arc, turns, leave = hindmost(track, spall, start, time, travel)
+        while arc <= leave:
+            place = place_of(track, spall, turns)
+            if balls[cage, ACTIVE, place] > 0.5:
+                begin, slope = path_under(track, spall, arc)
+                middle, middle_slope = path_under(track, spall, arc + 0.5 * travel)
+                final, final_slope = path_under(track, spall, arc + travel)
+                film = final - begin - travel / 6.0 * (slope + 4.0 * middle_slope + final_slope)
+                astray = middle - 0.5 * (begin + final) - 0.125 * travel * (slope - final_slope)
+                pressed = law_power(law, max(memory.noted[cage, 0, place], balls[cage, COMPRESSION, place]))
+                stiffness = law.stiffness * law.exponent * pressed
+                total += abs(law.damping * film) + HERMITE_ERROR * step * stiffness * abs(astray)
+            arc += track.spacing
+            turns += 1.0
+    return total

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +35,10 @@ ACCELERATION_ALONE = Kept()
 ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
-# A response of more than this sensitivity may be chaotic where the pilot did not look, and sooner where errors may
-# grow: it is made again with this share of the tolerance, and what both are apart tells. So is one in which the rings
-# part, with a smaller share.
-DOUBTFUL, GROWING_DOUBTFUL, FINER = 4.0, 0.5, 0.25
+# A response of more than this sensitivity may be chaotic where the pilot did not look: it is made again with this share
+# of the tolerance, and what both are apart tells. So is one whose errors may grow and that is farther from a coarse one
+# than this many times the error allowed.
+DOUBTFUL, FINER, NEAR = 4.0, 0.25, 3.0
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
 # Of a response that is farther than LOST of its size from a coarser one no point is known. To confirm one, up to so
@@ -91,15 +92,19 @@ def respond_accurately(
     """
     case = case_of(scene, rest, rate)
     march = March(case, samples, kept)
-    seen, sensitivity = _beginning(march, pilot, accuracy, least)
+    begun = _beginning(march, pilot, accuracy, least)
+    sensitivity, apart = begun.sensitivity, begun.apart
     tame = 1.0 if sensitivity > CHAOTIC else _tame(sensitivity)
-    output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, seen, tame)
-    fewest, growing = _fewest_touching(output), case.memory > 0.0
-    if not growing and 0 < fewest <= scene.rig.bearing.rows:
+    output, grid, error, size = _to_accuracy(march, go_on, accuracy, least, begun.square, tame)
+    fewest, allowed, growing = _fewest_touching(output), max(accuracy * size, least), case.memory > 0.0
+    if not growing and fewest <= scene.rig.bearing.rows:
         # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
-        coarse = go_on(March(case, samples), _grid(case, samples, COARSE, 0.0, size**2, CERTAIN, CERTAIN))
-        sensitivity, growing = max(sensitivity, _shown(case, coarse, output)), True
-    if sensitivity > (GROWING_DOUBTFUL if growing else DOUBTFUL) or fewest == 0:
+        share = max(COARSE, allowed / size) if size > 0.0 else COARSE
+        coarse = go_on(March(case, samples), _grid(case, samples, share, 0.0, size**2, CERTAIN, CERTAIN))
+        sensitivity, apart, growing = max(sensitivity, _shown(case, coarse, output)), _apart(coarse, output), True
+    if growing:
+        error = max(error, SENSITIVE * sensitivity * case.pushed(output))
+    if sensitivity > DOUBTFUL or (growing and max(error, apart / NEAR) > allowed):
         again, share = March(case, samples, kept), SURE if sensitivity > CHAOTIC or fewest == 0 else FINER
         output, error, size, sensitivity = _made_sure(again, go_on, accuracy, least, output, grid, share, sensitivity)
     marched = output.acceleration.shape[0]
@@ -250,9 +255,18 @@ def _grid(case: Case, samples: int, share: float, least: float, seen: float, wei
     )
 
 
-def _beginning(march: March, pilot: int, accuracy: float, least: float) -> tuple[float, float]:
-    """Let the `march` begin; the mean square (m²/s⁴) of its first samples' acceleration, and how many times as far it
-    is from a coarser one as the errors of that one's steps add up to: all along, if contacts may make them grow."""
+class Beginning(NamedTuple):
+    """How a march begins: the mean `square` (m²/s⁴) of its first samples' acceleration, how far it is `apart` (m/s²,
+    RMS) from a coarse one, and how many times as far as the errors of that one's steps add up to: all along, if
+    contacts may make them grow."""
+
+    square: float
+    apart: float
+    sensitivity: float
+
+
+def _beginning(march: March, pilot: int, accuracy: float, least: float) -> Beginning:
+    """Let the `march` begin, beside a coarse one of `pilot` samples."""
     case, short = march.case, min(march.samples, pilot)
     length = march.samples if case.memory > 0.0 else short
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
@@ -270,4 +284,4 @@ def _beginning(march: March, pilot: int, accuracy: float, least: float) -> tuple
     fine = march.go_on(_grid(case, length, wanted, 0.0, size**2, CERTAIN, 1.0))
     pushed = case.pushed(coarse)
     apart = rms(coarse.acceleration - fine.acceleration[:length])
-    return size**2, apart / pushed if pushed > 0.0 else 1.0
+    return Beginning(size**2, apart, apart / pushed if pushed > 0.0 else 1.0)

@@ -6,6 +6,7 @@ import numpy as np
 
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
+from physics.response import adaptive
 from physics.response.adaptive import CHAOTIC
 from physics.simulate import simulate
 
@@ -75,6 +76,23 @@ def test_a_single_ball_s_growing_errors_are_found_where_a_coarse_response_happen
     scene = _shortened(drawn.scene, 0.1)
     trace = simulate(scene, drawn.rate)
     exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
+
+
+def test_rings_that_part_are_doubted_where_a_coarse_response_is_far_away():
+    drawn = _drawn(777, 207)  # ten times as sensitive as its coarse response says
+    scene = _shortened(drawn.scene, 0.1)
+    trace = simulate(scene, drawn.rate)
+    exact = simulate(scene, drawn.rate, substeps=128, estimate_error=False)
+    assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
+
+
+def test_rings_that_part_are_not_marched_again_where_a_coarse_response_is_near(monkeypatch):
+    drawn = _drawn(20271202, 735)
+    scene = _shortened(drawn.scene, 0.1)
+    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    monkeypatch.delattr(adaptive, "_made_sure")
+    trace = simulate(scene, drawn.rate)
     assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
 
 

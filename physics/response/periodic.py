@@ -16,7 +16,8 @@ from physics.integrators.modal.flow import slowest_decay
 from physics.integrators.modal.memory import Stride
 from physics.integrators.output import Output
 from physics.paths.profile import is_rough
-from physics.response.adaptive import PILOT_SAMPLES, respond_accurately, rms
+from physics.response.adaptive import PILOT_SAMPLES, respond_accurately
+from physics.response.goal import rms
 from physics.response.modal_case import March
 from physics.response.resampling import POINTS, read_at
 from physics.scene import Scene

@@ -57,7 +57,8 @@ def marches(monkeypatch):
             made.append(self.samples)
             super().__post_init__()
 
-    monkeypatch.setattr("physics.response.adaptive.March", Counted)
+    for module in ("adaptive", "goal"):
+        monkeypatch.setattr(f"physics.response.{module}.March", Counted)
     return made
 
 
@@ -75,7 +76,7 @@ def test_a_response_is_confirmed_as_often_as_that_can_help(record, confirmations
 
 
 def test_a_response_is_not_confirmed_after_one_that_took_too_many_steps(marches, monkeypatch):
-    monkeypatch.setattr("physics.response.adaptive.MUCH_WORK", 1)
+    monkeypatch.setattr("physics.response.attempts.MUCH_WORK", 1)
     drawn = draw_scenario(load_recipe("corpus"), 289)
     trace = simulate(drawn.scene, drawn.rate)
     assert len(marches) == 5  # one fewer than above

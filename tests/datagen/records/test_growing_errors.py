@@ -7,7 +7,7 @@ import numpy as np
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
 from physics.response import adaptive
-from physics.response.adaptive import CHAOTIC
+from physics.response.attempts import CHAOTIC
 from physics.simulate import simulate
 
 
@@ -91,7 +91,7 @@ def test_rings_that_part_are_not_marched_again_where_a_coarse_response_is_near(m
     drawn = _drawn(20271202, 735)
     scene = _shortened(drawn.scene, 0.1)
     exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
-    monkeypatch.delattr(adaptive, "_made_sure")
+    monkeypatch.delattr(adaptive, "made_sure")
     trace = simulate(scene, drawn.rate)
     assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
 

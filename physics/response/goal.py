@@ -1,0 +1,129 @@
+"""What a response is to reach, the tolerance of the steps that lead there, and the error that they leave.
+
+The modal method measures every step by the momentum it may be wrong by. What such a push leaves in the resonator's
+acceleration follows from the modes alone, so the accuracy asked for, the size of the signal seen so far and a usual
+number of pushes a second give the tolerance; and the sum of the errors made gives the estimate of the whole, times what
+a pilot shows that this scene makes of them: contact changes can multiply an error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.integrators.modal.memory import STRIDES, Stride
+from physics.integrators.output import LOGGED, Output
+from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March
+
+Array = NDArray[np.float64]
+GoOn = Callable[[March, Stride], Output]
+
+# Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
+# them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
+ERROR_FACTOR, SENSITIVE = 3.5, 6.0
+# Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
+AIM, MARGIN = 0.1, 0.75
+# No tolerance is below the first share of the acceleration that the load would give the outer ring, nor below the
+# second of what the load does in a sample: forces are not known better.
+SMALLEST_SHARE, ROUND_OFF = 1e-8, 1e-13
+# The tolerance of a coarse response; weights of the guessed size of the signal, in samples.
+COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Responses of a `case` over `samples`, wanted to the relative RMS `accuracy`, or to `least` (m/s², RMS) if that is
+    more; `kept` of them is what March keeps, and `go_on` may end them before all samples."""
+
+    case: Case
+    samples: int
+    accuracy: float
+    least: float
+    kept: Kept
+    go_on: GoOn
+
+    def begin(self) -> March:
+        """A march that has not set out."""
+        return March(self.case, self.samples, self.kept)
+
+    def anew(self, grid: Stride) -> Output:
+        """A response from the start, on `grid`."""
+        return self.go_on(self.begin(), grid)
+
+    def coarse(self, size: float) -> Output:
+        """A response with several times the tolerance that a signal of this `size` (m/s², RMS) asks for."""
+        share = max(COARSE, self.allowed(size) / size) if size > 0.0 else COARSE
+        return self.go_on(March(self.case, self.samples), steady(self.case, self.samples, share, size))
+
+    def allowed(self, size: float) -> float:
+        """The error (m/s², RMS) that is allowed of a signal of this `size` (m/s², RMS)."""
+        return max(self.accuracy * size, self.least)
+
+    def error(self, output: Output, sensitivity: float) -> float:
+        """Estimated error (m/s², RMS) of the `output` of a scene of this sensitivity."""
+        return ERROR_FACTOR * tame(sensitivity) * self.case.pushed(output)
+
+    def aimed(self, seen: float, aim: float, sensitivity: float) -> Stride:
+        """A grid whose tolerance is this `aim` of the accuracy at first, of a signal whose mean square may be `seen`
+        (m²/s⁴), and then what leaves the estimated error within it."""
+        spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame(sensitivity) * aim)) ** 2
+        return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least, seen, UNCERTAIN, spending)
+
+
+def steady(case: Case, samples: int, share: float, size: float, spending: float = CERTAIN) -> Stride:
+    """A grid whose tolerance stays this `share` of a signal of known `size` (m/s², RMS), whatever errors it leaves."""
+    return _grid(case, samples, share, 0.0, size**2, CERTAIN, spending)
+
+
+def _grid(case: Case, samples: int, share: float, least: float, seen: float, weight: float, spending: float) -> Stride:
+    load = abs(case.scene.operation.load)
+    floor = share * SMALLEST_SHARE * load / case.scene.rig.outer_mass
+    return Stride(
+        samples=samples,
+        interval=1.0 / case.rate,
+        levels=len(STRIDES),
+        share=share * case.push * math.sqrt(0.5),
+        least=max(case.push * max(least, floor), ROUND_OFF * load / case.rate),
+        seen=2.0 * seen,
+        seen_samples=weight,
+        spending=spending,
+    )
+
+
+def finer(grid: Stride, share: float) -> Stride:
+    """A grid with this share of the tolerance."""
+    return grid._replace(share=share * grid.share, least=share * grid.least)
+
+
+def tame(sensitivity: float) -> float:
+    """How many times more exact the steps of a scene have to be than those of one that makes nothing of errors."""
+    return max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
+
+
+def shown(case: Case, coarse: Output, fine: Output) -> float:
+    """The sensitivity that two responses show: how many times the errors of its steps the `coarse` one is apart from
+    the `fine` one."""
+    pushed = case.pushed(coarse)
+    return apart(coarse, fine) / pushed if pushed > 0.0 else 0.0
+
+
+def apart(one: Output, other: Output, share: float = 1.0) -> float:
+    """How far two responses are apart (m/s², RMS) in this share of the samples, as long as both last."""
+    both = math.ceil(share * min(one.acceleration.shape[0], other.acceleration.shape[0]))
+    return rms(one.acceleration[:both] - other.acceleration[:both])
+
+
+def fewest_touching(output: Output) -> int:
+    """The smallest number of balls that touched at the same time; the rings part where it is 0."""
+    made = output.change_made[: output.tally[LOGGED]]
+    touching = output.initial.sum() + np.cumsum(np.where(made, 1, -1))
+    return int(touching.min(initial=output.initial.sum()))
+
+
+def rms(values: Array) -> float:
+    """Root mean square over all entries."""
+    return float(np.sqrt(np.mean(np.square(values))))

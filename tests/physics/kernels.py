@@ -7,7 +7,7 @@ import numba
 
 from physics.contact import contact_set, forces
 from physics.integrators import events
-from physics.integrators.modal import carried, flow, grazing, weights
+from physics.integrators.modal import bumps, carried, flow, grazing, weights
 from physics.statics import rest
 
 
@@ -29,6 +29,7 @@ reset_contact = from_python(contact_set.reset_contact)
 set_time = from_python(forces.set_time)
 touches = from_python(contact_set.touches)
 elastic = from_python(rest.elastic)
+passed_over = from_python(bumps.passed_over)
 foretell = from_python(carried.foretell)
 through_middle = from_python(carried.through_middle)
 through_end = from_python(carried.through_end)

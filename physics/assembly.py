@@ -14,11 +14,9 @@ from physics.contact.track import (
     ANGLE,
     CAGE,
     CELL,
+    ENTRY,
     FIRST_BALL,
-    FIRST_BREAK,
-    FIRST_CUBIC,
-    FIRST_PIECE,
-    PIECES,
+    LEAVE,
     RELIEF,
     SIGN,
     SPALL_COLUMNS,
@@ -26,7 +24,7 @@ from physics.contact.track import (
     Track,
 )
 from physics.imperfections import Waviness
-from physics.paths.depth_path import DepthPath, hermite_cubics
+from physics.paths.depth_path import DepthPath, hermite_cubics, paths_of
 from physics.paths.profile import build_path
 from physics.scene import Scene
 
@@ -89,9 +87,7 @@ def _track(scene: Scene) -> Track:
         cage=cage,
         clock=clock,
         spalls=_spall_table(scene, paths, len(scene.cages)),
-        breaks=np.concatenate([np.zeros(0), *(path.breaks for path in paths)]),
-        cells=np.concatenate([np.zeros((0, 2), dtype=np.int64), *(path.pieces for path in paths)]),
-        cubics=np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *(path.cubics for path in paths)])),
+        paths=paths_of(paths),
         waviness=_waviness_cubics(scene.imperfections.waviness, bearing.balls),
         row_size=bearing.balls,
         spacing=bearing.spacing,
@@ -101,7 +97,6 @@ def _track(scene: Scene) -> Track:
 
 def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
     table = np.zeros((len(paths), SPALL_COLUMNS))
-    piece = first_break = cubic = 0
     for index, (spall, path) in enumerate(zip(scene.spalls, paths, strict=True)):
         row = spall.row - 1
         table[index, FIRST_BALL] = row * scene.rig.bearing.balls if cages == 1 else 0
@@ -109,12 +104,8 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         table[index, SIGN] = spall.travel_sign
         table[index, ANGLE] = spall.angle - row * scene.rig.bearing.stagger
         table[index, SPEED] = scene.race_speed(spall.race)
-        table[index, FIRST_PIECE], table[index, PIECES] = piece, path.cells.size
-        table[index, FIRST_BREAK], table[index, FIRST_CUBIC] = first_break, cubic
+        table[index, ENTRY], table[index, LEAVE] = path.breaks[[0, -1]]
         table[index, CELL], table[index, RELIEF:] = path.cell, path.relief
-        piece += path.cells.size
-        first_break += path.breaks.size
-        cubic += path.cubics.shape[0]
     return table
 
 
@@ -138,9 +129,9 @@ def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=TABLES_KEPT)
 def _waviness_cubics(waves: tuple[Waviness, ...], balls: int) -> Array:
-    """Cubics (2, N, 4) of the waves, N a multiple of the `balls` of a row; cached, so for reading only."""
+    """Cubics (2, C, 8 B) of the waves over C cells a spacing of B `balls`, as `Track` keeps them; for reading only."""
     if not waves:
-        return np.zeros((2, 0, 4))
+        return np.zeros((2, 0, 8 * balls))
     count = balls * -(-WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves)) // balls)
     nodes = 2.0 * np.pi * np.arange(count + 1) / count
     width = 2.0 * np.pi / count
@@ -152,4 +143,6 @@ def _waviness_cubics(waves: tuple[Waviness, ...], balls: int) -> Array:
         turn = wave.order * width
         factor = 3.0 * math.sin(turn) / (2.0 + math.cos(turn))
         rate[race] -= wave.amplitude * factor * np.sin(wave.order * nodes + wave.phase)
-    return np.stack([hermite_cubics(value[race], rate[race]) for race in range(2)])
+    cubics = np.stack([hermite_cubics(value[race], rate[race]) for race in range(2)])
+    of_cell = cubics.reshape(2, balls, -1, 4).transpose(0, 2, 3, 1)
+    return np.concatenate([of_cell, of_cell], axis=3).reshape(2, -1, 8 * balls)

@@ -20,22 +20,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics.contact.power import power
 from physics.contact.track import (
     CAGE,
     FIRST_BALL,
-    FIRST_BREAK,
-    FIRST_CUBIC,
-    FIRST_PIECE,
-    PIECES,
     SIGN,
     SPEED,
-    TURNS_PER_RADIAN,
     Track,
     cage_at,
     hindmost,
     place_of,
     spall_under,
     wave_cell,
+    waves_per_radian,
     waviness_at,
 )
 from physics.contact.turning import cosine_sine
@@ -101,15 +98,10 @@ def move_to(contacts: Contacts, time: float) -> None:
 def _add_spall(contacts: Contacts, cage: int, spall: int, angle: float, speed: float, time: float) -> None:
     balls, track = contacts.balls, contacts.track
     sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
-    first_break, first_piece = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, FIRST_PIECE])
-    pieces = int(track.spalls[spall, PIECES])
     arc, turns, leave = hindmost(track, spall, angle, time, 0.0)
     while arc <= leave:
         place = place_of(track, spall, turns)
-        depth, slope = path_at(
-            track.breaks, track.cells, track.cubics, first_break, first_piece, pieces,
-            int(track.spalls[spall, FIRST_CUBIC]), arc,
-        )  # fmt: skip
+        depth, slope = path_at(track.paths, spall, arc)
         balls[cage, FLOOR, place] += depth
         balls[cage, FALL, place] += slope * sign * (speed - race_speed)
         arc += track.spacing
@@ -118,26 +110,25 @@ def _add_spall(contacts: Contacts, cage: int, spall: int, angle: float, speed: f
 
 @njit_inner
 def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, time: float) -> None:
-    """Both races' waves under every ball: those of one row lie whole cells apart, at the same place within theirs."""
-    balls, track = contacts.balls, contacts.track
-    cells, size = track.waviness.shape[1], balls.shape[2]
-    apart, per_cell = cells // track.row_size, cells * TURNS_PER_RADIAN
-    pace, inner_pace = speed * per_cell, (speed - track.shaft_speed) * per_cell
-    for first in range(0, size, track.row_size):
-        outer, x = wave_cell(cells, angle + balls[cage, PLACE, first])
-        inner, z = wave_cell(cells, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
-        for j in range(first, min(first + track.row_size, size)):
-            a3, a2 = track.waviness[0, outer, 0], track.waviness[0, outer, 1]
-            a1, a0 = track.waviness[0, outer, 2], track.waviness[0, outer, 3]
-            b3, b2 = track.waviness[1, inner, 0], track.waviness[1, inner, 1]
-            b1, b0 = track.waviness[1, inner, 2], track.waviness[1, inner, 3]
-            balls[cage, FLOOR, j] += (((a3 * x + a2) * x + a1) * x + a0) + (((b3 * z + b2) * z + b1) * z + b0)
+    """Both races' waves under every ball: those of a row are whole spacings apart, at the same place within theirs."""
+    balls, track, waves = contacts.balls, contacts.track, contacts.track.waviness
+    row = track.row_size
+    pace = speed * waves_per_radian(track)
+    inner_pace = pace - track.shaft_speed * waves_per_radian(track)
+    # Unsigned places need no look at their sign, so that the loop over the balls takes vectors.
+    one, two, three = np.uint64(2 * row), np.uint64(4 * row), np.uint64(6 * row)
+    for first in range(0, balls.shape[2] - row + 1, row):
+        outer, ball, x = wave_cell(track, angle + balls[cage, PLACE, first])
+        inner, other, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        for j in range(np.uint64(row)):
+            a, b, here = np.uint64(ball) + j, np.uint64(other) + j, np.uint64(first) + j
+            a3, a2, a1 = waves[0, outer, a], waves[0, outer, a + one], waves[0, outer, a + two]
+            b3, b2, b1 = waves[1, inner, b], waves[1, inner, b + one], waves[1, inner, b + two]
+            outer_depth = ((a3 * x + a2) * x + a1) * x + waves[0, outer, a + three]
+            inner_depth = ((b3 * z + b2) * z + b1) * z + waves[1, inner, b + three]
+            balls[cage, FLOOR, here] += outer_depth + inner_depth
             outer_slope, inner_slope = (3.0 * a3 * x + 2.0 * a2) * x + a1, (3.0 * b3 * z + 2.0 * b2) * z + b1
-            balls[cage, FALL, j] += outer_slope * pace + inner_slope * inner_pace
-            outer += apart
-            inner += apart
-            outer -= cells if outer >= cells else 0
-            inner -= cells if inner >= cells else 0
+            balls[cage, FALL, here] += outer_slope * pace + inner_slope * inner_pace
 
 
 @njit_inline
@@ -171,7 +162,7 @@ def law_power(law: Law, compression: float) -> float:
     """A compression (m) to the power of the law's exponent less one, its secant stiffness over K; 0 out of contact."""
     if compression <= 0.0:
         return 0.0
-    return math.sqrt(compression) if law.exponent == 1.5 else compression ** (law.exponent - 1.0)
+    return math.sqrt(compression) if law.exponent == 1.5 else power(compression, law.exponent - 1.0)
 
 
 @njit_inline
@@ -208,11 +199,10 @@ def press(contacts: Contacts, dx: float, dy: float, vx: float, vy: float) -> tup
             for j in range(balls.shape[2]):
                 compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
                 rate = a * balls[cage, COSINE, j] + b * balls[cage, SINE, j] - balls[cage, FALL, j]
+                pressed = max(compression, 0.0)
                 balls[cage, COMPRESSION, j] = compression
                 balls[cage, CLOSING, j] = rate
-                balls[cage, LAW, j] = law.damping * rate
-                if compression > 0.0:
-                    balls[cage, LAW, j] += law.stiffness * compression**law.exponent
+                balls[cage, LAW, j] = law.stiffness * pressed * power(pressed, law.exponent - 1.0) + law.damping * rate
                 balls[cage, FORCE, j] = balls[cage, ACTIVE, j] * balls[cage, LAW, j]
         along, across = _sum_lanes(balls, cage)
         force_x += along * cosine - across * sine

@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.paths.depth_path import RELIEF_LEVELS, path_at
+from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
 
 Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 # Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
-# zero cage angle and time (rad), speed of its race (rad/s), first piece, number of pieces, first break, first cubic;
-# mean width of its cells (rad), and how far the path strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
-FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, FIRST_PIECE, PIECES, FIRST_BREAK, FIRST_CUBIC, CELL, RELIEF = range(11)
+# zero cage angle and time (rad), speed of its race (rad/s); where its path begins and ends and the mean width of its
+# cells (rad), and how far the path strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
+FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, ENTRY, LEAVE, CELL, RELIEF = range(9)
 SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
 
 TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
@@ -28,17 +27,16 @@ class Track(NamedTuple):
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 3) first knot (s), knots per second and
     seconds per knot.
-    Spalls (D, 18) with their paths in `breaks`, `cells`, `cubics` (see physics.paths.depth_path.DepthPath). `waviness`
-    (2, N, 4): cubics of the outer and inner race over N equal arcs of the circle, N a multiple of the balls of a
-    row, 0 for smooth races.
+    Spalls (D, 16) with as many `paths`. `waviness`
+    (2, C, 8 B): cubics of the outer and inner race over C equal cells of each of the B spacings of a row; of every cell
+    the cubes of the spacings, twice round so that B of them follow any one, then squares and so on. C is 0 for smooth
+    races.
     """
 
     cage: Array
     clock: Array
     spalls: Array
-    breaks: Array
-    cells: Index
-    cubics: Array
+    paths: Paths
     waviness: Array
     row_size: int
     spacing: float
@@ -72,20 +70,29 @@ def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[
 @njit_inline
 def wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
-    cells = track.waviness.shape[1]
-    cell, x = wave_cell(cells, angle)
-    c3, c2 = track.waviness[race, cell, 0], track.waviness[race, cell, 1]
-    c1, c0 = track.waviness[race, cell, 2], track.waviness[race, cell, 3]
-    return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * (cells * TURNS_PER_RADIAN)
+    cell, ball, x = wave_cell(track, angle)
+    row = 2 * track.row_size
+    c3, c2 = track.waviness[race, cell, ball], track.waviness[race, cell, row + ball]
+    c1, c0 = track.waviness[race, cell, 2 * row + ball], track.waviness[race, cell, 3 * row + ball]
+    return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * waves_per_radian(track)
 
 
 @njit_inline
-def wave_cell(cells: int, angle: float) -> tuple[int, float]:
-    """The cell of the circle in which an angle (rad) lies, and its place there, 0 to 1."""
-    turns = angle * TURNS_PER_RADIAN
-    position = (turns - math.floor(turns)) * cells
-    cell = min(int(position), cells - 1)
-    return cell, position - cell
+def waves_per_radian(track: Track) -> float:
+    """Cells of the waviness a radian."""
+    return track.row_size * track.waviness.shape[1] * TURNS_PER_RADIAN
+
+
+@njit_inline
+def wave_cell(track: Track, angle: float) -> tuple[int, int, float]:
+    """Where an angle (rad) lies on the circle: in which cell of its spacing, in which spacing, and where in that cell,
+    0 to 1."""
+    cells, turns = track.waviness.shape[1], angle * TURNS_PER_RADIAN
+    spacings = (turns - math.floor(turns)) * track.row_size
+    ball = min(int(spacings), track.row_size - 1)
+    place = (spacings - ball) * cells
+    cell = min(int(place), cells - 1)
+    return cell, ball, place - cell
 
 
 @njit_inline
@@ -96,25 +103,36 @@ def hindmost(track: Track, spall: int, angle: float, time: float, travel: float)
     The others follow a spacing apart.
     """
     row = track.spalls[spall]
-    first = int(row[FIRST_BREAK])
-    entry, leave = track.breaks[first], track.breaks[first + int(row[PIECES])]
     ahead = row[SIGN] * (angle - row[ANGLE] - row[SPEED] * time)
-    turns = math.ceil((entry - max(travel, 0.0) - ahead) / track.spacing)
-    return ahead + turns * track.spacing, turns, leave - min(travel, 0.0)
+    turns = math.ceil((row[ENTRY] - max(travel, 0.0) - ahead) * (track.row_size * TURNS_PER_RADIAN))
+    return ahead + turns * track.spacing, turns, row[LEAVE] - min(travel, 0.0)
+
+
+@njit_inline
+def passage(track: Track, spall: int, time: float, step: float) -> tuple[float, float, float, float]:
+    """How far (rad) balls travel over a spall in a `step` (s) from `time` (s) on, and what `hindmost` tells of those
+    that meet it."""
+    cage = int(track.spalls[spall, CAGE])
+    start, _ = cage_at(track, cage, time)
+    end, _ = cage_at(track, cage, time + step)
+    travel = track.spalls[spall, SIGN] * (end - start - track.spalls[spall, SPEED] * step)
+    return travel, *hindmost(track, spall, start, time, travel)
 
 
 @njit_inline
 def place_of(track: Track, spall: int, turns: float) -> int:
     """The column in `balls` of the ball that is `turns` spacings ahead of ball 1 of the spall's row."""
-    row = track.spalls[spall]
-    return int(row[FIRST_BALL]) + int(row[SIGN] * turns) % track.row_size
+    row, number = track.spalls[spall], track.spalls[spall, SIGN] * turns
+    # Without the remainder of whole numbers, which takes longer than all of this.
+    number -= math.floor((number + 0.5) * (1.0 / track.row_size)) * track.row_size
+    return int(row[FIRST_BALL] + number)
 
 
 @njit_inline
 def spall_under(track: Track, spall: int, number: int, angle: float, speed: float, time: float) -> tuple[float, float]:
     """Depth (m) under ball `number` of the spall's row and its rate (m/s)."""
     sign, race_speed = track.spalls[spall, SIGN], track.spalls[spall, SPEED]
-    entry = track.breaks[int(track.spalls[spall, FIRST_BREAK])]
+    entry = track.spalls[spall, ENTRY]
     arc = sign * (angle - track.spalls[spall, ANGLE] - race_speed * time + number * track.spacing)
     circle = track.row_size * track.spacing
     arc += math.ceil((entry - arc) / circle) * circle
@@ -125,10 +143,6 @@ def spall_under(track: Track, spall: int, number: int, angle: float, speed: floa
 @njit_inline
 def path_under(track: Track, spall: int, arc: float) -> tuple[float, float]:
     """Drop (m) and slope (m/rad) of a spall's path at `arc` (rad); zero outside."""
-    row = track.spalls[spall]
-    first_break, pieces = int(row[FIRST_BREAK]), int(row[PIECES])
-    if arc < track.breaks[first_break] or arc > track.breaks[first_break + pieces]:
+    if arc < track.spalls[spall, ENTRY] or arc > track.spalls[spall, LEAVE]:
         return 0.0, 0.0
-    return path_at(
-        track.breaks, track.cells, track.cubics, first_break, int(row[FIRST_PIECE]), pieces, int(row[FIRST_CUBIC]), arc
-    )
+    return path_at(track.paths, spall, arc)

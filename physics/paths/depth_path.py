@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit, njit_lean
+from physics._jit import njit, njit_inline, njit_lean
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 Curve = Callable[[Array], Array]
 
 RELIEF_LEVELS = 8
+# Slots of a path for each of its breaks.
+SLOTS = 2
+# Columns of `Paths.places` and of `Paths.pieces`.
+FIRST, PIECES, PACE = range(3)
+BREAK, DENSITY, CELLS, FIRST_CUBIC = range(4)
 
 
 @dataclass(frozen=True)
@@ -30,7 +38,7 @@ class DepthPath:
     """
 
     breaks: Array
-    cells: NDArray[np.int64]
+    cells: Index
     cubics: Array
     deepest: float
     largest_depth: float
@@ -42,10 +50,10 @@ class DepthPath:
         """Mean width of the cells, rad."""
         return float((self.breaks[-1] - self.breaks[0]) / self.cells.sum())
 
-    @property
-    def pieces(self) -> NDArray[np.int64]:
-        """Number of cells, and of those before, of every piece (P, 2): what `path_at` reads."""
-        return np.column_stack([self.cells, np.cumsum(self.cells) - self.cells])
+    @cached_property
+    def alone(self) -> Paths:
+        """The path as kernels read it."""
+        return paths_of([self])
 
     @property
     def kinks(self) -> Array:
@@ -54,54 +62,80 @@ class DepthPath:
 
     def depth(self, arc: Array) -> Array:
         """Drop (N,) at the arcs (N,), m."""
-        return sample_path(self.breaks, self.pieces, self.cubics, np.asarray(arc, dtype=np.float64))[0]
+        return sample_path(self.alone, np.asarray(arc, dtype=np.float64))[0]
 
     def slope(self, arc: Array) -> Array:
         """Derivative (N,) of the drop at the arcs (N,), m/rad."""
-        return sample_path(self.breaks, self.pieces, self.cubics, np.asarray(arc, dtype=np.float64))[1]
+        return sample_path(self.alone, np.asarray(arc, dtype=np.float64))[1]
+
+
+class Paths(NamedTuple):
+    """Paths stored end to end, in as few arrays as kernels can do with.
+
+    `places` (N, 3): the row of `pieces` in which each path begins, its number of pieces, and its slots a radian.
+    `pieces` (P + N, 4): where each piece begins (rad), its cells a radian, its number of cells, and the row of `cubics`
+    (C, 4) in which they begin; behind the pieces of a path one more row, for its last break. From its first break to
+    its last a path is also divided into equal slots, SLOTS a row: `slots` are the pieces in which they begin.
+    """
+
+    places: Array
+    pieces: Array
+    slots: Index
+    cubics: Array
+
+
+def paths_of(paths: Sequence[DepthPath]) -> Paths:
+    """The `paths` end to end."""
+    places, pieces, slots = np.zeros((len(paths), 3)), [np.zeros((0, 4))], [np.zeros(0, dtype=np.int64)]
+    cubics, row, cubic = [np.zeros((0, 4))], 0, 0
+    for place, path in zip(places, paths, strict=True):
+        count, rows = path.cells.size, path.breaks.size
+        piece = np.zeros((rows, 4))
+        piece[:, BREAK] = path.breaks
+        piece[:count, DENSITY], piece[:count, CELLS] = path.cells / np.diff(path.breaks), path.cells
+        piece[:count, FIRST_CUBIC] = cubic + np.cumsum(path.cells) - path.cells
+        begin = np.linspace(path.breaks[0], path.breaks[-1], SLOTS * rows, endpoint=False)
+        place[:] = row, count, SLOTS * rows / (path.breaks[-1] - path.breaks[0])
+        pieces.append(piece)
+        slots.append(np.searchsorted(path.breaks[1:-1], begin))
+        cubics.append(path.cubics)
+        row += rows
+        cubic += path.cubics.shape[0]
+    return Paths(places, np.concatenate(pieces), np.concatenate(slots), np.concatenate(cubics))
 
 
 @njit_lean
-def path_at(
-    breaks: Array,
-    cells: NDArray[np.int64],
-    cubics: Array,
-    first_break: int,
-    first_piece: int,
-    pieces: int,
-    first_cubic: int,
-    arc: float,
-) -> tuple[float, float]:
-    """Drop (m) and slope (m/rad) at `arc` of one path among several stored end to end.
+def span_of(paths: Paths, path: int) -> tuple[int, int]:
+    """The rows of `pieces` with the first break of one of the paths, and behind its last."""
+    first = int(paths.places[path, FIRST])
+    return first, first + int(paths.places[path, PIECES]) + 1
 
-    `cells` (P, 2): the `pieces` of every path.
-    """
-    piece, beyond = 0, pieces
-    while beyond - piece > 1:
-        middle = (piece + beyond) // 2
-        if arc > breaks[first_break + middle]:
-            piece = middle
-        else:
-            beyond = middle
-    count = cells[first_piece + piece, 0]
-    left = breaks[first_break + piece]
-    width = (breaks[first_break + piece + 1] - left) / count
-    position = (arc - left) / width
-    inside = min(max(int(position), 0), count - 1)
+
+@njit_inline
+def path_at(paths: Paths, path: int, arc: float) -> tuple[float, float]:
+    """Drop (m) and slope (m/rad) at `arc` of one of the paths, between its first and its last break."""
+    first, pieces = int(paths.places[path, FIRST]), int(paths.places[path, PIECES])
+    slot = int((arc - paths.pieces[first, BREAK]) * paths.places[path, PACE])
+    piece = first + paths.slots[SLOTS * first + min(max(slot, 0), SLOTS * pieces + SLOTS - 1)]
+    while piece < first + pieces - 1 and arc > paths.pieces[piece + 1, BREAK]:
+        piece += 1
+    density = paths.pieces[piece, DENSITY]
+    position = (arc - paths.pieces[piece, BREAK]) * density
+    inside = min(max(int(position), 0), int(paths.pieces[piece, CELLS]) - 1)
     x = position - inside
-    cubic = first_cubic + cells[first_piece + piece, 1] + inside
-    c3, c2, c1 = cubics[cubic, 0], cubics[cubic, 1], cubics[cubic, 2]
-    return ((c3 * x + c2) * x + c1) * x + cubics[cubic, 3], ((3.0 * c3 * x + 2.0 * c2) * x + c1) / width
+    cubic = int(paths.pieces[piece, FIRST_CUBIC]) + inside
+    c3, c2, c1 = paths.cubics[cubic, 0], paths.cubics[cubic, 1], paths.cubics[cubic, 2]
+    return ((c3 * x + c2) * x + c1) * x + paths.cubics[cubic, 3], ((3.0 * c3 * x + 2.0 * c2) * x + c1) * density
 
 
 @njit
-def sample_path(breaks: Array, cells: NDArray[np.int64], cubics: Array, arcs: Array) -> tuple[Array, Array]:
-    """Drop and slope, (N,) each, at the arcs (N,); zero outside the path's breaks."""
+def sample_path(paths: Paths, arcs: Array) -> tuple[Array, Array]:
+    """Drop and slope, (N,) each, of the only one of `paths` at the arcs (N,); zero outside its breaks."""
     depth = np.zeros(arcs.size)
     slope = np.zeros(arcs.size)
     for k in range(arcs.size):
-        if breaks[0] <= arcs[k] <= breaks[-1]:
-            depth[k], slope[k] = path_at(breaks, cells, cubics, 0, 0, cells.shape[0], 0, arcs[k])
+        if paths.pieces[0, BREAK] <= arcs[k] <= paths.pieces[-1, BREAK]:
+            depth[k], slope[k] = path_at(paths, 0, arcs[k])
     return depth, slope
 
 

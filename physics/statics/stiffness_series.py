@@ -18,8 +18,9 @@ from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact.contact_set import mark_of
 from physics.contact.forces import FORCE, Contacts
-from physics.contact.track import ANGLE, CAGE, FIRST_BREAK, PIECES, RELIEF, SIGN, SPEED, cage_at
+from physics.contact.track import ANGLE, CAGE, ENTRY, LEAVE, RELIEF, SIGN, SPEED, cage_at
 from physics.motion import MotionModel, motion_model
+from physics.paths.depth_path import BREAK, span_of
 from physics.paths.profile import is_rough
 from physics.scene import Scene
 from physics.statics.stiffness import expected, rest_at, stiffness_trace
@@ -165,15 +166,15 @@ def _mark(contacts: Contacts, time: float) -> float:
     for spall in range(track.spalls.shape[0]):
         angle, _ = cage_at(track, int(track.spalls[spall, CAGE]), time)
         ahead = track.spalls[spall, SIGN] * (angle - track.spalls[spall, ANGLE] - track.spalls[spall, SPEED] * time)
-        first, pieces = int(track.spalls[spall, FIRST_BREAK]), int(track.spalls[spall, PIECES])
-        entered = math.floor((ahead - track.breaks[first]) * per_spacing)
-        left = math.floor((ahead - track.breaks[first + pieces]) * per_spacing)
+        entered = math.floor((ahead - track.spalls[spall, ENTRY]) * per_spacing)
+        left = math.floor((ahead - track.spalls[spall, LEAVE]) * per_spacing)
         crossed = entered + left
         if track.spalls[spall, RELIEF] > 0.0:
             if entered > left:
                 return math.nan
         else:
-            for edge in range(first + 1, first + pieces):
-                crossed += math.floor((ahead - track.breaks[edge]) * per_spacing)
+            first, behind = span_of(track.paths, spall)
+            for edge in range(first + 1, behind - 1):
+                crossed += math.floor((ahead - track.paths.pieces[edge, BREAK]) * per_spacing)
         mark += CROSSING_MARK * (spall + 1) * crossed
     return mark

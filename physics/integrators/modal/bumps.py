@@ -7,10 +7,15 @@ the beginning, in the middle and at the end of a step tell. Slopes and depths of
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from physics._jit import njit_inline, njit_inner
 from physics.contact.forces import ACTIVE, COMPRESSION, Contacts, law_power
-from physics.contact.track import CAGE, PIECES, RELIEF, SIGN, SPEED, Track, cage_at, hindmost, path_under, place_of
-from physics.integrators.modal.memory import TIME, Memory
+from physics.contact.track import CAGE, RELIEF, Track, passage, path_under, place_of
+from physics.paths.depth_path import PIECES
+
+Array = NDArray[np.float64]
 
 # Error of a step, over its length, in terms of how far the middle strays from the cubic of values and rates at both
 # ends.
@@ -30,26 +35,24 @@ def is_bumpy(track: Track) -> bool:
 
 @njit_inline
 def _has_corners(track: Track, spall: int) -> bool:
-    return track.spalls[spall, RELIEF] > 0.0 and track.spalls[spall, PIECES] > SMOOTH_PIECES
+    return track.spalls[spall, RELIEF] > 0.0 and track.paths.places[spall, PIECES] > SMOOTH_PIECES
 
 
 @njit_inner
-def passed_over(contacts: Contacts, memory: Memory, step: float) -> float:
-    """Momentum (N s) by which a step from the memory's time is wrong about the paths of the balls that touch.
+def passed_over(contacts: Contacts, noted: Array, time: float, step: float) -> float:
+    """Momentum (N s) by which a `step` (s) from `time` (s) on is wrong about the paths of the balls that touch; `noted`
+    (G, 2, M) is their motion at its beginning.
 
     As `resolution_error` measures it of a whole motion: of the film, Simpson's rule on the path's slopes against its
     depths; of the elastic contact, how far its middle is from the cubic through depths and slopes at both ends.
     """
     balls, track, law = contacts.balls, contacts.track, contacts.law
-    time, total = memory.clock[TIME], 0.0
+    total = 0.0
     for spall in range(track.spalls.shape[0]):
-        row, cage = track.spalls[spall], int(track.spalls[spall, CAGE])
         if not _has_corners(track, spall):
             continue
-        start, _ = cage_at(track, cage, time)
-        end, _ = cage_at(track, cage, time + step)
-        travel = row[SIGN] * (end - start - row[SPEED] * step)
-        arc, turns, leave = hindmost(track, spall, start, time, travel)
+        cage = int(track.spalls[spall, CAGE])
+        travel, arc, turns, leave = passage(track, spall, time, step)
         while arc <= leave:
             place = place_of(track, spall, turns)
             if balls[cage, ACTIVE, place] > 0.5:
@@ -58,7 +61,7 @@ def passed_over(contacts: Contacts, memory: Memory, step: float) -> float:
                 final, final_slope = path_under(track, spall, arc + travel)
                 film = final - begin - travel / 6.0 * (slope + 4.0 * middle_slope + final_slope)
                 astray = middle - 0.5 * (begin + final) - 0.125 * travel * (slope - final_slope)
-                pressed = law_power(law, max(memory.noted[cage, 0, place], balls[cage, COMPRESSION, place]))
+                pressed = law_power(law, max(noted[cage, 0, place], balls[cage, COMPRESSION, place]))
                 stiffness = law.stiffness * law.exponent * pressed
                 total += abs(law.damping * film) + HERMITE_ERROR * step * stiffness * abs(astray)
             arc += track.spacing

@@ -19,18 +19,13 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_f
 from physics.contact.track import (
     CAGE,
     CELL,
-    FIRST_BREAK,
-    PIECES,
     RELIEF,
-    SIGN,
-    SPEED,
     Track,
-    cage_at,
-    hindmost,
+    passage,
     path_under,
     place_of,
 )
-from physics.paths.depth_path import RELIEF_LEVELS
+from physics.paths.depth_path import BREAK, RELIEF_LEVELS, span_of
 
 Array = NDArray[np.float64]
 
@@ -74,14 +69,11 @@ def mark_grazing(contacts: Contacts, noted: Array, time: float, step: float, sus
         if track.spalls[spall, RELIEF] == 0.0:
             continue
         row, cage = track.spalls[spall], int(track.spalls[spall, CAGE])
-        start, _ = cage_at(track, cage, time)
-        end, _ = cage_at(track, cage, time + step)
-        travel = row[SIGN] * (end - start - row[SPEED] * step)
+        travel, arc, turns, leave = passage(track, spall, time, step)
         cells = abs(travel) / row[CELL]
         level = 0
         while level < RELIEF_LEVELS - 1 and cells > 1 << level:
             level += 1
-        arc, turns, leave = hindmost(track, spall, start, time, travel)
         while arc <= leave:
             place = place_of(track, spall, turns)
             begin, final = noted[cage, 0, place], balls[cage, COMPRESSION, place]
@@ -140,8 +132,8 @@ def _first_corner(contacts: Contacts, ride: Ride) -> float:
     """Share of the step at which a free ball is first taken hold of at a corner of its path, where it begins to be
     pressed all at once; LATER if at none."""
     track = contacts.track
-    first = int(track.spalls[ride.spall, FIRST_BREAK])
-    corners = track.breaks[first : first + int(track.spalls[ride.spall, PIECES]) + 1]
+    first, behind = span_of(track.paths, ride.spall)
+    corners = track.paths.pieces[first:behind, BREAK]
     for corner in range(np.searchsorted(corners, ride.arc, side="right"), corners.size):
         behind = (corners[corner] - ride.arc) / ride.travel + BEHIND
         if not behind < 1.0:

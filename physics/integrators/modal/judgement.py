@@ -18,6 +18,7 @@ from physics.integrators.modal.memory import (
     PACE,
     SHORTEST,
     SQUARES,
+    TIME,
     TOLERANCE,
     UNITS,
     Memory,
@@ -120,7 +121,11 @@ def error_of(contacts: Contacts, memory: Memory, step: float) -> float:
     """Momentum (N s) by which the step that was just made is wrong."""
     if is_carried(memory, step):
         error = carried_error(memory, step)
-        return error if memory.marks[BUMPY] == 0 else max(error, passed_over(contacts, memory, step))
+        return (
+            error
+            if memory.marks[BUMPY] == 0
+            else max(error, passed_over(contacts, memory.noted, memory.clock[TIME], step))
+        )
     error = resolution_error(contacts, memory.noted, memory.midway, step)
     return error if error > 0.0 else flight_error(memory, step)
 

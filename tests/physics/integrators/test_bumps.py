@@ -9,10 +9,6 @@ from scipy.interpolate import CubicHermiteSpline
 
 from physics.assembly import assemble
 from physics.contact.forces import ACTIVE, COMPRESSION
-from physics.integrators.modal.flow import linear_flow
-from physics.integrators.modal.memory import TIME, memory_for
-from physics.integrators.modal.tables import empty_tables
-from physics.motion import motion_model
 from physics.paths.profile import build_path
 
 BALL, PRESSED = 3, 2e-6
@@ -26,16 +22,15 @@ def rolled(reference_scene):
     spall = dataclasses.replace(scene.spalls[0], profile="ball_path", depth=20e-6)
     scene, bearing = dataclasses.replace(scene, spalls=(spall,)), scene.rig.bearing
     contacts = assemble(scene)
-    flow = linear_flow(motion_model(scene), (6e7, 9e7), (300.0, 500.0))
-    memory = memory_for(flow, np.zeros(12), empty_tables(), contacts.balls.shape)
-    contacts.balls[:, ACTIVE], contacts.balls[:, COMPRESSION], memory.noted[0, 0] = 0.0, PRESSED, 0.5 * PRESSED
+    noted = np.full((1, 2, contacts.balls.shape[2]), 0.5 * PRESSED)
+    contacts.balls[:, ACTIVE], contacts.balls[:, COMPRESSION] = 0.0, PRESSED
     contacts.balls[0, ACTIVE, BALL] = 1.0
     speed = scene.cage.mean_speed
 
     def passed(arc, step, spring=1.0, film=1.0):
-        memory.clock[TIME] = (spall.angle + arc - bearing.spacing * BALL) % (2.0 * np.pi) / speed
+        time = (spall.angle + arc - bearing.spacing * BALL) % (2.0 * np.pi) / speed
         law = contacts.law._replace(stiffness=spring * contacts.law.stiffness, damping=film * contacts.law.damping)
-        return passed_over(contacts._replace(law=law), memory, step)
+        return passed_over(contacts._replace(law=law), noted, time, step)
 
     return build_path(spall, bearing), speed, passed, contacts.law
 

@@ -34,7 +34,7 @@ class Grid(NamedTuple):
 
 class Output(NamedTuple):
     """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
-    (T, 6), the outer ring's displacement, velocity and acceleration along x and y;
+    (3, T, 2), the outer ring's displacement, velocity and acceleration along x and y;
     `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
     contact set; `tally` (3,); `touched` (2,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are
     wrong, if the method knows."""
@@ -74,9 +74,9 @@ def record(
     output.acceleration[sample, 1] = resonator_acceleration(motion, state, 1)
     if output.outer.shape[0] > 0:
         for axis in range(2):
-            output.outer[sample, axis] = state[2 + axis]
-            output.outer[sample, 2 + axis] = state[8 + axis]
-            output.outer[sample, 4 + axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
+            output.outer[0, sample, axis] = state[2 + axis]
+            output.outer[1, sample, axis] = state[8 + axis]
+            output.outer[2, sample, axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
     if output.state.shape[0] > 0:
         output.state[sample] = state[:12]
     if output.force.shape[0] > 0:

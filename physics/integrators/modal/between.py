@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
+from physics._jit import njit_inner, njit_pasted
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.memory import BETWEEN, UNITS, Memory
 from physics.integrators.modal.weights import set_step
@@ -23,7 +23,7 @@ NODES, BEHIND = 8, 3
 LONGEST_TURN = 0.1
 
 
-@njit_lean
+@njit_pasted
 def set_between(flow: LinearFlow, memory: Memory, step: float, unit: float) -> None:
     """Fill the row BETWEEN of the memory's weights for a step of `step` (s), on a grid of `unit` (s)."""
     if flow.fastest * unit > LONGEST_TURN or step > UNITS * unit:
@@ -32,7 +32,7 @@ def set_between(flow: LinearFlow, memory: Memory, step: float, unit: float) -> N
         read_between(memory.weights, step / unit)
 
 
-@njit_inline
+@njit_inner
 def read_between(table: Array, units: float) -> None:
     """Fill the row BETWEEN of `table` (26, 168) for a step of `units`, up to 16, from the first rows, by Lagrange's
     polynomials."""

@@ -51,7 +51,7 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-from physics.integrators.modal.output import keep, keeps_more, record, write_inside
+from physics.integrators.modal.output import keep, record, write_inside
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.modal.rk4 import step_modal_rk4
 from physics.integrators.modal.tension import add_contact_time
@@ -131,8 +131,7 @@ def write_sample(
     marks[TRIED] = 0
     sample, weight = marks[CELL] // UNITS, max(1, units // UNITS)
     square = record(flow, state, memory.rest, sample, output)
-    if keeps_more(output):
-        keep(balls, flow, memory.rest, clock[TIME], state, force, sample, output)
+    keep(balls, flow, memory.rest, clock[TIME], state, force, sample, output)
     clock[SQUARES] += weight * square
     if sample >= marks[RETUNE]:
         set_tolerance(grid, memory, sample + 1)

@@ -10,6 +10,7 @@ from physics.contact.forces import FORCE, Contacts, of_ball, set_time
 from physics.contact.turning import cosine_sine
 from physics.integrators.modal.choice import Choice
 from physics.integrators.modal.flow import (
+    AXIS,
     OUTER,
     OUTER_ACCELERATION,
     OUTER_SPEED,
@@ -18,6 +19,7 @@ from physics.integrators.modal.flow import (
     physical_state,
     reading,
     set_rest,
+    weigh,
 )
 from physics.integrators.modal.memory import CELL, FIRST_INSIDE, UNITS, Memory, Stride
 from physics.integrators.modal.remainder import remaining_force
@@ -37,12 +39,6 @@ Array = NDArray[np.float64]
 
 
 @njit_inline
-def keeps_more(output: Output) -> bool:
-    """Whether more is wanted of the samples than the acceleration."""
-    return output.outer.shape[0] + output.state.shape[0] + output.force.shape[0] > 0
-
-
-@njit_inner
 def keep(
     balls: Array,
     flow: LinearFlow,
@@ -55,12 +51,33 @@ def keep(
 ) -> None:
     """Write what else is wanted of one sample: the outer ring's motion, the state, the balls' forces."""
     if output.outer.shape[0] > 0:
-        for axis in range(2):
-            output.outer[sample, axis] = reading(flow, OUTER, state, axis) + rest[axis, OUTER]
-            output.outer[sample, 2 + axis] = reading(flow, OUTER_SPEED, state, axis) + rest[axis, OUTER_SPEED]
-            rate = reading(flow, OUTER_ACCELERATION, state, axis) + force[axis] / flow.outer_mass
-            output.outer[sample, 4 + axis] = rate + rest[axis, OUTER_ACCELERATION]
-    keep_state(balls, flow, time, state, sample, output)
+        keep_outer(flow.read, flow.outer_mass, rest, state, force, sample, output.outer)
+    if keeps_state(output):
+        keep_state(balls, flow, time, state, sample, output)
+
+
+@njit_inline
+def keeps_state(output: Output) -> bool:
+    """Whether states or forces of the balls are wanted."""
+    return output.state.shape[0] + output.force.shape[0] > 0
+
+
+@njit_inner
+def keep_outer(
+    read: Array,
+    outer_mass: float,
+    rest: Array,
+    state: Array,
+    force: tuple[float, float],
+    sample: int,
+    outer: Array,
+) -> None:
+    """Write the outer ring's motion of one sample. Given single arrays, as each costs a call more than its work."""
+    for axis in range(2):
+        outer[0, sample, axis] = weigh(read[OUTER], axis * AXIS, state, axis) + rest[axis, OUTER]
+        outer[1, sample, axis] = weigh(read[OUTER_SPEED], axis * AXIS, state, axis) + rest[axis, OUTER_SPEED]
+        rate = weigh(read[OUTER_ACCELERATION], axis * AXIS, state, axis) + force[axis] / outer_mass
+        outer[2, sample, axis] = rate + rest[axis, OUTER_ACCELERATION]
 
 
 @njit_inner
@@ -75,22 +92,31 @@ def keep_state(balls: Array, flow: LinearFlow, time: float, state: Array, sample
 
 @njit_inner
 def keep_outer_inside(
-    flow: LinearFlow, grid: Stride, memory: Memory, choice: Choice, trial: Trial, output: Output
+    inside: Array,
+    start: Array,
+    course: Array,
+    loads: tuple[Array, Array, Array],
+    turns: tuple[float, float],
+    sample: int,
+    outer: Array,
 ) -> None:
-    """Write the outer ring's motion at the samples inside the stride that was taken as tried, from weights alone, as
-    `write_inside` does the resonator's acceleration."""
+    """Write the outer ring's motion at the samples inside a stride, from their weights (S, 172) alone, as
+    `write_inside` does the resonator's acceleration.
+
+    The stride begins with the amplitudes `start` (12,) behind `sample`; `loads` (2, 11) are the flow's, constant and
+    turning with the shaft, which has turned by the first of `turns` (rad) then and by the second from sample to sample.
+    """
+    still, along, across = loads
     cosine, sine = 0.0, 0.0
-    first, count = FIRST_INSIDE[choice.row - UNITS - 1], choice.units // UNITS
-    for k in range(count - 1):
-        sample = memory.marks[CELL] // UNITS + 1 + k
-        if flow.turning:
-            cosine, sine = cosine_sine(flow.shaft_speed * (trial.time + (k + 1) * grid.interval))
+    for k in range(inside.shape[0]):
+        if turns[1] != 0.0:
+            cosine, sine = cosine_sine(turns[0] + (k + 1) * turns[1])
         for section in range(1, len(INSIDE_READINGS)):
             row = INSIDE_READINGS[section]
             for axis in range(2):
-                value = flow.rest[axis, row] + cosine * flow.cosine[axis, row] + sine * flow.sine[axis, row]
-                value += read_inside(memory.inside[first + k], section, axis, trial.now, memory.course)
-                output.outer[sample, 2 * (section - 1) + axis] = value
+                value = still[axis, row] + cosine * along[axis, row] + sine * across[axis, row]
+                value += read_inside(inside[k], section, axis, start, course)
+                outer[section - 1, sample + 1 + k, axis] = value
 
 
 @njit_inline
@@ -159,6 +185,8 @@ def write_inside(
         output.acceleration[sample + 1 + k, 0] = x + read_inside(w, 0, 0, trial.now, course)
         output.acceleration[sample + 1 + k, 1] = y + read_inside(w, 0, 1, trial.now, course)
     if output.outer.shape[0] > 0:
-        keep_outer_inside(flow, grid, memory, choice, trial, output)
-    if output.state.shape[0] + output.force.shape[0] > 0:
+        turns = (flow.shaft_speed * trial.time, flow.shaft_speed * grid.interval) if flow.turning else (0.0, 0.0)
+        weights, loads = memory.inside[first : first + count - 1], (flow.rest, flow.cosine, flow.sine)
+        keep_outer_inside(weights, trial.now, course, loads, turns, sample, output.outer)
+    if keeps_state(output):
         keep_state_inside(contacts, flow, grid, memory, choice, trial, output)

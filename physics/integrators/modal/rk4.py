@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_pasted
 from physics.contact.contact_set import count_changes, note_motion
-from physics.contact.forces import Contacts, set_time
+from physics.contact.forces import Contacts, move_to
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.memory import Memory
 from physics.integrators.modal.remainder import remainder_at
@@ -57,7 +57,7 @@ def step_modal_rk4(
     and the remaining contact force there and at the end.
     """
     w, rest, course = memory.weights[row], memory.rest, memory.course
-    set_time(contacts, time + 0.5 * step)
+    move_to(contacts, time + 0.5 * step)
     set_rest(flow, time + 0.5 * step, rest)
     motion = pushed(w, AT_HALF, 0, free_motion(w, HALF, start, rest), force)
     second = remainder_at(contacts, flow, motion)
@@ -67,7 +67,7 @@ def step_modal_rk4(
     contradicted = count_changes(contacts)
     note_motion(contacts.balls, memory.midway)
 
-    set_time(contacts, time + step)
+    move_to(contacts, time + step)
     set_rest(flow, time + step, rest)
     free = free_motion(w, END, start, rest)
     motion = pushed(w, AT_END, 1, pushed(w, AT_END, 0, free, force), rise_over_step(force, third, 2.0))

@@ -23,8 +23,8 @@ SEED_ATTEMPTS = 3
 GUESSED_SHARE = 1e-2
 # A response of more than this sensitivity may be chaotic where the pilot did not look: it is made again, and what both
 # are apart tells. So is one whose errors may grow and that is farther from a coarse one than this many times the error
-# allowed.
-DOUBTFUL, NEAR = 4.0, 3.0
+# allowed, or than this share of its size, if that is more than what is allowed.
+DOUBTFUL, NEAR, FAR = 4.0, 3.0, 0.03
 
 
 def respond_accurately(
@@ -74,9 +74,10 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
         coarse = goal.coarse(size)
         sensitivity = max(sensitivity, shown(goal.case, coarse, output))
         distance, growing = apart(coarse, output), True
-    if sensitivity > DOUBTFUL or (growing and distance > NEAR * goal.allowed(size)):
+    allowed = goal.allowed(size)
+    if sensitivity > DOUBTFUL or (growing and distance > min(NEAR * allowed, max(FAR * size, allowed))):
         return made_sure(goal, output, grid, sensitivity)
-    if growing and goal.error(output, sensitivity) > goal.allowed(size):
+    if growing and goal.error(output, sensitivity) > allowed:
         output, _ = to_accuracy(goal, goal.begin(), size**2, sensitivity)
     return output, goal.error(output, sensitivity), sensitivity
 

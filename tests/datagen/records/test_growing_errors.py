@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import pytest
 
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
@@ -85,6 +86,15 @@ def test_rings_that_part_are_doubted_where_a_coarse_response_is_far_away():
     trace = simulate(scene, drawn.rate)
     exact = simulate(scene, drawn.rate, substeps=128, estimate_error=False)
     assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
+
+
+@pytest.mark.parametrize("record", [3684, 4139])
+def test_a_coarse_response_that_is_far_away_is_doubted_where_much_is_allowed_too(record):
+    drawn = _drawn(20271201, record)  # the coarse response is 5 and 6 % away, less than twice and three times 3 %
+    scene = _shortened(drawn.scene, 0.1)
+    trace = simulate(scene, drawn.rate, accuracy=3e-2)
+    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    assert _apart(trace, exact) <= trace.error_estimate <= 3e-2
 
 
 def test_rings_that_part_are_not_marched_again_where_a_coarse_response_is_near(monkeypatch):

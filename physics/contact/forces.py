@@ -118,10 +118,10 @@ def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, tim
     # Unsigned places need no look at their sign, so that the loop over the balls takes vectors.
     one, two, three = np.uint64(2 * row), np.uint64(4 * row), np.uint64(6 * row)
     for first in range(0, balls.shape[2] - row + 1, row):
-        outer, ball, x = wave_cell(track, angle + balls[cage, PLACE, first])
-        inner, other, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        outer, outer_spacing, x = wave_cell(track, angle + balls[cage, PLACE, first])
+        inner, inner_spacing, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
         for j in range(np.uint64(row)):
-            a, b, here = np.uint64(ball) + j, np.uint64(other) + j, np.uint64(first) + j
+            a, b, here = np.uint64(outer_spacing) + j, np.uint64(inner_spacing) + j, np.uint64(first) + j
             a3, a2, a1 = waves[0, outer, a], waves[0, outer, a + one], waves[0, outer, a + two]
             b3, b2, b1 = waves[1, inner, b], waves[1, inner, b + one], waves[1, inner, b + two]
             outer_depth = ((a3 * x + a2) * x + a1) * x + waves[0, outer, a + three]

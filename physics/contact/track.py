@@ -27,10 +27,10 @@ class Track(NamedTuple):
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 3) first knot (s), knots per second and
     seconds per knot.
-    Spalls (D, 16) with as many `paths`. `waviness`
-    (2, C, 8 B): cubics of the outer and inner race over C equal cells of each of the B spacings of a row; of every cell
-    the cubes of the spacings, twice round so that B of them follow any one, then squares and so on. C is 0 for smooth
-    races.
+    Spalls (D, 16) with as many `paths`.
+    `waviness` (2, C, 8 B): cubics of the outer and inner race over C equal cells of each of the B spacings of a row; of
+    every cell the cubes of the spacings, twice round so that B of them follow any one, then squares and so on. C is 0
+    for smooth races.
     """
 
     cage: Array
@@ -70,10 +70,10 @@ def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[
 @njit_inline
 def wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
-    cell, ball, x = wave_cell(track, angle)
+    cell, spacing, x = wave_cell(track, angle)
     row = 2 * track.row_size
-    c3, c2 = track.waviness[race, cell, ball], track.waviness[race, cell, row + ball]
-    c1, c0 = track.waviness[race, cell, 2 * row + ball], track.waviness[race, cell, 3 * row + ball]
+    c3, c2 = track.waviness[race, cell, spacing], track.waviness[race, cell, row + spacing]
+    c1, c0 = track.waviness[race, cell, 2 * row + spacing], track.waviness[race, cell, 3 * row + spacing]
     return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * waves_per_radian(track)
 
 
@@ -89,10 +89,10 @@ def wave_cell(track: Track, angle: float) -> tuple[int, int, float]:
     0 to 1."""
     cells, turns = track.waviness.shape[1], angle * TURNS_PER_RADIAN
     spacings = (turns - math.floor(turns)) * track.row_size
-    ball = min(int(spacings), track.row_size - 1)
-    place = (spacings - ball) * cells
+    spacing = min(int(spacings), track.row_size - 1)
+    place = (spacings - spacing) * cells
     cell = min(int(place), cells - 1)
-    return cell, ball, place - cell
+    return cell, spacing, place - cell
 
 
 @njit_inline

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, njit_lean
 from physics.assembly import assemble
-from physics.contact.forces import Contacts, set_time
+from physics.contact.forces import Contacts, move_to, set_time
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.scene import Scene
 from physics.statics.rest import Hold, elastic, solve_at
@@ -52,7 +52,7 @@ def rest_at(
     contacts: Contacts, motion: MotionModel, time: float, x: float, y: float, tolerance: float
 ) -> tuple[float, float, Hold]:
     """Where the shaft rests (m, m) at `time` (s), looked for from the place (x, y) expected, and what holds there."""
-    set_time(contacts, time)
+    move_to(contacts, time)
     load_x, load_y = outer_load(motion, time)
     return _settle(contacts, load_x, load_y, x, y, tolerance)
 

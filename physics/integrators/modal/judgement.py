@@ -121,11 +121,9 @@ def error_of(contacts: Contacts, memory: Memory, step: float) -> float:
     """Momentum (N s) by which the step that was just made is wrong."""
     if is_carried(memory, step):
         error = carried_error(memory, step)
-        return (
-            error
-            if memory.marks[BUMPY] == 0
-            else max(error, passed_over(contacts, memory.noted, memory.clock[TIME], step))
-        )
+        if memory.marks[BUMPY] == 1:
+            error = max(error, passed_over(contacts, memory.noted, memory.clock[TIME], step))
+        return error
     error = resolution_error(contacts, memory.noted, memory.midway, step)
     return error if error > 0.0 else flight_error(memory, step)
 

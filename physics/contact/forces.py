@@ -116,16 +116,16 @@ def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, tim
     pace = speed * waves_per_radian(track)
     inner_pace = pace - track.shaft_speed * waves_per_radian(track)
     # Unsigned places need no look at their sign, so that the loop over the balls takes vectors.
-    one, two, three = np.uint64(2 * row), np.uint64(4 * row), np.uint64(6 * row)
+    squares, slopes, depths = np.uint64(2 * row), np.uint64(4 * row), np.uint64(6 * row)
     for first in range(0, balls.shape[2] - row + 1, row):
         outer, outer_spacing, x = wave_cell(track, angle + balls[cage, PLACE, first])
         inner, inner_spacing, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
         for j in range(np.uint64(row)):
             a, b, here = np.uint64(outer_spacing) + j, np.uint64(inner_spacing) + j, np.uint64(first) + j
-            a3, a2, a1 = waves[0, outer, a], waves[0, outer, a + one], waves[0, outer, a + two]
-            b3, b2, b1 = waves[1, inner, b], waves[1, inner, b + one], waves[1, inner, b + two]
-            outer_depth = ((a3 * x + a2) * x + a1) * x + waves[0, outer, a + three]
-            inner_depth = ((b3 * z + b2) * z + b1) * z + waves[1, inner, b + three]
+            a3, a2, a1 = waves[0, outer, a], waves[0, outer, a + squares], waves[0, outer, a + slopes]
+            b3, b2, b1 = waves[1, inner, b], waves[1, inner, b + squares], waves[1, inner, b + slopes]
+            outer_depth = ((a3 * x + a2) * x + a1) * x + waves[0, outer, a + depths]
+            inner_depth = ((b3 * z + b2) * z + b1) * z + waves[1, inner, b + depths]
             balls[cage, FLOOR, here] += outer_depth + inner_depth
             outer_slope, inner_slope = (3.0 * a3 * x + 2.0 * a2) * x + a1, (3.0 * b3 * z + 2.0 * b2) * z + b1
             balls[cage, FALL, here] += outer_slope * pace + inner_slope * inner_pace

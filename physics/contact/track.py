@@ -71,9 +71,9 @@ def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[
 def wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
     cell, spacing, x = wave_cell(track, angle)
-    row = 2 * track.row_size
-    c3, c2 = track.waviness[race, cell, spacing], track.waviness[race, cell, row + spacing]
-    c1, c0 = track.waviness[race, cell, 2 * row + spacing], track.waviness[race, cell, 3 * row + spacing]
+    waves, further = track.waviness, 2 * track.row_size
+    c3, c2 = waves[race, cell, spacing], waves[race, cell, spacing + further]
+    c1, c0 = waves[race, cell, spacing + 2 * further], waves[race, cell, spacing + 3 * further]
     return ((c3 * x + c2) * x + c1) * x + c0, ((3.0 * c3 * x + 2.0 * c2) * x + c1) * waves_per_radian(track)
 
 

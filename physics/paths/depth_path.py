@@ -75,7 +75,8 @@ class Paths(NamedTuple):
     `places` (N, 3): the row of `pieces` in which each path begins, its number of pieces, and its slots a radian.
     `pieces` (P + N, 4): where each piece begins (rad), its cells a radian, its number of cells, and the row of `cubics`
     (C, 4) in which they begin; behind the pieces of a path one more row, for its last break. From its first break to
-    its last a path is also divided into equal slots, SLOTS a row: `slots` are the pieces in which they begin.
+    its last a path is also divided into equal slots, SLOTS a row: `slots` are the pieces in which they begin, counted
+    from the path's first, so that a piece is found in few steps however many there are.
     """
 
     places: Array

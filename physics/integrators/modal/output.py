@@ -72,7 +72,11 @@ def keep_outer(
     sample: int,
     outer: Array,
 ) -> None:
-    """Write the outer ring's motion of one sample. Given single arrays, as each costs a call more than its work."""
+    """Write the outer ring's motion of one sample into `outer` (3, T, 2), from the amplitudes `state` (12,) by what the
+    flow `read`s (11, 12), the loads' `rest` (2, 11) and the contact `force` (N).
+
+    Given single arrays: each that is handed over costs about as much as its work.
+    """
     for axis in range(2):
         outer[0, sample, axis] = weigh(read[OUTER], axis * AXIS, state, axis) + rest[axis, OUTER]
         outer[1, sample, axis] = weigh(read[OUTER_SPEED], axis * AXIS, state, axis) + rest[axis, OUTER_SPEED]
@@ -100,8 +104,8 @@ def keep_outer_inside(
     sample: int,
     outer: Array,
 ) -> None:
-    """Write the outer ring's motion at the samples inside a stride, from their weights (S, 172) alone, as
-    `write_inside` does the resonator's acceleration.
+    """Write the outer ring's motion at the samples inside a stride into `outer` (3, T, 2), from their weights (S, 172)
+    and the `course` (2, 5) of the contact force alone, as `write_inside` does the resonator's acceleration.
 
     The stride begins with the amplitudes `start` (12,) behind `sample`; `loads` (2, 11) are the flow's, constant and
     turning with the shaft, which has turned by the first of `turns` (rad) then and by the second from sample to sample.

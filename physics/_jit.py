@@ -190,7 +190,8 @@ def _without_owner(context: Any, builder: Any, kind: Any, value: Any) -> Any:
 def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
     """The Python function behind a compiled one, to be specialised anew."""
     compiled: Any = kernel
-    return cast(Callable[..., Any], compiled.py_func)
+    # With NUMBA_DISABLE_JIT set, a kernel is its Python function.
+    return cast(Callable[..., Any], getattr(compiled, "py_func", compiled))
 
 
 def nothing_cached() -> bool:

@@ -40,7 +40,7 @@ class Trace:
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `chaotic`: errors grow faster than shorter steps could reduce them, so compare spectra, not samples.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
-    `unlocated_changes` counts changes of contact that were taken at a step's end because one step held too many.
+    `unlocated_changes` counts changes of contact that many tries did not locate; they were taken at the ends of steps.
     """
 
     rate: float

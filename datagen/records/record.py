@@ -198,12 +198,12 @@ def _missed(scenario: Scenario, trace: Trace) -> str:
 
 
 def _unlocated(trace: Trace) -> str:
-    """What changes of contact that crowd within a step mean for the reader; empty if there are none."""
+    """What changes of contact that were not located mean for the reader; empty if there are none."""
     if trace.unlocated_changes == 0:
         return ""
     return (
-        f"{trace.unlocated_changes} changes of contact crowd within single steps and were taken at their ends: release "
-        "and regain are that much less sure there"
+        f"{trace.unlocated_changes} changes of contact could not be located and were taken at the ends of their steps: "
+        "release and regain are that much less sure there"
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.contact.contact_set import count_changes, reset_contact
+from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
 from physics.integrators.march import (
@@ -31,9 +31,9 @@ from physics.integrators.output import (
     LOGGED,
     NOT_FINITE,
     OUT_OF_STEPS,
-    UNLOCATED,
     Grid,
     Output,
+    change_unlocated,
     record,
     toggle,
 )
@@ -138,8 +138,7 @@ def _settle(
         toggle(contacts.balls, ball, time, output)
     elif changed > 0:
         press_state(contacts, now)
-        output.tally[UNLOCATED] += count_changes(contacts)
-        reset_contact(contacts)
+        change_unlocated(contacts, time, output)
 
 
 @njit

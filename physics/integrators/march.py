@@ -17,7 +17,17 @@ from physics._jit import njit, specialise
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
 from physics.integrators.events import Way, earliest_change, relative_motion
-from physics.integrators.output import DONE, LOG_FULL, LOGGED, NOT_FINITE, UNLOCATED, Grid, Output, record, toggle
+from physics.integrators.output import (
+    DONE,
+    LOG_FULL,
+    LOGGED,
+    NOT_FINITE,
+    Grid,
+    Output,
+    change_unlocated,
+    record,
+    toggle,
+)
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
 from physics.integrators.stops import Stops, next_kink, passed_kinks
 from physics.integrators.trial import Trial
@@ -190,8 +200,7 @@ def _cross(
                 continue
             set_time(contacts, target)
         elif changed > 0:
-            output.tally[UNLOCATED] += changed
-            reset_contact(contacts)
+            change_unlocated(contacts, target, output)
         now[:] = then
         time = beyond
         if beyond > target:

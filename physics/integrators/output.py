@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
-from physics.contact.forces import ACTIVE, FORCE, of_ball
+from physics.contact.contact_set import touches
+from physics.contact.forces import ACTIVE, FORCE, Contacts, of_ball
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
 
 Array = NDArray[np.float64]
@@ -63,6 +64,17 @@ def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
         output.change_ball[place] = ball
         output.change_made[place] = made
         output.tally[LOGGED] += 1
+
+
+@njit_lean
+def change_unlocated(contacts: Contacts, time: float, output: Output) -> None:
+    """Let every ball that contradicts the contact set, from what `press` left, change sides at `time` (s)."""
+    balls = contacts.balls
+    for cage in range(balls.shape[0]):
+        for place in range(balls.shape[2]):
+            if touches(contacts, cage, place) != (balls[cage, ACTIVE, place] > 0.5):
+                toggle(balls, cage * balls.shape[2] + place, time, output)
+                output.tally[UNLOCATED] += 1
 
 
 @njit

@@ -92,6 +92,37 @@ def test_in_every_corner_the_default_keeps_the_accuracy_asked_for(corner, refere
     assert rms(trace.acceleration - exact) < 1e-3 * rms(exact)
 
 
+def test_no_change_of_contact_is_lost_at_a_spall_as_narrow_as_a_tenth_of_a_milliradian(reference_scene):
+    """Its ball changes sides at 67 m/s of compression, where one digit of time is more than a step may be wrong by."""
+    scene = reference_scene("F1", 0.05, speed_factor=3.0, slip_seed=1)
+    narrow = changed(scene, spall={"extent": 1e-4, "depth": 3e-6, "entry_taper": 3e-5, "exit_taper": 3e-5})
+    exact = simulate(narrow, RATE, method="reference")
+    trace = simulate(narrow, RATE, accuracy=1e-6)
+    assert trace.unlocated_changes == 0
+    assert trace.changes.time.size == exact.changes.time.size
+    assert rms(trace.acceleration - exact.acceleration) < 1e-4 * rms(exact.acceleration)
+
+
+@pytest.mark.parametrize(("speed", "longer", "seed"), [(1.0, 3.0, 3), (2.0, 2.0, 1)])
+def test_contact_that_is_made_at_a_vertical_wall_is_located_and_logged(speed, longer, seed, reference_scene):
+    scene = reference_scene("F1", 0.2, speed_factor=speed, slip_seed=seed)
+    wall = changed(scene, spall={"extent": longer * scene.spalls[0].extent, "exit_taper": 0.0})
+    trace = simulate(wall, RATE)
+    assert trace.unlocated_changes == 0
+    assert trace.changes.made.any()
+    for row, ball in set(zip(trace.changes.row.tolist(), trace.changes.ball.tolist(), strict=True)):
+        made = trace.changes.made[(trace.changes.row == row) & (trace.changes.ball == ball)]
+        assert made[0] != trace.changes.initial[row - 1, ball - 1]
+        assert np.all(made[1:] != made[:-1])
+
+
+def test_what_the_film_does_before_a_vertical_wall_is_no_error_behind_it(reference_scene):
+    wall = changed(reference_scene("F1", 1.0, slip_seed=1), spall={"exit_taper": 0.0})
+    exact = simulate(wall, RATE, method="exponential_rk4", substeps=8, estimate_error=False).acceleration
+    trace = simulate(wall, RATE)
+    assert rms(trace.acceleration - exact) < trace.error_estimate * rms(exact) < 1e-3 * rms(exact)
+
+
 @pytest.mark.parametrize("method", MARCHES)
 def test_without_load_nothing_moves_by_any_method(method, reference_scene):
     scene = changed(reference_scene("F1", 0.02), operation={"load": 0.0})

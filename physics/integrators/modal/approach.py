@@ -11,8 +11,8 @@ import math
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.contact_set import count_changes, touches
-from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts, Law
-from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FLOOR, LAW, Contacts, Law, compression_of
+from physics.integrators.march import KINK_NUDGE_SHARE, MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may_shrink
 from physics.integrators.modal.memory import (
     BALL,
@@ -39,6 +39,8 @@ UNIT_ERROR = 0.29
 # A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
 # as this many; its time is corrected by no more than this share of the last step.
 CHANGE_SHARE, CHANGE_FACTOR, MOST_MISSED = 0.3, 3.0, 0.5
+# Two instants whose difference is below this share of them are one: time is not known better.
+ONE_INSTANT = 4.5e-16
 
 
 @njit_pasted
@@ -91,9 +93,11 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
         cage, place = marks[BALL] // size, marks[BALL] % size
         if not _changes_at_zero(contacts, memory, cage, place) or _wrong_by(contacts, cage, place, step) <= tolerance:
             return False
-        late = _late(contacts, cage, place)
+        late, then = _late(contacts, cage, place), clock[TIME] + step
+        if abs(late) <= ONE_INSTANT * then or is_met_at_wall(contacts, marks[BALL], then, grid.interval):
+            return False
         next_sample = (marks[CELL] // UNITS + 1) * grid.interval
-        if abs(late) <= MOST_MISSED * step and clock[TIME] + step - late < next_sample:
+        if abs(late) <= MOST_MISSED * step and then - late < next_sample:
             marks[TRIED] += 1
             clock[LEFT] = step - late
             return late > 0.0
@@ -102,6 +106,18 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
         marks[BALL] = NO_BALL
         clock[PACE] = min(clock[PACE], step)
     return past
+
+
+@njit_inner
+def is_met_at_wall(contacts: Contacts, ball: int, time: float, interval: float) -> bool:
+    """Whether the path under a `ball` that is pressed at `time` (s), or just before, jumps there from where it was
+    free; `interval` (s) is that of the samples."""
+    balls, size, nudge = contacts.balls, contacts.balls.shape[2], KINK_NUDGE_SHARE * interval
+    floor, compression = balls[ball // size, FLOOR, ball % size], balls[ball // size, COMPRESSION, ball % size]
+    # The rings do not move in so short a time: only the floor differs.
+    above, _ = compression_of(contacts, ball, time - nudge, 0.0, 0.0, 0.0, 0.0)
+    below, _ = compression_of(contacts, ball, time + nudge, 0.0, 0.0, 0.0, 0.0)
+    return compression + floor + above < 0.0 < compression + floor + below
 
 
 @njit_inline

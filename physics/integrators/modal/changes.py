@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner
-from physics.contact.contact_set import count_changes, reset_contact
-from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
+from physics.contact.contact_set import touches
+from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.approach import meet_change
 from physics.integrators.modal.flow import LinearFlow
@@ -15,6 +15,7 @@ from physics.integrators.modal.location import locate
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
+    BUDGET,
     CAREFUL,
     CELL,
     LEFT,
@@ -25,7 +26,7 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-from physics.integrators.output import UNLOCATED, Output, toggle
+from physics.integrators.output import Output, change_unlocated, toggle
 from physics.integrators.trial import Trial
 
 Array = NDArray[np.float64]
@@ -39,6 +40,18 @@ def change_sides(balls: Array, memory: Memory, output: Output) -> None:
     """Let the ball of the contact change ahead change sides now."""
     toggle(balls, memory.marks[BALL], memory.clock[TIME], output)
     memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
+
+
+@njit_inner
+def left_out(contacts: Contacts, step: float) -> float:
+    """Momentum (N s) by which a `step` (s) is wrong, at most, in which balls changed sides at unknown instants: their
+    forces at its end, all along."""
+    balls, force = contacts.balls, 0.0
+    for cage in range(balls.shape[0]):
+        for place in range(balls.shape[2]):
+            if touches(contacts, cage, place) != (balls[cage, ACTIVE, place] > 0.5):
+                force += abs(balls[cage, LAW, place])
+    return force * step
 
 
 @njit_inline
@@ -63,8 +76,8 @@ def look(
         return AGAIN
     if marks[TRIED] >= MOST_CHANGES_PER_STEP:
         if contradicted:
-            output.tally[UNLOCATED] += count_changes(contacts)
-            reset_contact(contacts)
+            clock[BUDGET] += left_out(contacts, trial.step) ** 2
+            change_unlocated(contacts, trial.time + trial.step, output)
         return TAKE
     share, ball, speed = locate(contacts, flow, memory, trial, grazing)
     if ball < 0:

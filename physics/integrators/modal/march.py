@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from physics._jit import njit_lean, njit_pasted
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
-from physics.integrators.march import SMALLEST_STEP_SHARE
-from physics.integrators.modal.approach import leads_astray
+from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
+from physics.integrators.modal.approach import is_met_at_wall, leads_astray
 from physics.integrators.modal.between import set_between
 from physics.integrators.modal.bumps import is_bumpy
 from physics.integrators.modal.carried import step_carried
@@ -150,7 +150,14 @@ def arrive(contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, ste
         clock[LEFT] -= step
         if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
             return False
+        at_wall = is_met_at_wall(contacts, marks[BALL], clock[TIME], grid.interval)
         change_sides(contacts.balls, memory, output)
+        if at_wall:
+            # As behind any kink, what follows reads the far side.
+            beyond = clock[TIME] + KINK_NUDGE_SHARE * grid.interval
+            if marks[ON_GRID] == 0:
+                clock[TIME] = beyond
+            set_time(contacts, beyond)
         return True
     if choice.beyond > choice.end:
         set_time(contacts, choice.beyond)

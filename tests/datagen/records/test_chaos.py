@@ -112,11 +112,11 @@ def test_a_tame_record_is_not(scenario):
 
 
 def test_changes_of_contact_that_could_not_be_located_are_told(scenario, monkeypatch):
-    def crowded(*scene, **choices):
+    def unlocated(*scene, **choices):
         return replace(simulate(*scene, **choices), unlocated_changes=3)
 
-    monkeypatch.setattr("datagen.records.record.simulate", crowded)
-    assert "3 changes of contact crowd within single steps" in make_record(scenario).labels["validity"]
+    monkeypatch.setattr("datagen.records.record.simulate", unlocated)
+    assert "3 changes of contact could not be located" in make_record(scenario).labels["validity"]
 
 
 def test_an_error_below_what_noise_hides_is_no_missed_accuracy(monkeypatch):

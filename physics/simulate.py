@@ -55,9 +55,10 @@ def simulate(
     estimate of the modal method are of what comes from t = 0 on.
 
     By default the modal method chooses its own steps so that the relative RMS error of the acceleration stays within
-    `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made;
-    where nothing slips, it stops when the response repeats itself from ball to ball (unless more is to be kept, or not
-    with `repeat` False).
+    `accuracy`, or the error itself within `least_error` (m/s², RMS) where that is more, and says what error it made:
+    an `error_estimate` above that says that it was not reached, as where edges are narrower than the shortest step, or
+    that the response is chaotic. Where nothing slips, it stops when the response repeats itself from ball to ball
+    (unless more is to be kept, or not with `repeat` False).
     Other methods take `substeps` fixed steps a sample (and are meant if they are given); None starts from the fewest
     that resolve the fastest mode and doubles them, up to 32, until a pilot of a few ball passes differs from one at
     half the step by no more than `accuracy`; without `estimate_error` there is no pilot and no doubling. A rate
@@ -71,7 +72,7 @@ def simulate(
     keep_freed_memory()
     method = method or (MODAL if substeps is None else "exponential_rk4")
     _check_request(scene, rate, method, model, substeps, keep_force or keep_outer, accuracy, least_error, fastest_path)
-    _check_lead_in(scene, lead_in)
+    _check_lead_in(scene, lead_in, rate)
     kept = Kept(keep_state, keep_force, keep_outer)
 
     def respond(scene: Scene, accuracy: float) -> Trace:
@@ -173,12 +174,12 @@ def _check_request(
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
 
-def _check_lead_in(scene: Scene, lead_in: float) -> None:
+def _check_lead_in(scene: Scene, lead_in: float, rate: float) -> None:
     known_from = max((cage.knot_start for cage in scene.cages if cage.knot_values), default=-math.inf)
     if not 0.0 <= lead_in < math.inf:
         problem = f"lead_in = {lead_in!r} s; it must be 0 or more, and finite"
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
-    if -lead_in < known_from:
+    if -round(lead_in * rate) / rate < known_from:
         problem = f"lead_in = {lead_in!r} s; the cage's slip is known from {known_from:g} s on"
         raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 

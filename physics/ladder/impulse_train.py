@@ -28,6 +28,9 @@ from physics.trace import ContactChanges, Trace
 
 Array = NDArray[np.float64]
 
+# Instants of a record whose stiffness and damping are averaged for its modes.
+MEAN_TIMES = 64
+
 
 class Edges(NamedTuple):
     """Steps of force on the outer ring: `time` (E,) s, `row`, `ball` (E,) from 1, `angle` (E,) of the ball, rad,
@@ -42,15 +45,19 @@ class Edges(NamedTuple):
     all: NDArray[np.bool_]
 
 
-def _healthy(scene: Scene) -> tuple[Array, Array, Array]:
-    """Position (2,), stiffness (2, 2) and film damping (2, 2) of the bearing without spalls at t = 0."""
-    sound = replace(scene, spalls=(), imperfections=Imperfections())
-    rest = carried(sound, np.zeros(1))
-    return rest.displacement[0], matrix(rest.stiffness[0]), matrix(rest.damping[0])
+def _sound(scene: Scene) -> Scene:
+    """The same machine without spalls and imperfections."""
+    return replace(scene, spalls=(), imperfections=Imperfections())
 
 
-def _edges_of(scene: Scene, index: int, position: Array) -> list[Edges]:
-    """The entry edge and the exit edge of every pass over one spall."""
+def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
+    """Stiffness (2, 2) and film damping (2, 2) of the bearing without spalls, means over the record."""
+    rest = carried(_sound(scene), np.linspace(0.0, scene.duration, MEAN_TIMES))
+    return matrix(rest.stiffness.mean(axis=0)), matrix(rest.damping.mean(axis=0))
+
+
+def _edges_of(scene: Scene, index: int) -> list[Edges]:
+    """The entry edge and the exit edge of every pass over one spall, under the load of each instant."""
     spall, bearing = scene.spalls[index], scene.rig.bearing
     depth = build_path(spall, bearing).largest_depth
     speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
@@ -60,7 +67,8 @@ def _edges_of(scene: Scene, index: int, position: Array) -> list[Edges]:
     for sign, taper in ends:
         crossed = passages(scene, index, sign * (spall.extent - taper) / 2.0, 0.0, scene.duration)
         angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
-        radial = position[0] * np.cos(angle) + position[1] * np.sin(angle) - bearing.clearance
+        position = carried(_sound(scene), crossed.time).displacement
+        radial = position[:, 0] * np.cos(angle) + position[:, 1] * np.sin(angle) - bearing.clearance
         before, inside = np.maximum(radial * alpha, 0.0), np.maximum((radial - depth) * alpha, 0.0)
         lost = bearing.load_deflection * (before**bearing.exponent - inside**bearing.exponent)
         found.append(
@@ -83,8 +91,8 @@ def _ball_angle(scene: Scene, spall: Spall, ball: NDArray[np.int64], time: Array
     return np.asarray(turned + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
 
 
-def _edges(scene: Scene, position: Array) -> Edges:
-    parts = [part for index in range(len(scene.spalls)) for part in _edges_of(scene, index, position)]
+def _edges(scene: Scene) -> Edges:
+    parts = [part for index in range(len(scene.spalls)) for part in _edges_of(scene, index)]
     none, number = np.zeros(0), np.zeros(0, np.int16)
     empty = Edges(none, number, number, none, none, none, np.zeros(0, np.bool_))
     columns = [np.concatenate(column) for column in zip(empty, *parts, strict=True)]
@@ -120,8 +128,8 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
     load.
     """
     samples, rig = round(scene.duration * rate), scene.rig
-    position, stiffness, film = _healthy(scene)
-    edges = _edges(scene, position)
+    stiffness, film = _mean_contacts(scene)
+    edges = _edges(scene)
     squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())
     damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
     alpha = math.cos(rig.bearing.contact_angle)

@@ -106,12 +106,14 @@ def rolled_path(
     lifted = hanging_reach(race, bump_radius, ball_radius, proud)
     # Whole steps beyond the edges, so that both edges stay on a point of the grid.
     beyond = math.ceil(lifted / (fine * points_a_step))
-    hung = hanging_reach(race, bump_radius, ball_radius, max(float(probe.max()) + proud, 1e-9))
+    hung = hanging_reach(race, bump_radius, ball_radius, max(float(probe.max(initial=0.0)) + proud, 1e-9))
     reach = math.ceil(1.05 * hung / fine) + 2
     first, last = -beyond * points_a_step, (count + beyond) * points_a_step
     points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
-    # The corner itself belongs to the good race: a ball can hang on it.
     depth = np.where(np.abs(points) < half * (1.0 - 1e-12), surface(points), 0.0)
+    # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.
+    corners = [reach - first, reach - first + count * points_a_step]
+    depth[corners] = np.minimum(probe[[0, -1]], 0.0)
     drop, slope, contact = _roll(depth, reach, points_a_step, fine, race_radius, ball_radius, outer)
     return RolledPath(points[reach : points.size - reach : points_a_step], drop, slope, contact / points_a_step)
 

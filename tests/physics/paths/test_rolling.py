@@ -236,6 +236,17 @@ def test_a_bump_that_stands_proud_lifts_the_ball_before_the_edge(race):
 
 
 @RACES
+def test_a_ball_climbs_a_proud_plateau_on_its_very_corner(race):
+    proud, turn = 3e-6, -1 if race == "outer" else 1
+    arc, drop = roll(gap(-proud), race)
+    before = (arc < -HALF) & (drop < -ROUNDING)
+    corner, psi = RACE[race] + turn * proud, -HALF - arc[before]
+    sag = BALL - np.sqrt(BALL**2 - corner**2 * np.sin(psi) ** 2) + turn * corner * (1 - np.cos(psi))
+    assert before.sum() > 20
+    np.testing.assert_allclose(drop[before], sag - proud, atol=1e-12)
+
+
+@RACES
 def test_both_edges_stay_exact_when_a_bump_stands_proud(race):
     arcs, drop = roll(ridge, race)
     beside_exit = (arcs > HALF - 5e-3) & (arcs < HALF)

@@ -156,6 +156,15 @@ def test_a_lead_in_of_which_the_slip_is_not_known_is_refused():
         started_earlier(scene, 0.1)
 
 
+def test_a_lead_in_whose_whole_samples_begin_before_the_slip_is_known_is_refused():
+    scene = reference_scene("G1", 0.02, slip_seed=1)
+    known = -scene.cage.knot_start
+    rate = (math.floor(known * RATE) + 0.6) / known
+    with pytest.raises(SimulationFailed, match="the cage's slip is known from") as caught:
+        simulate(scene, rate, lead_in=known)
+    assert caught.value.outcome is Outcome.BAD_REQUEST
+
+
 @pytest.mark.parametrize("method", ["exponential_rk4", "reference"])
 def test_other_methods_have_a_lead_in_too(method):
     scene = slipping("G1", 0.01, lead_in=0.01)

@@ -16,7 +16,7 @@ SAID = ("location", "score", "alarm")
 
 def record_predictions(tested: Tested) -> list[dict[str, Any]]:
     """One entry a record: why it was rejected ("" if it was not), how many glitches were drawn over, and of each model
-    the location, the score, the alarm above which a spall is called, and probabilities."""
+    the location, the score, the alarm above which a spall is called, and probabilities, NaN without features."""
     found = []
     for place, (_, row) in enumerate(tested.labels.iterrows()):
         entry: dict[str, Any] = {

@@ -38,7 +38,11 @@ def race_balance(truth: Any, said: Any) -> float:
 
 
 def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
-    """Scores of the rule and of each model on one corpus, and what was said of each record."""
+    """Scores of the rule and of each model on one corpus, and what was said of each record.
+
+    A fault that nobody could judge counts as an error in every accuracy, that of its race too; the area under the ROC
+    and the calibration leave out records without a score, healthy or not.
+    """
     rule = tested.verdicts[0]
     found: dict[str, Any] = {
         "corpus": str(tested.folder),
@@ -57,6 +61,7 @@ def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
 def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
     truth, scored, owner = tested.truth, tested.truth != UNKNOWN, tested.owner
     faulty, healthy = np.isin(truth, RACES), truth == "none"
+    ranked = scored & np.isfinite(said.score)
     alarms = healthy & np.isin(said.location, RACES)
     found: dict[str, Any] = {
         "faults_balanced_accuracy": asdict(
@@ -68,7 +73,7 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
             )
         ),
         "race_accuracy": asdict(bootstrap(accuracy, truth[faulty], said.race[faulty], groups=owner[faulty])),
-        "detection_auc": asdict(area_interval(faulty[scored], said.score[scored], groups=owner[scored])),
+        "detection_auc": asdict(area_interval(faulty[ranked], said.score[ranked], groups=owner[ranked])),
         "healthy": int(healthy.sum()),
         "false_alarms": int(alarms.sum()),
         "false_alarm_share": asdict(_alarm_share(alarms[healthy], owner[healthy])),
@@ -96,7 +101,8 @@ def _alarm_share(alarms: NDArray[np.bool_], owner: NDArray[np.int64]) -> Interva
 
 def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
     """Paired differences of the model and the rule."""
-    truth, scored = tested.truth, tested.truth != UNKNOWN
+    truth = tested.truth
+    ranked = (truth != UNKNOWN) & np.isfinite(said.score) & np.isfinite(rule.score)
     faulty = np.isin(truth, RACES)
     own, owner = truth[faulty], tested.owner[faulty]
     differences = {
@@ -105,7 +111,7 @@ def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, A
         ),
         "race_accuracy": paired_difference(accuracy, own, said.race[faulty], rule.race[faulty], groups=owner),
         "detection_auc": area_interval(
-            faulty[scored], said.score[scored], rule.score[scored], groups=tested.owner[scored]
+            faulty[ranked], said.score[ranked], rule.score[ranked], groups=tested.owner[ranked]
         ),
     }
     return {"minus_rule": {name: asdict(difference) for name, difference in differences.items()}}
@@ -116,7 +122,7 @@ def _calibration(tested: Tested, said: Verdicts) -> dict[str, Any]:
 
     Chance adds to the calibration error of every draw, so that the interval of a small error may lie above it.
     """
-    known = tested.truth != UNKNOWN
+    known = (tested.truth != UNKNOWN) & np.isfinite(said.probability[:, 0])
     spall, probability = np.isin(tested.truth[known], RACES), 1.0 - said.probability[known, 0]
     if np.unique(spall).size < 2:
         return {}

@@ -15,9 +15,8 @@ from datagen.benchmark.training import Model
 from datagen.benchmark.votes import averaged, joined
 from labels.classifier.classes import decide, location_probability
 from labels.classifier.log_odds import logit, probability_of
-from labels.classifier.rule import STRENGTHS, Rule
+from labels.classifier.rule import Rule
 from labels.features.conditioning import Array
-from labels.features.table import FEATURE_NAMES
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
@@ -30,8 +29,11 @@ RULE = "rule"
 @dataclass(frozen=True)
 class Verdicts:
     """What one model says of R records: its `location` (none, outer, inner or rejected), the race it would name, a
-    `score` that rises with suspicion, the `alarm` that it must pass for a spall to be called (NaN for records without
-    features), and probabilities of CLASSES (R, 5; empty for the rule)."""
+    `score` that rises with suspicion, the `alarm` that it must pass for a spall to be called, and probabilities of
+    CLASSES (R, 5; empty for the rule).
+
+    Of a record without features it says nothing: the race is "rejected", score, alarm and probabilities are NaN.
+    """
 
     name: str
     location: NDArray[np.str_]
@@ -94,13 +96,13 @@ def judge(
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
     means = averaged(rows.table, rows.record, records)
-    missing = ~np.isfinite(means[:, FEATURE_NAMES.index(STRENGTHS[0])])
-    table = np.where(missing[:, None], 0.0, means)
+    score = rule.score(means)
+    missing = np.isnan(score)
     rejected = missing | (reasons != "")
-    location = np.where(rejected, REJECTED, rule.locations(table))
+    location = np.where(rejected, REJECTED, rule.locations(means))
     condition = np.where(location == "none", "healthy", np.where(rejected, REJECTED, "line"))
-    score, alarm = np.where(missing, 0.0, rule.score(table)), np.where(missing, np.nan, rule.threshold)
-    return Verdicts(RULE, location, condition, rule.races(table), score, alarm)
+    race = np.where(missing, REJECTED, rule.races(means))
+    return Verdicts(RULE, location, condition, race, score, np.where(missing, np.nan, rule.threshold))
 
 
 def _of_model(
@@ -110,10 +112,11 @@ def _of_model(
     said = np.char.split(called)
     where = location_probability(votes)
     place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
-    rejected = np.isnan(alarm) | (reasons != "") | (where[np.arange(place.size), place] < doubt)
+    missing = np.isnan(alarm)
+    rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < doubt)
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
     location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
-    race = np.where(where[:, 1] >= where[:, 2], "outer", "inner")
+    race = np.where(missing, REJECTED, np.where(where[:, 1] >= where[:, 2], "outer", "inner"))
     return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], alarm, votes)
 
 
@@ -121,13 +124,14 @@ def vote(
     model: Model, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
 ) -> tuple[Array, NDArray[np.str_], Array]:
     """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
-    is called, and the alarm that its rows agree on, NaN if it has none; `owner` (N,) are the records of the rows."""
+    is called, and the alarm that its rows agree on; `owner` (N,) are the records of the rows.
+
+    A record without rows is called healthy, with NaN for probabilities and alarm.
+    """
     own = model.probability(table) if len(table) else np.empty((0, 5))
     votes = joined(own, owner, records)
     levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
     margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
-    missing = ~np.isfinite(votes[:, 0])
-    votes = np.where(missing[:, None], np.array([1.0, 0.0, 0.0, 0.0, 0.0]), votes)
     return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), probability_of(alarm)
 
 

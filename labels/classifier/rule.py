@@ -28,11 +28,11 @@ class Rule:
     threshold: float
 
     def score(self, table: Array) -> Array:
-        """Height (N,) of the higher family of each row: what is compared with the threshold."""
+        """Height (N,) of the higher family of each row, NaN for a row of NaN: what is compared with the threshold."""
         return np.asarray(strengths(table).max(axis=1))
 
     def races(self, table: Array) -> NDArray[np.str_]:
-        """The race (N,) of the higher family, whether it passes the threshold or not."""
+        """The race (N,) of the higher family, whether it passes the threshold or not; of finite rows only."""
         return np.asarray(RACES)[strengths(table).argmax(axis=1)]
 
     def locations(self, table: Array) -> NDArray[np.str_]:

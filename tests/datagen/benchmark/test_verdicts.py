@@ -128,6 +128,53 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     assert ",too short,0,rejected," in table[3]
 
 
+def with_unjudged_records():
+    """Six records of each kind told apart by their score, and after each kind four records that have no features."""
+    kinds, looked_at = np.repeat(["none", "outer", "inner"], 10), np.tile(np.arange(10) < 6, 3)
+    labels, rows = corpus(kinds.tolist())
+    table = np.zeros((18, len(FEATURE_NAMES)))
+    table[6:12, FEATURE_NAMES.index("outer_strength")] = table[12:, FEATURE_NAMES.index("inner_strength")] = 2.0
+    rejected = dict.fromkeys(np.flatnonzero(~looked_at).tolist(), "too short")
+    rows = replace(rows, table=table, record=np.flatnonzero(looked_at), rejected=rejected)
+    healthy, outer, inner = [0.8, 0.1, 0.1, 0.0, 0.0], [0.2, 0.8, 0.0, 0.0, 0.0], [0.2, 0.0, 0.8, 0.0, 0.0]
+    models = [Model("said", Said([healthy] * 6 + [outer] * 6 + [inner] * 6), 0.5)]
+    return judge(Path("made-up"), labels, rows, RULE, models, 0.0, True), ~looked_at
+
+
+def test_nothing_is_said_of_a_record_without_features():
+    tested, unjudged = with_unjudged_records()
+    for said in tested.verdicts:
+        assert set(said.race[unjudged]) == set(said.location[unjudged]) == {REJECTED}
+        assert np.isnan(said.score[unjudged]).all()
+        assert np.isfinite(said.score[~unjudged]).all()
+    assert np.isnan(tested.verdicts[1].probability[unjudged]).all()
+    last = summarise(tested)["predictions"][-1]
+    assert np.isnan(last["rule"]["score"])
+    assert np.isnan(list(last["said"]["location_probability"].values())).all()
+
+
+def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_no_calibration():
+    models = summarise(with_unjudged_records()[0], False)["models"]
+    for scores in models.values():
+        assert scores["race_accuracy"]["value"] == pytest.approx(0.6)
+        assert scores["faults_balanced_accuracy"]["value"] == pytest.approx(0.6)
+        assert scores["detection_auc"]["value"] == 1.0  # all that has a score is told apart
+    assert models["said"]["calibration_error"] == pytest.approx(0.2, abs=1e-5)  # 0.2 of none and 0.8 of all
+    assert sum(models["said"]["reliability"]["records"]) == 18
+    assert models["said"]["minus_rule"]["detection_auc"]["value"] == 0.0
+    assert models["said"]["minus_rule"]["race_accuracy"]["value"] == 0.0
+
+
+def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
+    labels, rows = corpus(["none", "outer", "inner"])
+    rows = replace(rows, table=rows.table[:0], record=rows.record[:0], rejected=dict.fromkeys(range(3), "too short"))
+    tested = judge(Path("made-up"), labels, rows, RULE, [Model("said", Said([]), 0.5)], 0.0, True)
+    said = summarise(tested, False)["models"]["said"]
+    assert said["race_accuracy"]["value"] == 0.0
+    assert np.isnan(said["detection_auc"]["value"])
+    assert "calibration_error" not in said
+
+
 def test_the_rows_of_a_record_agree_on_its_alarm():
     model = Model("said", Said([[0.5, 0.5, 0.0, 0.0, 0.0]] * 2), Alarm(0.2, 0.8))
     table = np.zeros((2, len(FEATURE_NAMES)))

@@ -77,8 +77,9 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
         "healthy": int(healthy.sum()),
         "false_alarms": int(alarms.sum()),
         "false_alarm_share": asdict(_alarm_share(alarms[healthy], owner[healthy])),
-        "healthy_bearings": int(tested.labels["bearing_id"][healthy].nunique()),
-        "alarming_bearings": int(tested.labels["bearing_id"][alarms].nunique()),
+        "healthy_bearings": _known_bearings(tested, healthy),
+        "alarming_bearings": _known_bearings(tested, alarms),
+        "healthy_of_unknown_bearing": int((tested.labels["bearing_id"][healthy] == UNKNOWN).sum()),
         "rejected": int((said.location == REJECTED).sum()),
         "confusion": {
             "rows": [*LOCATIONS, UNKNOWN],
@@ -89,6 +90,12 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
     if said.name != RULE:
         found |= _against_rule(tested, said, rule) | _calibration(tested, said) | _condition(tested, said)
     return found | {"accuracy_against": _against(tested, said)}
+
+
+def _known_bearings(tested: Tested, chosen: NDArray[np.bool_]) -> int:
+    """Of how many bearings the `chosen` (R,) records are, apart from those of which it is unknown."""
+    names = tested.labels["bearing_id"][chosen]
+    return int(names[names != UNKNOWN].nunique())
 
 
 def _alarm_share(alarms: NDArray[np.bool_], owner: NDArray[np.int64]) -> Interval:

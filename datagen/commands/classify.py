@@ -103,16 +103,24 @@ def _tell(results: dict[str, Any]) -> None:
 def _line(scores: dict[str, Any]) -> str:
     keys = (("faults", "faults_balanced_accuracy"), ("race", "race_accuracy"), ("AUC", "detection_auc"))
     parts = [f"{word} {_interval(scores[key])}" for word, key in keys]
-    bearings = f"{scores['alarming_bearings']}/{scores['healthy_bearings']} bearings"
     share = _bracket(scores["false_alarm_share"])
     counts = (
-        f"false alarms {scores['false_alarms']}/{scores['healthy']}{share} ({bearings})",
+        f"false alarms {scores['false_alarms']}/{scores['healthy']}{share}{_bearings(scores)}",
         f"rejected {scores['rejected']}",
     )
     if "calibration_error" in scores:
         around = _bracket(scores["calibration_error_interval"])
         parts.append(f"calibration error {scores['calibration_error']:.3f}{around}")
     return ", ".join([*parts, *counts])
+
+
+def _bearings(scores: dict[str, Any]) -> str:
+    """Of how many bearings the false alarms are, and of how many records that is unknown; nothing without healthy."""
+    known, unknown = scores["healthy_bearings"], scores["healthy_of_unknown_bearing"]
+    parts = [f"{scores['alarming_bearings']}/{known} bearings"] if known else []
+    if unknown:
+        parts.append(f"{unknown} of unknown bearings" if known else "bearings unknown")
+    return f" ({', '.join(parts)})" if parts else ""
 
 
 def _interval(found: dict[str, float]) -> str:

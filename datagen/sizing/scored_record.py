@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.event_scores import EventScores
+from labels.schema import UNKNOWN
 
 LONGEST_SCORED_SPACINGS = 0.9
 FEWEST_SAMPLES, FEWEST_SPACINGS = 5.0, 1.0 / 50.0
@@ -77,6 +78,11 @@ class ScoredRecord:
     events_in_time: EventScores
     events_in_arc: EventScores
     known_truth: bool
+
+    @property
+    def bearing_group(self) -> tuple[str, str]:
+        """What the records of one bearing share and no other has; where the bearing is unknown, no two records do."""
+        return (self.bearing_id, "") if self.bearing_id != UNKNOWN else (UNKNOWN, str(self.record))
 
     @property
     def found(self) -> bool:

@@ -14,7 +14,10 @@ from datagen.sizing.summary import extent_error, mean_with_interval
 
 def summarise_stated(records: list[ScoredRecord]) -> dict[str, Any] | None:
     """Mean relative error of the arc, with its interval over bearings, of the told records of a stated extent whose
-    passes are unknown, and how many stated healthy were told a size; None if there is nothing of either."""
+    passes are unknown, and how many stated healthy were told a size; None if there is nothing of either.
+
+    Records of unknown bearings count as bearings of their own.
+    """
     asked = [one for one in records if one.asked and not one.known_truth]
     spalled = [one for one in asked if math.isfinite(one.true_extent) and one.true_extent > 0.0]
     healthy = [one for one in asked if one.race == "none"]

@@ -22,8 +22,8 @@ RESAMPLES = 2000
 
 @dataclass(frozen=True)
 class Figure:
-    """A measured mean over `count` records with its 90 % interval of a bootstrap over their virtual bearings, and its
-    target if there is one."""
+    """A measured mean over `count` records with its 90 % interval of a bootstrap over their virtual bearings (NaN from
+    fewer than two), and its target if there is one."""
 
     name: str
     value: float
@@ -118,7 +118,7 @@ def _figure(
     kept = np.isfinite(values)
     if not kept.any():
         return Figure(name, math.nan, math.nan, math.nan, 0)
-    low, high = _bootstrap(values[kept], np.array([one.bearing_id for one in records])[kept])
+    low, high = _bootstrap(values[kept], _bearings(records)[kept])
     mean, count = float(values[kept].mean()), int(kept.sum())
     if target is None:
         return Figure(name, mean, low, high, count)
@@ -132,13 +132,23 @@ def _coverage(what: str, told: list[ScoredRecord], inside: Callable[[ScoredRecor
                   bool(0.85 <= plain.value <= 0.95))  # fmt: skip
 
 
-def _bootstrap(values: Array, bearing: NDArray[np.str_], weights: Array | None = None) -> tuple[float, float]:
-    """Interval of the mean of `values` (N,) over virtual bearings drawn anew, each with all its records.
+def _bearings(records: list[ScoredRecord]) -> NDArray[np.int64]:
+    """A number (N,) of the bearing of each record; a record of an unknown bearing has one of its own."""
+    groups = [one.bearing_group for one in records]
+    number = {group: place for place, group in enumerate(sorted(set(groups)))}
+    return np.array([number[group] for group in groups], dtype=np.int64)
 
-    With `weights` (N,) that of the sum of the values over the sum of the weights; NaN without any weight.
+
+def _bootstrap(values: Array, bearing: NDArray[np.int64], weights: Array | None = None) -> tuple[float, float]:
+    """Interval of the mean of `values` (N,) over virtual bearings (N,) drawn anew, each with all its records.
+
+    With `weights` (N,) that of the sum of the values over the sum of the weights. NaN for fewer than two bearings, and
+    without any weight.
     """
     _, group = np.unique(bearing, return_inverse=True)
     total, count = np.bincount(group, values), np.bincount(group, weights)
+    if count.size < 2:
+        return math.nan, math.nan
     drawn = stream(0, "part", 0, "bootstrap").integers(count.size, size=(RESAMPLES, count.size))
     above, below = total[drawn].sum(axis=1), count[drawn].sum(axis=1)
     if not below.any():
@@ -151,7 +161,7 @@ def mean_with_interval(name: str, values: list[float], records: list[ScoredRecor
     """The mean of the `values` of these records under its name, and its interval as name_low and name_high."""
     if not values:
         return dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
-    low, high = _bootstrap(np.array(values), np.array([one.bearing_id for one in records]))
+    low, high = _bootstrap(np.array(values), _bearings(records))
     return {name: float(np.mean(values)), f"{name}_low": low, f"{name}_high": high}
 
 
@@ -228,13 +238,13 @@ def _long(records: list[ScoredRecord]) -> dict[str, Any]:
 def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
     """Arc error of told records before and after correction by one other told record of the same virtual bearing."""
     told = [one for one in records if one.scorable and one.found]
-    of_bearing: dict[str, list[ScoredRecord]] = {}
+    of_bearing: dict[tuple[str, str], list[ScoredRecord]] = {}
     for one in told:
-        of_bearing.setdefault(one.bearing_id, []).append(one)
+        of_bearing.setdefault(one.bearing_group, []).append(one)
     known_for = {bearing: _two_surest(own) for bearing, own in of_bearing.items()}
     before, after = [], []
     for one in told:
-        known = next((other for other in known_for[one.bearing_id] if other.record != one.record), None)
+        known = next((other for other in known_for[one.bearing_group] if other.record != one.record), None)
         if known is not None:
             factor = known_size_factor(known.extent, known.true_extent)
             before.append(extent_error(one))
@@ -268,7 +278,7 @@ def _event_scores(records: list[ScoredRecord], scores: Callable[[ScoredRecord], 
     """Precision, recall and F1 of all events together, each with its interval."""
     own = [scores(one) for one in records]
     total = sum(own, NO_SCORES)
-    bearing = np.array([one.bearing_id for one in records])
+    bearing = _bearings(records)
     counts = np.array([(one.matched, one.found, one.true) for one in own], dtype=np.float64)
     matched, found, true = counts.reshape(-1, 3).T
     parts = {"precision": (total.precision, matched, found), "recall": (total.recall, matched, true),

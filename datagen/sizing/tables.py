@@ -20,12 +20,17 @@ def summary_table(summary: dict[str, Any]) -> Table:
     for figure in summary["figures"]:
         if figure.count:
             met = "" if figure.met is None else "yes" if figure.met else "NO"
-            interval = f"{figure.low:.3f} to {figure.high:.3f}"
+            interval = _reach(figure.low, figure.high)
             table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
     for name, events in summary["events"].items():
-        interval = f"{events['f1_low']:.3f} to {events['f1_high']:.3f}" if events["true"] else ""
+        interval = _reach(events["f1_low"], events["f1_high"]) if events["true"] else ""
         table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", interval, str(events["true"]))
     return table
+
+
+def _reach(low: float, high: float) -> str:
+    """The ends of an interval; nothing where there is none."""
+    return f"{low:.3f} to {high:.3f}" if math.isfinite(low) else ""
 
 
 def estimates_table(records: list[ScoredRecord]) -> Table:
@@ -67,8 +72,9 @@ def stated_sentence(stated: dict[str, Any]) -> str:
     if stated["records"]:
         parts.append(f"of {stated['records']} records of a stated extent {stated['told']} were told a size")
     if stated["told"]:
-        interval = f"[{stated['arc_error_low']:.3f}, {stated['arc_error_high']:.3f}]"
-        parts.append(f"mean error of their arc {stated['arc_error']:.3f} {interval} of it")
+        low, high = stated["arc_error_low"], stated["arc_error_high"]
+        interval = f" [{low:.3f}, {high:.3f}]" if math.isfinite(low) else ""
+        parts.append(f"mean error of their arc {stated['arc_error']:.3f}{interval} of it")
         parts.append(f"{stated['told_on_the_stated_race']} on the stated race")
     if stated["healthy"]:
         parts.append(f"{stated['healthy_told']} of {stated['healthy']} stated healthy were told a size")

@@ -13,6 +13,7 @@ from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
 from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
+from datagen.commands.classify import _line
 from labels.classifier.alarm import CLEARNESS, Alarm
 from labels.classifier.rule import Rule
 from labels.features.table import FEATURE_NAMES
@@ -199,6 +200,26 @@ def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
     found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
     assert (found["healthy"], found["false_alarms"]) == (5, 3)
     assert (found["healthy_bearings"], found["alarming_bearings"]) == (3, 2)
+
+
+@pytest.mark.parametrize(
+    ("bearings", "counts", "words"),
+    [
+        (["a", "a", "b", "c"], (3, 2, 0), " (2/3 bearings)"),
+        (["a", "a", "unknown", "unknown"], (1, 1, 2), " (1/1 bearings, 2 of unknown bearings)"),
+        (["unknown"] * 4, (0, 0, 4), " (bearings unknown)"),
+    ],
+)
+def test_unknown_bearings_are_not_counted_as_one(bearings, counts, words):
+    labels, rows = corpus(["none"] * 4)
+    labels["bearing_id"] = bearings
+    spall = np.array([0.9, 0.1, 0.9, 0.1])
+    model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 4))])), 0.5)
+    tested = judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)
+    found = summarise(tested, False)["models"]["said"]
+    names = ("healthy_bearings", "alarming_bearings", "healthy_of_unknown_bearing")
+    assert tuple(found[name] for name in names) == counts
+    assert f"{words}, rejected 0" in _line(found)
 
 
 def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():

@@ -10,6 +10,7 @@ import pytest
 
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.summary import mean_with_interval, summarise
+from datagen.sizing.tables import stated_sentence
 from labels.event_scores import EventScores
 
 BAD, GOOD = EventScores(0, 10, 10), EventScores(10, 10, 10)
@@ -43,12 +44,47 @@ def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., Score
 def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
     summary = summarise([scored(lag=math.nan, extent=math.nan, candidates=())], True)
     (row,) = summary["by"]["race"]
-    assert (row["no_estimate"], row["no_estimate_low"]) == (1.0, 1.0)
+    assert row["no_estimate"] == 1.0
     assert math.isnan(row["lag_error"])
     assert math.isnan(row["lag_error_low"])
     assert math.isnan(summary["events"]["within_100_us, told records"]["f1_low"])
     assert math.isnan(summary["events"]["within_100_us"]["recall_high"])
     assert math.isnan(summary["long"]["error_of_nearest_candidate_high"])
+
+
+def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., ScoredRecord]) -> None:
+    values = np.random.default_rng(0).standard_normal(400)
+    found = mean_with_interval("error", values.tolist(), [scored(bearing_id="unknown", record=k) for k in range(400)])
+    reach = 1.645 * values.std() / math.sqrt(400)  # of a normal distribution; 2000 draws tell quantiles to 4 %
+    assert found["error_high"] - found["error"] == pytest.approx(reach, rel=0.1)
+    # Of two records one is drawn twice in a quarter of the draws each.
+    pair = mean_with_interval("error", [0.0, 1.0], [scored(bearing_id="unknown", record=k) for k in range(2)])
+    assert (pair["error_low"], pair["error"], pair["error_high"]) == (0.0, 0.5, 1.0)
+
+
+@pytest.mark.parametrize(("bearing", "count"), [("b", 9), ("unknown", 1)])
+def test_one_bearing_alone_gives_a_mean_no_interval(
+    scored: Callable[..., ScoredRecord], bearing: str, count: int
+) -> None:
+    records = [scored(bearing_id=bearing, record=k) for k in range(count)]
+    found = mean_with_interval("error", np.linspace(0.0, 1.0, count + 1)[1:].tolist(), records)
+    assert math.isfinite(found["error"])
+    assert math.isnan(found["error_low"])
+    assert math.isnan(found["error_high"])
+    events = summarise(records, True)["events"]["within_100_us"]
+    assert math.isnan(events["recall_low"])
+
+
+def test_no_interval_is_printed_where_there_is_none() -> None:
+    stated = {"records": 3, "told": 2, "told_on_the_stated_race": 2, "healthy": 0, "healthy_told": 0,
+              "arc_error": 0.303, "arc_error_low": math.nan, "arc_error_high": math.nan}  # fmt: skip
+    assert "mean error of their arc 0.303 of it" in stated_sentence(stated)
+    assert "0.303 [0.100, 0.500] of it" in stated_sentence(stated | {"arc_error_low": 0.1, "arc_error_high": 0.5})
+
+
+def test_one_record_of_an_unknown_bearing_tells_nothing_of_another(scored: Callable[..., ScoredRecord]) -> None:
+    records = [scored(record=k, bearing_id="unknown") for k in range(3)]
+    assert summarise(records, True)["known_size_of_another_record"]["records"] == 0
 
 
 def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored: Callable[..., ScoredRecord]) -> None:

@@ -135,7 +135,8 @@ class RecordingSettings(Table):
     tach: Tach | None = None
     """Pulse channel that gives the speed."""
     nominal_speed_rpm: Annotated[float | FromVariable, number("nominal_speed_rpm")] | None = None
-    """Speed to assume where the variable of `speed_rpm` or `speed_hz` is absent, or where neither is given."""
+    """Speed to assume where the variable of `speed_rpm` or `speed_hz` is absent, where `tach` is absent or shows no
+    pulse, or where none of these is given. A tach must agree with it within 20 %."""
     bearing: str | BearingNumbers | None = None
     """Name of a bearing in the catalogue, or its geometry."""
     cut_s: Positive | None = None

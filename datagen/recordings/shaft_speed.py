@@ -25,6 +25,8 @@ FEWEST_PULSES = 3
 # A shaft that stays this near (turns) to one that turns evenly is steady. The fourth harmonic of balls that pass five
 # times a turn then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1
+NOMINAL_WITHIN = 0.2
+"""Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor."""
 
 
 @dataclass(frozen=True)
@@ -40,18 +42,35 @@ class ShaftSpeed:
 def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
     """The speed in each piece, a first sample and the one after the last, of `size` in all.
 
-    `rate` is the vibration's, Hz.
+    `rate` is the vibration's, Hz. The nominal speed, if stated, stands for a tach that the file lacks or that shows no
+    pulse; BadInput if a tach disagrees with it.
     """
     tach = source.setting("tach")
-    return (
-        _stated_speeds(source, rate, size, pieces) if tach is None else _tach_speeds(source, tach, rate, size, pieces)
-    )
+    times = None if tach is None else _pulse_times(source, tach, rate, size)
+    if times is None:
+        return _stated_speeds(source, rate, size, pieces)
+    _require_nominal(source, tach, times, size / rate)
+    return _tach_speeds(source, tach, times, rate, pieces)
+
+
+def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], duration: float) -> None:
+    """Raises BadInput if the mean speed over the pulses at the `times` (N,) in a recording of that `duration`, s, is
+    not about the nominal one, where this is known."""
+    nominal = source.or_none("nominal_speed_rpm")
+    if nominal is None:
+        return
+    mean = tach_speed(source, tach, times, 0.0, duration)
+    if abs(mean - nominal) > NOMINAL_WITHIN * nominal:
+        raise BadInput(
+            f"its pulses say {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}", str(source.path),
+            "tach.pulses_per_rev", tach.pulses_per_rev,
+            f"the pulses of one revolution, which bring both within {NOMINAL_WITHIN:.0%}, or another nominal speed",
+        )  # fmt: skip
 
 
 def _tach_speeds(
-    source: Source, tach: Tach, rate: float, size: int, pieces: list[tuple[int, int]]
+    source: Source, tach: Tach, times: NDArray[np.float64], rate: float, pieces: list[tuple[int, int]]
 ) -> Iterator[ShaftSpeed]:
-    times = _pulse_times(source, tach, rate, size)
     for start, stop in pieces:
         rpm = tach_speed(source, tach, times, start / rate, stop / rate)
         angle = shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate)
@@ -116,15 +135,22 @@ def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArr
     return None
 
 
-def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64]:
-    """When the pulses rise, s; raises BadInput if they cannot be timed by the vibration of `size` samples at `rate`."""
+def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64] | None:
+    """When the pulses (N,) rise, s; None where there are none to be found and a nominal speed is known.
+
+    Raises BadInput if they cannot be timed by the vibration of `size` samples at `rate`, Hz.
+    """
+    dispensable = source.or_none("nominal_speed_rpm") is not None
+    if dispensable and not source.variable(tach.variable, "tach.variable"):
+        return None
     pulses = source.array(tach.variable, "tach.variable")
     if tach.rate_hz is None and pulses.size != size:
         raise BadInput(
             f"holds {pulses.size} samples and the vibration {size}", str(source.path), "tach.variable", tach.variable,
             "as many, or the sampling rate of the pulses in tach.rate_hz",
         )  # fmt: skip
-    return rising_edges(pulses, tach.threshold) / (tach.rate_hz or rate)
+    edges = rising_edges(pulses, tach.threshold)
+    return edges / (tach.rate_hz or rate) if edges.size or not dispensable else None
 
 
 def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> float:

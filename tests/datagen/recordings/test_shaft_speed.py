@@ -82,6 +82,52 @@ def test_pulses_of_another_length_need_a_rate_of_their_own(bring: Bring, mat: Ma
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([3000.0])
 
 
+TACH = (
+    '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\ntach = {variable = "tacho"}\n'
+)
+PULSES = np.tile([0.0] * 39 + [1.0], 10)  # one in 40 ms
+
+
+def test_the_nominal_speed_stands_for_a_tach_that_is_absent_or_without_pulses(bring: Bring, mat: Mat) -> None:
+    mat("absent.mat")
+    mat("dead.mat", tacho=np.zeros(400))
+    mat("pulsing.mat", tacho=PULSES)
+    labels = bring(TACH + "nominal_speed_rpm = 1480\n").labels.set_index("recording")
+    assert labels["speed_rpm"].to_dict() == pytest.approx({"absent": 1480.0, "dead": 1480.0, "pulsing": 1500.0})
+    assert labels["speed_basis"].to_dict() == {"absent": "nominal", "dead": "nominal", "pulsing": "tach"}
+
+
+def test_without_a_nominal_speed_a_tach_must_be_there_and_pulse(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", tacho=np.zeros(400))
+    with pytest.raises(BadInput, match=r'a\.mat: tach\.variable = "tacho": 0 pulses'):
+        bring(TACH)
+    mat("a.mat")
+    for nominal in ("", 'nominal_speed_rpm = {variable = "plate"}\n'):  # which the file does not hold
+        with pytest.raises(BadInput, match=r'a\.mat: tach\.variable = "tacho": the file has no such variable'):
+            bring(TACH + nominal)
+
+
+@pytest.mark.parametrize(("nominal", "agrees"), [(1251, True), (1249, False), (1874, True), (1876, False), (0, False)])
+def test_a_tach_is_refused_that_is_a_fifth_of_the_nominal_speed_off(
+    bring: Bring, mat: Mat, nominal: int, agrees: bool
+) -> None:
+    mat("a.mat", tacho=PULSES)  # 1500 rpm, a fifth above 1250 and a fifth below 1875
+    spec = TACH + f"cut_s = 0.2\nnominal_speed_rpm = {nominal}\n"
+    if agrees:
+        assert bring(spec).labels["speed_rpm"].tolist() == pytest.approx([1500.0] * 2)
+        return
+    told = rf"a\.mat: tach\.pulses_per_rev = 1\.0: its pulses say 1500 .*, but nominal_speed_rpm = {nominal}; allowed"
+    with pytest.raises(BadInput, match=told):
+        bring(spec)
+
+
+def test_a_piece_of_a_changing_speed_may_be_far_off_the_nominal_one(bring: Bring, mat: Mat) -> None:
+    slow_then_fast = np.concatenate([np.tile([0.0] * 39 + [1.0], 5), np.tile([0.0] * 19 + [1.0], 10)])
+    mat("a.mat", tacho=slow_then_fast)  # 15 pulses in 0.4 s, 14 periods from 39.5 to 399.5 ms
+    corpus = bring(TACH + "cut_s = 0.2\nnominal_speed_rpm = 2300\n")
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([1500.0, 3000.0])
+
+
 def test_the_edges_of_a_recording_are_looked_for_once_however_many_its_pieces(
     bring: Bring, mat: Mat, monkeypatch: pytest.MonkeyPatch
 ) -> None:

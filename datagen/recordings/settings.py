@@ -142,7 +142,7 @@ class RecordingSettings(Table):
     cut_s: Positive | None = None
     """Length of the pieces that the recording is cut into, s; whole if not given. A shorter rest is left out."""
     envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
-    """Band of the stored envelope, Hz; by default 0.3 to 0.45 of the sampling rate."""
+    """Band of the stored envelope, Hz; by default the most impulsive band of the y axis."""
     recording: Name | None = None
     """Name of the record, which may hold {stem}, {number}, {folder}, {path} and {channel}; by default the file's name
     without its ending, and the channel's."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 from labels.features.conditioning import FEWEST_SAMPLES, SHARE_OF_NYQUIST
 from labels.features.kinematics import Kinematics
 
-UNKNOWN_MACHINE = "no speed or no geometry"
+UNKNOWN_SPEED = "speed unknown"
+UNKNOWN_GEOMETRY = "geometry unknown"
 NO_ROTATION = "speed not above 0"
 TOO_SHORT = "too short"
 TOO_FAST = "ball passes too fast for the rate"
@@ -27,7 +29,8 @@ def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int
     Empty if it can.
     """
     if kinematics is None:
-        return NO_ROTATION if float(labels["speed_rpm"]) <= 0.0 else UNKNOWN_MACHINE
+        speed = float(labels["speed_rpm"])
+        return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION if speed <= 0.0 else UNKNOWN_GEOMETRY
     duration = samples / rate
     if samples < FEWEST_SAMPLES or duration < SHORTEST or duration * kinematics.shaft_hz < FEWEST_TURNS:
         return TOO_SHORT

@@ -28,9 +28,9 @@ def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
 
 def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinematics | None:
     """The two ball pass orders add up to the number of balls, so either of them and that number give all."""
-    outer, inner, spin = (_number(labels, name) for name in ("bpfo", "bpfi", "bsf"))
+    outer, inner, spin, cage = (_number(labels, name) for name in ("bpfo", "bpfi", "bsf", "ftf"))
     if not math.isfinite(balls):
-        balls = round(outer + inner) if math.isfinite(outer + inner) else math.nan
+        balls = _ball_count(outer, inner, cage)
     if not math.isfinite(outer):
         outer = balls - inner
     if not (balls >= 3 and math.isfinite(outer) and 0.0 < outer < balls / 2.0):
@@ -38,6 +38,13 @@ def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinem
     ratio = 1.0 - 2.0 * outer / balls
     guessed = 0.5 / ratio * (1.0 - ratio**2)
     return Kinematics(int(balls), ratio, spin if math.isfinite(spin) else guessed, speed)
+
+
+def _ball_count(outer: float, inner: float, cage: float) -> float:
+    """Number of balls that follows from the ball pass orders of both races, or from the outer one's and the cage's; NaN
+    if neither pair is known."""
+    counts = outer + inner, outer / cage if cage > 0.0 else math.nan
+    return next((round(count) for count in counts if math.isfinite(count)), math.nan)
 
 
 def true_class(labels: Mapping[str, Any]) -> str:

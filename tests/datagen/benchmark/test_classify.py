@@ -9,7 +9,7 @@ import pandas
 import pytest
 from typer.testing import CliRunner
 
-from datagen.benchmark.fitness import UNKNOWN_MACHINE
+from datagen.benchmark.fitness import UNKNOWN_SPEED
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import machines, share_machines, unseen_records
@@ -302,7 +302,7 @@ def test_long_records_are_cut_into_equal_windows_that_lose_nothing():
 def test_a_record_without_a_speed_is_rejected_with_its_reason(tiny_corpus):
     labels = Corpus(tiny_corpus).labels.iloc[0].copy()
     labels["speed_rpm"] = np.nan
-    assert record_rows(np.zeros((100, 2)), labels, Reading()) == RecordRows([], UNKNOWN_MACHINE)
+    assert record_rows(np.zeros((100, 2)), labels, Reading()) == RecordRows([], UNKNOWN_SPEED)
 
 
 def test_noise_is_added_at_the_level_asked_and_another_in_each_draw(tiny_corpus):

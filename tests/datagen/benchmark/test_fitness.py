@@ -2,7 +2,7 @@
 
 import pytest
 
-from datagen.benchmark.fitness import NO_ROTATION, TOO_FAST, TOO_SHORT, UNKNOWN_MACHINE, unfit
+from datagen.benchmark.fitness import NO_ROTATION, TOO_FAST, TOO_SHORT, UNKNOWN_GEOMETRY, UNKNOWN_SPEED, unfit
 from datagen.benchmark.known import known_kinematics
 
 RATE = 12_000.0
@@ -24,8 +24,8 @@ def test_a_shaft_that_does_not_turn_is_no_running_machine(rpm):
 
 
 def test_what_is_unknown_is_said_to_be_unknown():
-    assert why_unfit(1.0, float("nan")) == UNKNOWN_MACHINE
-    assert why_unfit(1.0, 1800.0, pitch_diameter=float("nan")) == UNKNOWN_MACHINE
+    assert why_unfit(1.0, float("nan")) == UNKNOWN_SPEED == "speed unknown"
+    assert why_unfit(1.0, 1800.0, pitch_diameter=float("nan")) == UNKNOWN_GEOMETRY == "geometry unknown"
 
 
 # 120 rpm are 2 turns a second; 6000 rpm turn 9 times in 0.09 s, which is too short nevertheless.

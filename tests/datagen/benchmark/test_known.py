@@ -23,6 +23,20 @@ def test_both_ball_pass_orders_tell_the_number_of_balls():
     assert known_kinematics(UNKNOWN | {"bpfo": 3.585, "bpfi": 5.415, "speed_rpm": 1800.0}).balls == 9
 
 
+def test_the_orders_of_cage_and_outer_race_tell_the_number_of_balls():
+    # Of SKF 6205, as its maker rounds them: 3.585 / 0.398 is 9.008.
+    known = known_kinematics(UNKNOWN | {"bpfo": 3.585, "bpfi": math.nan, "ftf": 0.398, "speed_rpm": 1800.0})
+    assert known.balls == 9
+    assert (known.bpfo, known.bpfi) == (pytest.approx(3.585), pytest.approx(5.415))
+
+
+@pytest.mark.parametrize(
+    "orders", [{"ftf": 0.398}, {"bpfo": 3.585}, {"bpfo": 3.585, "ftf": 0.0}, {"bpfo": 3.6, "ftf": 0.9}]
+)
+def test_an_order_alone_or_one_of_no_bearing_tells_nothing(orders):
+    assert known_kinematics(UNKNOWN | {"speed_rpm": 1800.0} | orders) is None
+
+
 @pytest.mark.parametrize("labels", [GEOMETRY, GEOMETRY | {"speed_rpm": math.nan}, UNKNOWN | {"speed_rpm": 1800.0}])
 def test_without_speed_or_geometry_nothing_is_known(labels):
     assert known_kinematics(labels) is None

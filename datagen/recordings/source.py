@@ -83,11 +83,14 @@ class Source:
         return values
 
     def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str) -> BadInput:
-        if isinstance(self.arrays, Columns):
-            line, text = self.arrays.odd[chosen(self.arrays, wish, self.path, field)[0]]
+        name, places = chosen(self.arrays, wish, self.path, field)
+        if isinstance(self.arrays, Columns) and places is None:
+            line, text = self.arrays.odd[name]
             shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
             problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}"
             return BadInput(problem, f"{self.path}, line {line}", field, wish)
+        if size == 1:
+            return BadInput("is no finite number", str(self.path), field, wish)
         problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
         return BadInput(problem, str(self.path), field, wish)
 
@@ -109,8 +112,11 @@ class Source:
         if not isinstance(said, FromVariable):
             return None if said is None else float(said)
         found = choose(self.arrays, said.variable, self.path, name)
-        if found.dtype.kind not in "iuf" or not found.size or not np.isfinite(found).all():
+        if found.dtype.kind not in "iuf" or not found.size:
             raise BadInput("is no finite number", str(self.path), name, said.variable)
+        bad = np.flatnonzero(~np.isfinite(found))
+        if bad.size:
+            raise self._not_finite(bad, found.size, said.variable, name)
         if said.times:
             value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
         elif name in CONSTANT and np.ptp(found) > 0.0:

@@ -116,3 +116,22 @@ def test_a_last_column_that_is_not_empty_everywhere_is_kept(tmp_path: Path) -> N
     columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(header=False))
     assert columns["3"][2] == 7.0
     assert columns["2"].tolist() == [2.0, 4.0, 6.0]
+
+
+@pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ('rate_hz = {variable = "Zeit", times = true}',
+         r'a\.csv, line 4: rate_hz = "Zeit": 2 of 50 cells are not finite numbers, the first is "0,002"'),
+        ('rate_hz = 1000\nload_n = {variable = "Zeit[3]"}', r'a\.csv: load_n = "Zeit\[3\]": is no finite number'),
+    ],
+)  # fmt: skip
+def test_a_number_that_a_table_does_not_hold_is_told_with_line_and_cell(
+    setting: str, told: str, bring: Bring, tmp_path: Path
+) -> None:
+    times = [str(k / 1000.0) for k in range(50)]
+    times[2], times[3] = '"0,002"', "?"
+    rows = [f"{first!r},{time}" for (first, _), time in zip(CELLS, times, strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join(["a,Zeit", *rows]))
+    with pytest.raises(BadInput, match=told):
+        bring(SPEC.replace("rate_hz = 1000", setting))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from datagen.benchmark.training import Model, TrainingSet
+from labels.classifier.classes import CLASSES
 from labels.features.table import FEATURE_NAMES
 
 MOST_ROWS = 600
@@ -30,8 +31,6 @@ def importances(model: Model, training: TrainingSet) -> dict[str, float]:
 
 
 def _loss(model: Model, table: np.ndarray, classes: np.ndarray) -> float:
-    from labels.classifier.classes import CLASSES
-
     probability = model.probability(table)
     own = probability[np.arange(len(classes)), [CLASSES.index(name) for name in classes]]
     return float(-np.log(np.maximum(own, SMALLEST)).mean())

@@ -60,13 +60,12 @@ def lines_in(excess: Array, step: float) -> Lines:
 
 def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
     """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1."""
-    frequency = np.arange(excess.shape[-1]) * step
-    order = frequency / shaft_hz
     margin = max(SHAFT_MARGIN * shaft_hz, 1.01 * step)
-    near = (np.abs(order - np.round(order)) * shaft_hz <= margin) & (order > 0.5)
     # In a record of few turns the margin would cover a large part of the axis; then it counts nothing out.
     if margin > 0.12 * shaft_hz:
         return excess
+    order = np.arange(excess.shape[-1]) * step / shaft_hz
+    near = (np.abs(order - np.round(order)) * shaft_hz <= margin) & (order > 0.5)
     return np.where(near, 1.0, excess)
 
 

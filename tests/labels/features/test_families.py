@@ -76,6 +76,12 @@ def test_lines_of_the_shaft_do_not_count_for_a_family():
     assert without_shaft(excess, 0.1, 10.7).max() == 500.0
 
 
+def test_nothing_is_taken_off_for_the_shaft_in_a_record_of_a_few_turns():
+    excess = np.full((1, 400), 500.0)
+    assert without_shaft(excess, 1.25, 10.0).min() == 500.0  # eight turns: an eighth of an order between components
+    assert without_shaft(excess, 1.0, 10.0).min() == 1.0
+
+
 def test_bands_are_a_tree_and_never_narrower_than_asked():
     assert len(band_edges(8000.0, 500.0)) == 15
     assert len(band_edges(8000.0, 1500.0)) == 7

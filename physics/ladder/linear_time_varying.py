@@ -2,8 +2,11 @@
 
 M ẍ + C(t) ẋ + K(t) x = 0 in the deviations x from the quasi-static solution, which moves [P14 Eq. 28]. Stiffness,
 damping and the force at the quasi-static position are tabulated: over one ball spacing of cage angle where the scene
-repeats itself with the balls, slip or not, else over time. Outer ring and resonator are exact, as in the step of the
-nonlinear model, which is used here with a linear contact.
+repeats itself with the balls, slip or not (film forces are of the mean cage speed), else over time. Outer ring and
+resonator are exact, as in the step of the nonlinear model, which is used here with a linear contact.
+
+Steps are the fewest that are stable, and run over the jumps that the table has where contacts begin and end: at
+65 536 Hz this is off by 1 to 5 % of the RMS on the reference rigs, less at higher rates, and not estimated.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FLOOR, LAW, Con
 from physics.integrators.march import KINK_NUDGE_SHARE, MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may_shrink
 from physics.integrators.modal.memory import (
+    AT_WALL,
     BALL,
     BUDGET,
     CELL,
@@ -77,7 +78,8 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
     """Whether a `step` (s) on the way to a contact change has to be taken back: it is too coarse, or some ball is past
     its change.
 
-    Where the change is not where it was located, it is planned anew by one correction, or the plan is forgotten.
+    Where the change is not where it was located, it is planned anew by one correction, or the plan is forgotten. One at
+    a wall of the path is marked.
     """
     clock, marks, tolerance = memory.clock, memory.marks, memory.clock[TOLERANCE]
     error = error_of(contacts, memory, step)
@@ -94,7 +96,10 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
         if not _changes_at_zero(contacts, memory, cage, place) or _wrong_by(contacts, cage, place, step) <= tolerance:
             return False
         late, then = _late(contacts, cage, place), clock[TIME] + step
-        if abs(late) <= ONE_INSTANT * then or is_met_at_wall(contacts, marks[BALL], then, grid.interval):
+        if _is_met_at_wall(contacts, marks[BALL], then, grid.interval):
+            marks[AT_WALL] = 1
+            return False
+        if abs(late) <= ONE_INSTANT * then:
             return False
         next_sample = (marks[CELL] // UNITS + 1) * grid.interval
         if abs(late) <= MOST_MISSED * step and then - late < next_sample:
@@ -109,7 +114,7 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
 
 
 @njit_inner
-def is_met_at_wall(contacts: Contacts, ball: int, time: float, interval: float) -> bool:
+def _is_met_at_wall(contacts: Contacts, ball: int, time: float, interval: float) -> bool:
     """Whether the path under a `ball` that is pressed at `time` (s), or just before, jumps there from where it was
     free; `interval` (s) is that of the samples."""
     balls, size, nudge = contacts.balls, contacts.balls.shape[2], KINK_NUDGE_SHARE * interval

@@ -16,7 +16,7 @@ from physics._jit import njit_lean, njit_pasted
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
-from physics.integrators.modal.approach import is_met_at_wall, leads_astray
+from physics.integrators.modal.approach import leads_astray
 from physics.integrators.modal.between import set_between
 from physics.integrators.modal.bumps import is_bumpy
 from physics.integrators.modal.carried import step_carried
@@ -32,6 +32,7 @@ from physics.integrators.modal.judgement import (
     set_tolerance,
 )
 from physics.integrators.modal.memory import (
+    AT_WALL,
     BALL,
     BEFORE,
     BETWEEN,
@@ -143,27 +144,27 @@ def write_sample(
 def arrive(contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, step: float, output: Output) -> bool:
     """What follows a `step` (s) that was taken as the `choice` says; True if it changes the contact force.
 
-    A ball changes sides if this was the instant; behind a kink, the force is that of its far side.
+    A ball changes sides if this was the instant; behind a kink or a wall, the force is that of its far side.
     """
     clock, marks = memory.clock, memory.marks
     if marks[BALL] != NO_BALL:
         clock[LEFT] -= step
         if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
             return False
-        at_wall = is_met_at_wall(contacts, marks[BALL], clock[TIME], grid.interval)
         change_sides(contacts.balls, memory, output)
-        if at_wall:
-            # As behind any kink, what follows reads the far side.
-            beyond = clock[TIME] + KINK_NUDGE_SHARE * grid.interval
-            if marks[ON_GRID] == 0:
-                clock[TIME] = beyond
-            set_time(contacts, beyond)
-        return True
-    if choice.beyond > choice.end:
-        set_time(contacts, choice.beyond)
+        if marks[AT_WALL] == 0:
+            return True
+        marks[AT_WALL] = 0
+        beyond = clock[TIME] + KINK_NUDGE_SHARE * grid.interval
+        if marks[ON_GRID] == 0:
+            clock[TIME] = beyond
+    elif choice.beyond > choice.end:
+        beyond = choice.beyond
         clock[BEFORE], clock[PACE] = 0.0, min(clock[PACE], grid.interval)
-        return True
-    return False
+    else:
+        return False
+    set_time(contacts, beyond)
+    return True
 
 
 @njit_pasted

@@ -30,8 +30,9 @@ NEARLY = 1e-6
 TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(9)
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
 # of the contact change ahead, whether `time` is a whole number of units, balls that pull now, sample from which on the
-# tolerance is to be set anew, 1 where a step may pass over bumps of a path unseen.
-CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY = range(9)
+# tolerance is to be set anew, 1 where a step may pass over bumps of a path unseen, 1 where the contact change ahead
+# is at a wall of the path.
+CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL = range(10)
 
 
 class Memory(NamedTuple):
@@ -98,6 +99,6 @@ def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shap
         noted=np.zeros((cages, 2, balls)),
         midway=np.zeros((cages, 2, balls)),
         clock=np.zeros(9),
-        marks=np.zeros(9, dtype=np.int64),
+        marks=np.zeros(10, dtype=np.int64),
         fastest=flow.fastest,
     )

@@ -10,13 +10,14 @@ from datagen.benchmark.verdicts import Tested
 from labels.classifier.classes import condition_probability, location_probability
 from labels.schema import CONDITIONS, LOCATIONS
 
-FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked")
+FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "shocks_cut")
 SAID = ("location", "score", "alarm")
 
 
 def record_predictions(tested: Tested) -> list[dict[str, Any]]:
-    """One entry a record: why it was rejected ("" if it was not), how many glitches were drawn over, and of each model
-    the location, the score, the alarm above which a spall is called, and probabilities, NaN without features."""
+    """One entry a record: why it was rejected ("" if it was not), how many glitches were drawn over and shocks cut, and
+    of each model the location, the score, the alarm above which a spall is called, and probabilities, NaN without
+    features."""
     found = []
     for place, (_, row) in enumerate(tested.labels.iterrows()):
         entry: dict[str, Any] = {
@@ -26,6 +27,7 @@ def record_predictions(tested: Tested) -> list[dict[str, Any]]:
             "truth": str(row["location"]),
             "rejected": str(tested.reasons[place]),
             "despiked": int(tested.glitches[place]),
+            "shocks_cut": int(tested.shocks[place]),
         }
         for said in tested.verdicts:
             numbers = str(said.location[place]), float(said.score[place]), float(said.alarm[place])

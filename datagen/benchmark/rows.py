@@ -20,6 +20,7 @@ from labels.features.analysis import analyse
 from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES, Array, fast_length
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
+from labels.features.shocks import without_shocks
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning
 from labels.variables import SHAFT_ANGLE
@@ -66,23 +67,26 @@ class Row:
 
 @dataclass(frozen=True)
 class RecordRows:
-    """The rows of one record, why it must not be classified ("" if it may), and how many glitches were drawn over."""
+    """The rows of one record, why it must not be classified ("" if it may), how many glitches were drawn over in it and
+    how many shocks cut."""
 
     rows: list[Row]
     reason: str
     glitches: int = 0
+    shocks: int = 0
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows (N, F) of the feature table, the record (N,) of each, per record why it must not be classified and how many
-    glitches it had (where any), and which rows (N,) had noise added (None: none)."""
+    """Rows (N, F) of the feature table, the record (N,) of each, per record why it must not be classified, how many
+    glitches and how many shocks it had (where any), and which rows (N,) had noise added (None: none)."""
 
     table: NDArray[Any]
     record: NDArray[np.int64]
     rejected: dict[int, str] = field(default_factory=dict)
     noisy: NDArray[np.bool_] | None = None
     glitches: dict[int, int] = field(default_factory=dict)
+    shocks: dict[int, int] = field(default_factory=dict)
 
 
 def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2) -> Rows:
@@ -102,10 +106,12 @@ def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, worker
     noisy = [rows.noisy for rows in found if rows.noisy is not None] or [np.empty(0, dtype=bool)]
     rejected: dict[int, str] = {}
     glitches: dict[int, int] = {}
+    shocks: dict[int, int] = {}
     for rows in found:
         rejected |= rows.rejected
         glitches |= rows.glitches
-    return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy), glitches)
+        shocks |= rows.shocks
+    return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy), glitches, shocks)
 
 
 def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
@@ -123,6 +129,7 @@ def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
         {record: own.reason for record, own in found.items() if own.reason},
         np.array([row.noisy for row in rows], dtype=bool),
         {record: own.glitches for record, own in found.items() if own.glitches},
+        {record: own.shocks for record, own in found.items() if own.shocks},
     )
 
 
@@ -142,15 +149,18 @@ def record_rows(
         return RecordRows([], reason)
     rows: list[Row] = []
     reasons: list[str] = []
-    glitches = 0
+    glitches = shocks = 0
     turns = kinematics.shaft_hz * len(signals) / rate
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
-        repaired, drawn_over = (signal, 0) if is_dead(signal) else without_glitches(signal, turns)
-        found = signal_rows(repaired, rate, kinematics, reading, [*_seed(labels), axis], turning)
-        glitches += drawn_over
+        drawn_over = cut = 0
+        if not is_dead(signal):
+            signal, drawn_over = without_glitches(signal, turns)
+            signal, cut = without_shocks(signal, turns)
+        found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
+        glitches, shocks = glitches + drawn_over, shocks + cut
         rows += found
         reasons += [row.reason for row in found] or [DEAD]
-    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches)
+    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks)
 
 
 def signal_rows(

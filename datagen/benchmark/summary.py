@@ -51,6 +51,7 @@ def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
         "locations": {name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
         "rejections": dict(Counter(str(reason) for reason in tested.reasons if reason)),
         "despiked": {"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
+        "shocks_cut": {"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
         "models": {verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
     }
     if predictions:

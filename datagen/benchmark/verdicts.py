@@ -48,7 +48,8 @@ class Verdicts:
 class Tested:
     """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
 
-    `reasons` (R,) say why a record was rejected, `glitches` (R,) how many were drawn over in it.
+    `reasons` (R,) say why a record was rejected, `glitches` (R,) how many were drawn over in it, `shocks`
+    (R,) how many were cut.
     """
 
     folder: Path
@@ -57,6 +58,7 @@ class Tested:
     classes: NDArray[np.str_]
     reasons: NDArray[np.str_]
     glitches: NDArray[np.int64]
+    shocks: NDArray[np.int64]
     verdicts: tuple[Verdicts, ...]
     imported: bool
 
@@ -83,7 +85,10 @@ def judge(
     """
     records = labels["record"].to_numpy(np.int64)
     reasons = np.array([rows.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
-    glitches = np.array([rows.glitches.get(record, 0) for record in records.tolist()], dtype=np.int64)
+    glitches, shocks = (
+        np.array([counts.get(record, 0) for record in records.tolist()], dtype=np.int64)
+        for counts in (rows.glitches, rows.shocks)
+    )
     verdicts = [_of_rule(rule, rows, records, reasons)]
     verdicts += [
         _of_model(model, raw if model.takes_windows and raw is not None else rows, records, reasons, doubt)
@@ -91,7 +96,7 @@ def judge(
     ]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
     classes = np.array([true_class(row) for _, row in labels.iterrows()], dtype=np.str_)
-    return Tested(folder, labels, truth, classes, reasons, glitches, tuple(verdicts), imported)
+    return Tested(folder, labels, truth, classes, reasons, glitches, shocks, tuple(verdicts), imported)
 
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
@@ -147,6 +152,7 @@ def pooled_draws(draws: list[Tested]) -> Tested:
         classes=np.concatenate([tested.classes for tested in draws]),
         reasons=np.concatenate([tested.reasons for tested in draws]),
         glitches=np.concatenate([tested.glitches for tested in draws]),
+        shocks=np.concatenate([tested.shocks for tested in draws]),
         verdicts=tuple(_pooled([tested.verdicts[place] for tested in draws]) for place in range(len(first.verdicts))),
     )
 

@@ -95,6 +95,8 @@ def _tell(results: dict[str, Any]) -> None:
             print(f"  rejected   {count}: {reason}")
         if test["despiked"]["glitches"]:
             print("  despiked   {glitches} glitches in {records} records".format(**test["despiked"]))
+        if test["shocks_cut"]["shocks"]:
+            print("  shocks cut {shocks} in {records} records".format(**test["shocks_cut"]))
         for noisy in test["noise"]:
             for name, scores in noisy["models"].items():
                 print(f"  {name:10} {noisy['snr_db']:g} dB: {_line(scores)}")

@@ -18,9 +18,18 @@ SPECTRUM_FLOOR_ORDERS = 3.0
 """Width, in orders of the shaft, of the blocks from which the floor under the lines of the vibration is taken."""
 SLIP_SPREAD = 0.007
 """Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle."""
+PRIOR_SPREAD = 0.008
+"""Standard deviation of the shaft's speed about the one stated, as a share."""
+PLACES = (45, 800)
+"""Fewest and most speeds that are tried."""
+BINS_BETWEEN = 0.5
+"""How far apart, in components of the spectrum, the highest harmonics of neighbouring speeds lie."""
 KNEE = 12.0
 """Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not set the speed."""
 DECISIVE = 12.0
+STANDS_OUT = 4.0
+"""Nats that noise gives one line in 500."""
+MORE_LINES = 4
 
 
 @dataclass(frozen=True)
@@ -49,20 +58,54 @@ def refine_speed(
     """The most likely shaft speed within the `tolerance` (a share) of the one given, 0 if that is exact.
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
-    slip comes to the strongest outer or inner family. Without evidence the speed given is kept.
+    slip comes to the strongest outer or inner family. Without evidence the speed given is kept. Where the shaft shows,
+    all harmonics that the spectra hold then tell it to a component of the highest: harmonics 40 to 50 of a shaft that
+    knocks lie where those of the races are looked for.
     """
-    step = spectrum.step
-    count = int(np.ceil(2.0 * tolerance * known.shaft_hz * SHAFT_HARMONICS / (0.5 * step))) + 1
-    places = max(45, min(count, 800)) // 2 * 2 + 1 if tolerance > 0.0 else 1
-    factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
-    speeds = known.shaft_hz * factors
-    shaft = _tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
     turning = lines_in(envelopes.excess[:1], envelopes.step)
-    modulation = _tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
-    comb = shaft.sum(axis=0) + modulation.sum(axis=0)
-    joint = comb + _families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / 0.008) ** 2
+    count = int(np.ceil(2.0 * tolerance * known.shaft_hz * SHAFT_HARMONICS / (BINS_BETWEEN * spectrum.step))) + 1
+    places = max(PLACES[0], min(count, PLACES[1])) // 2 * 2 + 1 if tolerance > 0.0 else 1
+    factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
+    comb = _comb(spectrum, turning, known, factors, (SHAFT_HARMONICS, 4))
+    joint = comb + _families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
     place = int(joint.argmax())
-    return Speed(float(speeds[place]), float(comb[place]))
+    factor, nats = float(factors[place]), float(comb[place])
+    if places > 1 and nats > 0.0:
+        factor = _sharpened(spectrum, turning, known, factor, float(factors[1] - factors[0]))
+    return Speed(known.shaft_hz * factor, nats)
+
+
+def _comb(spectrum: Lines, turning: Lines, known: Kinematics, factors: Array, harmonics: tuple[int, int]) -> Array:
+    """Nats of so many harmonics of the shaft in the vibration and in its envelope, at each of the speeds (N,)."""
+    found = (
+        _tempered(harmonic_evidence(lines, known.shaft_hz * factors, known.shaft_hz, 0.0, count)[:, 0]).sum(axis=0)
+        for lines, count in zip((spectrum, turning), harmonics, strict=True)
+    )
+    return np.asarray(sum(found))
+
+
+def _sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float, between: float) -> float:
+    """The share of the stated speed within `between` of `factor` that all harmonics held by the spectra tell.
+
+    A line counts with STANDS_OUT at most, and `factor` stays unless another share has MORE_LINES such lines more: one
+    line of a race near a multiple of the shaft tells nothing of its speed.
+    """
+    found = []
+    for lines in (spectrum, turning):
+        harmonics = int((lines.cumulated.shape[-1] - 3) * lines.step / (known.shaft_hz * (factor + between)))
+        steps = int(np.ceil(between * known.shaft_hz * harmonics / (BINS_BETWEEN * lines.step)))
+        found.append((lines, max(harmonics, 1), steps))
+    steps = max(1, *(own for *_, own in found))
+    factors = factor + between * np.arange(-steps, steps + 1) / steps
+    standing, height = np.zeros(factors.size), np.zeros(factors.size)
+    for lines, harmonics, _ in found:
+        nats = harmonic_evidence(lines, known.shaft_hz * factors, known.shaft_hz, 0.0, harmonics)[:, 0]
+        standing += np.minimum(nats, STANDS_OUT).sum(axis=0)
+        height += _tempered(nats).sum(axis=0)
+    if standing.max() < standing[steps] + MORE_LINES * STANDS_OUT:
+        return factor
+    # Strong lines stand out some components beside their middle too.
+    return float(factors[np.where(standing > standing.max() - STANDS_OUT, height, 0.0).argmax()])
 
 
 def _tempered(nats: Array) -> Array:

@@ -88,6 +88,18 @@ def test_glitches_are_counted_and_make_no_record_impulsive():
         assert row.values[column] == pytest.approx(clean.rows[0].values[column], abs=0.01)
 
 
+def test_a_shock_is_counted_and_hides_no_modulation():
+    """A machine that shakes harder at each passing ball shows it with a shock of 300 times its RMS too."""
+    time, bpfo_hz = np.arange(24_000) / RATE, known_kinematics(labels()).bpfo * 30.0
+    signal = shaking(24_000)[:, 0] * (1.0 + 0.7 * np.cos(2.0 * np.pi * bpfo_hz * time))
+    since = np.maximum(time - 0.75, 0.0)
+    shocked = signal + 300.0 * signal.std() * np.exp(-400.0 * since) * np.sin(2.0 * np.pi * 2500.0 * since)
+    clean, found = (record_rows(each[:, None], labels(), Reading()) for each in (signal, shocked))
+    assert (clean.shocks, found.shocks) == (0, 1)
+    column = FEATURE_NAMES.index("outer_strength")
+    assert found.rows[0].values[column] == pytest.approx(clean.rows[0].values[column], abs=0.2)
+
+
 @pytest.mark.parametrize("read", [read_rows, read_windows])
 def test_a_record_that_cannot_be_read_leaves_no_file_open(read, tiny_corpus, monkeypatch):
     closed = []

@@ -111,22 +111,24 @@ def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_draw
 
 def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     labels, rows = corpus(["outer", "none", "inner"])
-    rows = replace(rows, table=rows.table[:2], record=rows.record[:2], rejected={2: "too short"}, glitches={1: 4})
+    rows = replace(rows, table=rows.table[:2], record=rows.record[:2], rejected={2: "too short"})
+    rows = replace(rows, glitches={1: 4}, shocks={1: 2})
     models = [Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)]
     summary = summarise(judge(Path("made-up"), labels, rows, RULE, models, 0.0, True))
     assert summary["rejections"] == {"too short": 1}
     assert summary["despiked"] == {"records": 1, "glitches": 4}
+    assert summary["shocks_cut"] == {"records": 1, "shocks": 2}
     first, second, third = summary["predictions"]
     assert (first["rejected"], second["despiked"], third["rejected"]) == ("", 4, "too short")
     assert first["rule"]["alarm"] == RULE.threshold
     assert first["said"]["alarm"] == pytest.approx(0.7)
     assert np.isnan(third["said"]["alarm"])
     table = prediction_table([summary]).splitlines()
-    assert table[0].startswith("corpus,record,recording,bearing_id,truth,rejected,despiked,rule_location,rule_score,")
+    assert table[0].startswith("corpus,record,recording,bearing_id,truth,rejected,despiked,shocks_cut,rule_location,")
     location, score, alarm = table[1].split(",")[-3:]
     assert (location, float(alarm)) == ("outer", 0.7)
     assert float(score) == pytest.approx(0.8, abs=1e-5)  # probabilities of 0 are taken as 1e-6
-    assert ",too short,0,rejected," in table[3]
+    assert ",too short,0,0,rejected," in table[3]
 
 
 def with_unjudged_records():

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
+from labels.features.families import lines_in
 from labels.features.kinematics import bearing_kinematics
-from labels.features.speed import _families_term
+from labels.features.speed import _families_term, _sharpened
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
 
@@ -17,3 +18,21 @@ def test_the_likeliest_speed_is_the_one_at_which_the_cage_does_not_slip(impulse_
     term = _families_term(analyse(signal, 20_000.0, KNOWN).envelopes, KNOWN, factors)
     # The third harmonic is read to a component of 0.5 Hz: 0.2 % of 270 Hz.
     assert factors[term.argmax()] == pytest.approx(share, abs=0.004)
+
+
+@pytest.mark.parametrize("share", [1.0, 0.9912, 1.0137])
+def test_a_shaft_that_knocks_tells_its_speed_to_a_component_of_the_highest_harmonic(impulse_train, share):
+    """Seven turns a second over 10 s: of harmonic 47, up to which the envelope is read, a component is 0.03 %."""
+    known = bearing_kinematics(19, 180e-3, 24e-3, np.radians(10.0), 7.0)
+    signal = impulse_train(1.0, rate=10_240.0, duration=10.0, shaft_hz=7.0 * share, snr_db=3.0)
+    found = analyse(signal, 10_240.0, known).speed.shaft_hz
+    assert found == pytest.approx(7.0 * share, rel=3e-4)
+
+
+@pytest.mark.parametrize(("order", "moves"), [(1.001, True), (12.012, False)])
+def test_many_harmonics_move_the_speed_and_one_family_of_lines_does_not(impulse_train, order, moves):
+    """A knock once a turn of a shaft 0.1 % faster than thought, and what knocks at 12 times that."""
+    found = analyse(impulse_train(order, duration=8.0, snr_db=10.0), 20_000.0, KNOWN)
+    turning = lines_in(found.envelopes.excess[:1], found.envelopes.step)
+    factor = _sharpened(found._vibration[0], turning, KNOWN, 1.0, 0.002)
+    assert factor == (pytest.approx(1.001, abs=2e-4) if moves else 1.0)

@@ -64,6 +64,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     axes = tuple(axis for axis in AXES if getattr(request.channel, axis) is not None)
     rate = _rate(source)
     counts = _samples(source, axes)
+    filled = sum(source.missing(getattr(request.channel, axis), axis).size for axis in axes)
     factor = _scale(source)
     pieces = _pieces(source, rate, counts.shape[0])
     shortest = min(stop - start for start, stop in pieces)
@@ -83,7 +84,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             axes=axes,
             rate=rate,
             labels=labels | own,
-            provenance=_provenance(source, factor, start, stop),
+            provenance=_provenance(source, factor, start, stop, {"pulses": speed.mended, "samples": filled}),
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,
         )
@@ -174,7 +175,7 @@ def _pieces(source: Source, rate: float, size: int) -> list[tuple[int, int]]:
     return [(k * length, (k + 1) * length) for k in range(size // length)]
 
 
-def _provenance(source: Source, factor: float, start: int, stop: int) -> str:
+def _provenance(source: Source, factor: float, start: int, stop: int, mended: dict[str, int]) -> str:
     request = source.request
     wishes = {axis: wish for axis in AXES if (wish := getattr(request.channel, axis)) is not None}
     wishes |= {name: said.variable for name, said in request.settings.items() if isinstance(said, FromVariable)}
@@ -188,6 +189,7 @@ def _provenance(source: Source, factor: float, start: int, stop: int) -> str:
             "m_s2_per_number": factor,
             "parameters": contact_numbers(source),
             "notes": request.settings.get("notes", {}),
-        },
+        }
+        | {f"mended_{what}": count for what, count in mended.items() if count},
         allow_nan=False,
     )

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.recordings.pulses import mended, rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.source import Source, Span
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
 
 RPM_PER = {"speed_rpm": 1.0, "speed_hz": 60.0}
-HYSTERESIS = 0.1
 FEWEST_PULSES = 3
 # A shaft that stays this near (turns) to one that turns evenly is steady. The fourth harmonic of balls that pass five
 # times a turn then strays by two periods at most, and its line is hardly wider.
@@ -31,12 +31,14 @@ NOMINAL_WITHIN = 0.2
 
 @dataclass(frozen=True)
 class ShaftSpeed:
-    """Mean speed in a piece of a recording (rpm, NaN if unknown), its `basis`, a value of the label `speed_basis`, and
-    the `angle` (T,), rad, turned since its start if it is known to change."""
+    """Mean speed in a piece of a recording (rpm, NaN if unknown), its `basis`, a value of the label `speed_basis`, the
+    `angle` (T,), rad, turned since its start if it is known to change, and how many pulses of the whole recording's
+    tach were `mended`."""
 
     rpm: float
     basis: str
     angle: NDArray[np.float64] | None = None
+    mended: int = 0
 
 
 def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
@@ -49,8 +51,9 @@ def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int,
     times = None if tach is None else _pulse_times(source, tach, rate, size)
     if times is None:
         return _stated_speeds(source, rate, size, pieces)
+    times, wrong = mended(times, tach.pulses_per_rev)
     _require_nominal(source, tach, times, size / rate)
-    return _tach_speeds(source, tach, times, rate, pieces)
+    return _tach_speeds(source, tach, times, wrong, rate, pieces)
 
 
 def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], duration: float) -> None:
@@ -69,12 +72,12 @@ def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], dur
 
 
 def _tach_speeds(
-    source: Source, tach: Tach, times: NDArray[np.float64], rate: float, pieces: list[tuple[int, int]]
+    source: Source, tach: Tach, times: NDArray[np.float64], wrong: int, rate: float, pieces: list[tuple[int, int]]
 ) -> Iterator[ShaftSpeed]:
     for start, stop in pieces:
         rpm = tach_speed(source, tach, times, start / rate, stop / rate)
         angle = shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate)
-        yield ShaftSpeed(rpm, "tach", _unless_steady(angle))
+        yield ShaftSpeed(rpm, "tach", _unless_steady(angle), wrong)
 
 
 def _stated_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
@@ -168,23 +171,3 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
             tach.pulses_per_rev, f"what gives {RANGES['speed_rpm'].allowed()}",
         )  # fmt: skip
     return speed
-
-
-def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:
-    """Places (N,), in samples, at which `pulses` (T,) rise through the threshold, by linear interpolation.
-
-    Without a threshold it is half-way between the extremes. A pulse counts only if the signal was a tenth of its range
-    below the threshold since the pulse before, so that noise on an edge is not counted.
-    """
-    low, high = float(pulses.min()), float(pulses.max())
-    level = (low + high) / 2.0 if threshold is None else threshold
-    up = np.flatnonzero((pulses[:-1] < level) & (pulses[1:] >= level))
-    armed = np.flatnonzero(pulses < level - HYSTERESIS * (high - low))
-    kept, last = [], -1
-    for place in up.tolist():
-        first_armed = np.searchsorted(armed, last, side="right")
-        if first_armed < armed.size and armed[first_armed] <= place:
-            kept.append(place)
-            last = place
-    edges = np.array(kept, dtype=np.int64)
-    return edges + (level - pulses[edges]) / (pulses[edges + 1] - pulses[edges])

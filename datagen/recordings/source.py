@@ -30,6 +30,11 @@ from datagen.recordings.values import RANGES, FromVariable, in_range
 
 Array = NDArray[np.float64]
 LONGEST_CELL = 40
+FILL = "fill"
+EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
+"""What text tables have where a sample is missing."""
+LONGEST_GAP, MOST_MISSING = 10, 0.01
+"""Samples in a row, and the share of all, that may be missing and filled by straight lines."""
 CONSTANT = ("rate_hz",)
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))
@@ -63,7 +68,7 @@ class Source:
         return text
 
     def array(self, wish: str, field: str) -> Array:
-        """The samples (T,) of a variable: finite numbers, at least 16 of them."""
+        """The samples (T,) of a variable: finite numbers, at least 16, short gaps filled if that is asked for."""
         found = choose(self.arrays, wish, self.path, field)
         if found.dtype.kind not in "iuf":
             raise BadInput(f"holds {found.dtype} and not real numbers", str(self.path), field, wish)
@@ -77,22 +82,42 @@ class Source:
                 f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_SAMPLES} samples"
             )
         values = found.astype(np.float64)
-        bad = np.flatnonzero(~np.isfinite(values))
-        if bad.size:
-            raise self._not_finite(bad, values.size, wish, field)
+        bad = self.missing(wish, field)
+        if not bad.size:
+            return values
+        fits = longest_run(bad) <= LONGEST_GAP and bad.size <= MOST_MISSING * values.size and self._empty(wish, field)
+        if self.setting("missing_samples") != FILL:
+            allowed = f'finite numbers, or missing_samples = "{FILL}"' if fits else ""
+            raise self._not_finite(bad, values.size, wish, field, allowed)
+        if not fits:
+            allowed = f"to be filled, empty or NaN, {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all at most"
+            raise self._not_finite(bad, values.size, wish, field, allowed)
+        good = np.flatnonzero(np.isfinite(values))
+        values[bad] = np.interp(bad, good, values[good])
         return values
 
-    def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str) -> BadInput:
+    def _empty(self, wish: str, field: str) -> bool:
+        """Whether samples that are no numbers are empty, as far as a text table tells, and no other text."""
+        name, places = chosen(self.arrays, wish, self.path, field)
+        if not isinstance(self.arrays, Columns) or places is not None:
+            return True
+        return self.arrays.odd[name][1].strip().lower() in EMPTY
+
+    def missing(self, wish: str, field: str) -> NDArray[np.intp]:
+        """Which samples of a variable are no finite numbers."""
+        return np.flatnonzero(~np.isfinite(choose(self.arrays, wish, self.path, field)))
+
+    def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str, allowed: str = "") -> BadInput:
         name, places = chosen(self.arrays, wish, self.path, field)
         if isinstance(self.arrays, Columns) and places is None:
             line, text = self.arrays.odd[name]
             shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
             problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}"
-            return BadInput(problem, f"{self.path}, line {line}", field, wish)
+            return BadInput(problem, f"{self.path}, line {line}", field, wish, allowed)
         if size == 1:
             return BadInput("is no finite number", str(self.path), field, wish)
         problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
-        return BadInput(problem, str(self.path), field, wish)
+        return BadInput(problem, str(self.path), field, wish, allowed)
 
     def variable(self, wish: str, field: str) -> str:
         """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""
@@ -155,6 +180,12 @@ class Source:
             return self.number(name, span)
         except NoVariable:
             return None
+
+
+def longest_run(places: NDArray[np.intp]) -> int:
+    """The most of the rising `places` (N,), at least one, that follow each other."""
+    ends = np.flatnonzero(np.diff(places, append=places[-1] + 2) > 1)
+    return int(np.diff(ends, prepend=-1).max())
 
 
 def _within(found: NDArray[Any], span: Span) -> NDArray[Any]:

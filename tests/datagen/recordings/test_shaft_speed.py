@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
@@ -10,35 +11,12 @@ import pytest
 from datagen.corpora.check import check_corpus
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
-from datagen.recordings.shaft_speed import is_steady, rising_edges, shaft_angle, tach_speed
+from datagen.recordings.shaft_speed import is_steady, shaft_angle, tach_speed
 
 Bring = Callable[..., Corpus]
 Mat = Callable[..., np.ndarray]
-
-
-def test_edges_of_a_sine_are_found_where_it_rises_through_its_middle() -> None:
-    time = np.arange(20_000) / 10_000.0
-    edges = rising_edges(np.sin(2.0 * np.pi * 24.7 * time - 0.4)) / 10_000.0
-    assert edges.size == 50
-    # A chord of a sine of 405 samples a period is off its zero by far less than a thousandth of a sample.
-    assert np.allclose(edges, (np.arange(50) + 0.4 / (2.0 * np.pi)) / 24.7, atol=1e-7)
-
-
-def test_noise_on_the_edge_of_a_pulse_is_not_counted() -> None:
-    pulse = np.concatenate([np.zeros(50), np.linspace(0.0, 1.0, 100), np.ones(50)])
-    rough = np.tile(pulse, 8) + 0.03 * np.random.default_rng(1).standard_normal(1600)
-    assert rising_edges(rough).size == 8
-
-
-def test_a_stated_threshold_moves_the_edges() -> None:
-    ramps = np.tile(np.arange(100.0), 4)
-    assert rising_edges(ramps, 80.5).tolist() == [80.5, 180.5, 280.5, 380.5]
-
-
-@pytest.mark.parametrize("flat", [np.zeros(100), np.ones(100)])
-def test_a_dead_channel_has_no_edges(flat: np.ndarray) -> None:
-    assert rising_edges(flat).size == 0
 
 
 def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:
@@ -215,3 +193,15 @@ def test_a_channel_of_a_changing_speed_is_summed_up_to_the_angle(bring: Bring, m
     assert np.allclose(angle, 2.0 * np.pi * (10.0 * time + 2.5 * time**2), atol=1e-3)
     assert not corpus.has(1, "shaft_angle")
     assert np.allclose(corpus.waveform(5, "shaft_angle"), angle[6000:] - angle[6000], atol=1e-9)
+
+
+@pytest.mark.parametrize("wrong", [[], [37], [5, 20, 33]])
+def test_a_steady_shaft_whose_tach_loses_a_pulse_stays_steady(bring: Bring, mat: Mat, wrong: list[int]) -> None:
+    pulses = np.tile([0.0] * 99 + [1.0], 40)  # 25 turns a second, one pulse a turn
+    pulses[np.array(wrong, dtype=int) * 100 + 99] = 0.0
+    mat("a.mat", np.random.default_rng(1).standard_normal(pulses.size), tacho=pulses)
+    corpus = bring(TACH.replace("1000", "2500"))
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([1500.0])
+    assert not corpus.has(0, "shaft_angle")
+    told = json.loads(corpus.waveform(0, "provenance"))
+    assert told.get("mended_pulses", 0) == len(wrong)

@@ -1,0 +1,66 @@
+"""Pulses of a tach: where they rise, and what a shaft that cannot jump says of those that are lost or double."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import median_filter
+
+Array = NDArray[np.float64]
+
+HYSTERESIS = 0.1
+NEIGHBOURS = 9
+"""Intervals whose median is the usual one."""
+NEAR_WHOLE = 0.2
+"""An interval this near to two or more usual ones lacks pulses, two that are this near to one have a pulse too many:
+the speed changes by no more than a tenth from turn to turn."""
+MOST_A_TURN = 0.5
+"""Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does."""
+
+
+def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:
+    """Places (N,), in samples, at which `pulses` (T,) rise through the threshold, by linear interpolation.
+
+    Without a threshold it is half-way between the extremes. A pulse counts only if the signal was a tenth of its range
+    below the threshold since the pulse before, so that noise on an edge is not counted.
+    """
+    low, high = float(pulses.min()), float(pulses.max())
+    level = (low + high) / 2.0 if threshold is None else threshold
+    up = np.flatnonzero((pulses[:-1] < level) & (pulses[1:] >= level))
+    armed = np.flatnonzero(pulses < level - HYSTERESIS * (high - low))
+    kept, last = [], -1
+    for place in up.tolist():
+        first_armed = np.searchsorted(armed, last, side="right")
+        if first_armed < armed.size and armed[first_armed] <= place:
+            kept.append(place)
+            last = place
+    edges = np.array(kept, dtype=np.int64)
+    return edges + (level - pulses[edges]) / (pulses[edges + 1] - pulses[edges])
+
+
+def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
+    """Times (N,), s, of pulses without those that came twice and with those that were lost, evenly between their
+    neighbours; and how many these were. As they are, and 0, where they are as many as a wheel of its own kind has."""
+    if times.size <= NEIGHBOURS:
+        return times, 0
+    single = _without_doubles(times)
+    interval = np.diff(single)
+    ratio = interval / median_filter(interval, NEIGHBOURS, mode="mirror")
+    counts = np.maximum(np.round(ratio), 1.0).astype(np.int64)
+    counts[np.abs(ratio - counts) > NEAR_WHOLE] = 1
+    wrong = times.size - single.size + int((counts > 1).sum())
+    if wrong == 0 or wrong > MOST_A_TURN * times.size / pulses_per_rev:
+        return times, 0
+    numbers = np.concatenate([[0], np.cumsum(counts)])
+    whole = np.interp(np.arange(numbers[-1] + 1), numbers, single)
+    return whole, times.size - single.size + int((counts - 1).sum())
+
+
+def _without_doubles(times: Array) -> Array:
+    interval = np.diff(times)
+    usual = median_filter(interval, NEIGHBOURS, mode="mirror")[:-1]
+    off = np.abs((interval[:-1] + interval[1:]) / usual - 1.0)
+    off = np.pad(np.where(off < NEAR_WHOLE, off, np.inf), 1, constant_values=np.inf)
+    # Beside a pulse too many its neighbour may seem one too, but what it leaves is less like the other intervals.
+    double = (off[1:-1] < off[:-2]) & (off[1:-1] <= off[2:]) & np.isfinite(off[1:-1])
+    return np.delete(times, 1 + np.flatnonzero(double))

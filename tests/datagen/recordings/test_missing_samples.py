@@ -1,0 +1,48 @@
+"""Samples that are missing: refused, or filled where the gap is short and the SPEC asks for it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+
+Bring = Callable[..., Corpus]
+Mat = Callable[..., np.ndarray]
+GAPS = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+
+
+@pytest.mark.parametrize("gaps", [{7}, set(range(100, 110)), {50, 51, 399}])
+def test_short_gaps_are_filled_if_that_is_asked_for(bring: Bring, mat: Mat, gaps: set[int]) -> None:
+    line = np.linspace(1.0, 2.0, 2000)
+    mat("a.mat", np.where(np.isin(np.arange(2000), list(gaps)), np.nan, line))
+    with pytest.raises(BadInput, match=r'are not finite numbers.*allowed: finite numbers, or missing_samples = "fill"'):
+        bring(GAPS, "refused")
+    corpus = bring(GAPS + 'missing_samples = "fill"\n', "filled")
+    np.testing.assert_allclose(corpus.waveform(0)[:, 0], 9.80665 * line, rtol=1e-6)
+    assert json.loads(corpus.waveform(0, "provenance"))["mended_samples"] == len(gaps)
+
+
+@pytest.mark.parametrize("gaps", [range(100, 111), range(0, 2000, 60)])
+def test_long_and_many_gaps_are_refused(bring: Bring, mat: Mat, gaps: range) -> None:
+    signal = np.random.default_rng(1).standard_normal(2000)
+    signal[list(gaps)] = np.nan
+    mat("a.mat", signal)
+    with pytest.raises(BadInput, match=rf"{len(gaps)} of 2000 samples.*10 in a row and 1% of all at most"):
+        bring(GAPS + 'missing_samples = "fill"\n')
+
+
+def test_text_in_a_table_is_no_gap(bring: Bring, tmp_path: Path) -> None:
+    cells = [f"{value:.3f}" for value in np.random.default_rng(1).standard_normal(2000)]
+    spec = GAPS.replace("*.mat", "a.csv") + 'missing_samples = "fill"\n'
+    (tmp_path / "a.csv").write_text("\n".join(["sig", *cells[:50], "stop", *cells[50:]]))
+    with pytest.raises(BadInput, match=r'line 52: y = "sig": 1 of 2001 cells .* the first is "stop"'):
+        bring(spec)
+    rows = [f"{cell},1" for cell in [*cells[:50], "NaN", *cells[50:]]]
+    (tmp_path / "a.csv").write_text("\n".join(["sig,b", *rows]))
+    assert bring(spec, "filled").waveform(0).shape == (2001, 1)

@@ -28,6 +28,8 @@ def cell(figure: dict[str, Any] | None) -> str:
     """A figure with its interval."""
     if figure is None or figure["value"] is None:
         return "–"
+    if figure["low"] is None:
+        return f"{100 * figure['value']:.1f}"
     return f"{100 * figure['value']:.1f} ({100 * figure['low']:.1f}–{100 * figure['high']:.1f})"
 
 

@@ -15,17 +15,20 @@ def joined(probability: Array, owner: NDArray[np.int64], records: NDArray[np.int
 
     NaN for a record without rows.
     """
-    found = np.full((records.size, probability.shape[1]), np.nan)
-    for place, record in enumerate(records.tolist()):
-        own = probability[owner == record]
-        if own.size:
-            level = np.exp(np.log(np.maximum(own, SMALLEST)).mean(axis=0))
-            found[place] = level / level.sum()
-    return found
+    level = np.exp(averaged(np.log(np.maximum(probability, SMALLEST)), owner, records))
+    return np.asarray(level / level.sum(axis=1, keepdims=True))
 
 
 def averaged(values: Array, owner: NDArray[np.int64], records: NDArray[np.int64]) -> Array:
-    """Means (R, …) of the values (N, …) of the rows that each of `records` (R,) owns (N,); NaN without rows."""
-    means = [values[owner == record].mean(axis=0) if (owner == record).any() else None for record in records.tolist()]
-    blank = np.full(values.shape[1:], np.nan)
-    return np.array([blank if mean is None else mean for mean in means])
+    """Means (R, …) of the values (N, …) of the rows that each of `records` (R,) owns (N,); NaN without rows.
+
+    A record may be asked for more than once; rows of others are left out.
+    """
+    own, place = np.unique(records, return_inverse=True)
+    nearest = np.minimum(np.searchsorted(own, owner), max(own.size - 1, 0))
+    asked = own[nearest] == owner if own.size else np.zeros(owner.size, dtype=bool)
+    total = np.zeros((own.size, *values.shape[1:]))
+    np.add.at(total, nearest[asked], values[asked])
+    count = np.bincount(nearest[asked], minlength=own.size).astype(np.float64)
+    count[count == 0.0] = np.nan
+    return np.asarray((total.T / count).T[place])

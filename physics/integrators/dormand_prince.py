@@ -1,4 +1,4 @@
-"""The embedded pair of Dormand and Prince (1980) of orders 5 and 4: six contact sums a step, dense output of order 4.
+"""The embedded pair of Dormand and Prince (1980) of orders 5 and 4: seven contact sums a step, dense output of order 4.
 
 Stable up to ω h ≈ 1 for undamped modes, the resonator's included; its step control keeps it there. Not to be confused
 with SciPy's RK45, the same pair, which runs through changes of contact without knowing of them.

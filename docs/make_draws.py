@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from datagen.benchmark.classify import Benchmark
-from datagen.benchmark.machines import unseen_records
+from datagen.benchmark.machines import learned_machines, unseen_records
 from datagen.benchmark.rows import read_rows
 from datagen.benchmark.score_log import write_line
 from datagen.benchmark.summary import RACES, race_balance
@@ -52,8 +52,8 @@ def main(train: Path, out: Path, tests: list[Path]) -> None:
     benchmark = Benchmark(train, tuple(tests))
     labels = training_records(train, False)
     training = training_set(train, labels, benchmark.training_reading(), 1)
-    learned = labels["record"].to_numpy(np.int64)
-    chosen = {folder: unseen_records(Corpus(folder), Corpus(train), learned) for folder in tests}
+    learned = learned_machines(Corpus(train), labels["record"].to_numpy(np.int64))
+    chosen = {folder: unseen_records(Corpus(folder), learned) for folder in tests}
     rows = {
         folder: read_rows(folder, own["record"].to_numpy(np.int64), benchmark.reading(), 1)
         for folder, own in chosen.items()

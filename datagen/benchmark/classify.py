@@ -15,10 +15,11 @@ from datagen.benchmark.importance import importances
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
-from datagen.benchmark.machines import share_machines, unseen_records
+from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.score_log import log_run, write_line
 from datagen.benchmark.summary import RACES, summarise
+from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
 from datagen.benchmark.training import (
     COPIES_DB,
     LOWEST_BANDWIDTH,
@@ -36,7 +37,6 @@ from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from labels.classifier.alarm import Alarm
-from labels.classifier.rule import Rule
 
 if TYPE_CHECKING:
     import pandas
@@ -48,6 +48,7 @@ Say = Callable[[str], None]
 class Benchmark:
     """What is learned from, what is tested on, and how.
 
+    `train` is a corpus, or a file of what was learned from one; what is learned is kept at `save`, if given.
     `estimator` is the user's own, None for ours, and `given` how it was named.
     """
 
@@ -65,6 +66,7 @@ class Benchmark:
     noise_draws: int = 10
     workers: int = 2
     curve: bool = False
+    save: Path | None = None
     options: dict[str, Any] = field(default_factory=dict)
 
     @cached_property
@@ -86,29 +88,45 @@ class Benchmark:
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
     """The results as plain numbers, and what was said of every record; raises BadInput."""
     began = time.monotonic()
-    labels = _training_labels(benchmark)
-    chosen = [_tested_records(benchmark, folder, labels) for folder in benchmark.tests]
+    if is_saved(benchmark.train):
+        trained = load_trained(benchmark.train)
+        benchmark = replace(benchmark, bandwidth=trained.bandwidth)
+        chosen = [_tested_records(folder, trained.machines) for folder in benchmark.tests]
+    else:
+        labels = _training_labels(benchmark)
+        learned = None
+        if labels is not None:
+            learned = learned_machines(Corpus(benchmark.train), labels["record"].to_numpy(np.int64))
+        chosen = [_tested_records(folder, learned) for folder in benchmark.tests]
+        trained = _learn(benchmark, labels, learned, say)
+    if benchmark.save is not None:
+        save_trained(benchmark.save, trained)
+    results: dict[str, Any] = {"train": str(benchmark.train), "options": benchmark.options} | trained.facts
+    tested = []
+    results["tests"] = []
+    for folder, records in zip(benchmark.tests, chosen, strict=True):
+        found, summary = _test(benchmark, folder, records, trained, say)
+        tested.append(found)
+        results["tests"].append(summary)
+    results["seconds"] = time.monotonic() - began
+    return results, tested
+
+
+def _learn(benchmark: Benchmark, labels: pandas.DataFrame | None, learned: Learned | None, say: Say) -> Trained:
+    """What is learned from the records with these labels, of the machines `learned`; from impulse trains if None."""
     training = _learned_from(benchmark, labels, say)
     rule = train_rule(training)
     own_input = _own_input(benchmark, training, labels)
     curve = _curve(benchmark, own_input)  # copies the user's estimator, which is as it was made only before it learns
     models = _models(benchmark, own_input)
-    results: dict[str, Any] = {
-        "train": str(benchmark.train),
-        "options": benchmark.options,
+    facts: dict[str, Any] = {
         "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
         "rule_threshold": rule.threshold,
         "alarms": {model.name: _plain(model.alarm) for model in models},
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
-    } | curve
-    tested = []
-    results["tests"] = []
-    for folder, records in zip(benchmark.tests, chosen, strict=True):
-        found, summary = _test(benchmark, folder, records, rule, models, say)
-        tested.append(found)
-        results["tests"].append(summary)
-    results["seconds"] = time.monotonic() - began
-    return results, tested
+    }
+    recipe = "" if labels is None else Corpus(benchmark.train).manifest.identity.recipe_hash
+    return Trained(rule, models, learned, benchmark.bandwidth, recipe, facts | curve)
 
 
 def _plain(alarm: Alarm | float) -> dict[str, float] | float:
@@ -154,14 +172,12 @@ def _models(benchmark: Benchmark, training: TrainingSet) -> list[Model]:
     return [train_own(training, benchmark.estimator, benchmark.takes_windows, benchmark.given)]
 
 
-def _tested_records(benchmark: Benchmark, folder: Path, learned: pandas.DataFrame | None) -> pandas.DataFrame:
-    if learned is None:
-        return Corpus(folder).labels
-    return unseen_records(Corpus(folder), Corpus(benchmark.train), learned["record"].to_numpy(np.int64))
+def _tested_records(folder: Path, learned: Learned | None) -> pandas.DataFrame:
+    return Corpus(folder).labels if learned is None else unseen_records(Corpus(folder), learned)
 
 
 def _test(
-    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, rule: Rule, models: list[Model], say: Say
+    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, say: Say
 ) -> tuple[Tested, dict[str, Any]]:
     imported = bool(Corpus(folder).manifest.imported)
     if imported:
@@ -171,15 +187,15 @@ def _test(
     raw = None
     if benchmark.takes_windows:
         raw = read_windows(folder, labels["record"].to_numpy(np.int64), benchmark.window_rate)
-    tested = judge(folder, labels, rows, rule, models, benchmark.doubt, imported, raw)
+    tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.doubt, imported, raw)
     summary = summarise(tested)
     noise_tells = imported and np.isin(tested.truth, RACES).any()
     levels = benchmark.noise_db if noise_tells else ()
     if benchmark.noise_db and not noise_tells:
         say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
-    summary["noise"] = [_noisy(benchmark, folder, labels, rule, models, level, say) for level in levels]
+    summary["noise"] = [_noisy(benchmark, folder, labels, trained, level, say) for level in levels]
     if imported:
-        log_run(folder, benchmark.train, benchmark.options, summary)
+        log_run(folder, benchmark.train, trained.recipe, benchmark.options, summary)
     return tested, summary
 
 
@@ -188,13 +204,7 @@ def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int
 
 
 def _noisy(
-    benchmark: Benchmark,
-    folder: Path,
-    labels: pandas.DataFrame,
-    rule: Rule,
-    models: list[Model],
-    level: float,
-    say: Say,
+    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, level: float, say: Say
 ) -> dict[str, Any]:
     """Scores with white noise of that level (signal over noise, dB) added, all draws pooled."""
     say(f"testing on {folder} with noise at {level:g} dB, {benchmark.noise_draws} draws")
@@ -202,6 +212,6 @@ def _noisy(
     for draw in range(benchmark.noise_draws):
         reading = replace(benchmark.reading(), noise_db=level, noise_draw=draw)
         rows = _rows(folder, labels, reading, benchmark.workers)
-        pooled.append(judge(folder, labels, rows, rule, models, benchmark.doubt, True))
+        pooled.append(judge(folder, labels, rows, trained.rule, trained.models, benchmark.doubt, True))
     joined = pooled_draws(pooled)
     return {"snr_db": level, "draws": benchmark.noise_draws} | summarise(joined, predictions=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,14 @@ if TYPE_CHECKING:
     import pandas
 
 TEST = "test"
+
+
+@dataclass(frozen=True)
+class Learned:
+    """The machines that were learned from, `seen` (S,), and all that are `known` (K,) of their corpus."""
+
+    seen: NDArray[np.str_]
+    known: NDArray[np.str_]
 
 
 def machines(corpus: Corpus) -> NDArray[np.str_]:
@@ -34,15 +43,19 @@ def share_machines(one: Corpus, other: Corpus) -> bool:
     return bool((set(machines(one).tolist()) & set(machines(other).tolist())) - {""})
 
 
-def unseen_records(tested: Corpus, trained: Corpus, learned: NDArray[np.int64]) -> pandas.DataFrame:
-    """Labels of the records of `tested` to score, none of a machine of the `learned` records of `trained`.
+def learned_machines(trained: Corpus, records: NDArray[np.int64]) -> Learned:
+    """The machines of those `records` of a corpus that were learned from."""
+    known = machines(trained)
+    return Learned(known[trained.labels["record"].isin(records)], known)
 
-    Those of other machines of `trained` count if their split is "test". Raises BadInput if none is left.
+
+def unseen_records(tested: Corpus, learned: Learned) -> pandas.DataFrame:
+    """Labels of the records of `tested` to score, none of a machine that was learned from.
+
+    Those of other machines of the same corpus count if their split is "test". Raises BadInput if none is left.
     """
-    labels = tested.labels
-    own, known = machines(tested), machines(trained)
-    seen = known[trained.labels["record"].isin(learned)]
-    kept = ~np.isin(own, seen) & (~np.isin(own, known) | (labels["split"] == TEST))
+    labels, own = tested.labels, machines(tested)
+    kept = ~np.isin(own, learned.seen) & (~np.isin(own, learned.known) | (labels["split"] == TEST))
     chosen = labels[kept | (own == "")]
     if chosen.empty:
         problem = "all its virtual bearings, or all outside its split test, are those of --train"

@@ -10,15 +10,17 @@ from pathlib import Path
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import ingredients_of
 from datagen.benchmark.score_log import log_path
+from datagen.benchmark.trained import SAVE, is_saved
 from datagen.benchmark.training import SPEED_ERROR
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import load_own
-from datagen.places import require_results_folder
+from datagen.places import require_file, require_results_folder
 from labels.classifier.learners import LEARNERS
 
 INPUTS = ("features", "windows")
 LEAST_BANDWIDTH = 1000.0
+OF_LEARNING = ("learner", "estimator", "input", "bandwidth", "speed_error", "first")
 LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
 SPOKEN = "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
 
@@ -65,10 +67,17 @@ class Asked:
 
 
 def benchmark_of(
-    train: Path, tests: tuple[Path, ...], asked: Asked, curve: bool = False, workers: int = 2, out: Path | None = None
+    train: Path,
+    tests: tuple[Path, ...],
+    asked: Asked,
+    curve: bool = False,
+    workers: int = 2,
+    out: Path | None = None,
+    save: Path | None = None,
 ) -> Benchmark:
     """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be."""
     asked.require()
+    _require_use(train, tests, asked, curve, save)
     levels = asked.levels()
     own = load_own(asked.estimator, SPOKEN) if asked.estimator is not None else None
     if levels and asked.input == "windows":
@@ -96,12 +105,31 @@ def benchmark_of(
         noise_draws=asked.noise_draws,
         workers=workers,
         curve=curve,
+        save=save,
         options=asdict(asked),
     )
 
 
+def _require_use(train: Path, tests: tuple[Path, ...], asked: Asked, curve: bool, save: Path | None) -> None:
+    """Raise BadInput unless there is something to do with what is learned, and to learn where options ask for it."""
+    if save is None and not tests:
+        raise BadInput("nothing to score on", field="--test", allowed=f"a corpus, or {SAVE} FILE to learn only")
+    if save is not None:
+        require_file(save, SAVE)
+        if asked.estimator is not None:
+            raise BadInput("an estimator of your own is yours to keep", field=SAVE, allowed="with our learners")
+    if not is_saved(train):
+        return
+    usual = Asked()
+    changed = [name for name in OF_LEARNING if getattr(asked, name) != getattr(usual, name)]
+    changed += ["learning_curve"] * curve + [SAVE.removeprefix("--")] * (save is not None)
+    if changed:
+        option = f"--{changed[0].replace('_', '-')}"
+        raise BadInput(f"{train} has learned already", field=option, allowed="with a corpus to learn from as --train")
+
+
 def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
-    if ingredients_of(train) is None:
+    if not is_saved(train) and ingredients_of(train) is None:
         if Corpus(train).manifest.imported:
             raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
     elif windows:

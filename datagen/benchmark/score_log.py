@@ -7,7 +7,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from datagen.corpora.manifest import read_manifest
 from datagen.errors import BadInput
 from datagen.records.versions import program_versions
 
@@ -19,15 +18,15 @@ def log_path(folder: Path) -> Path:
     return folder / NAME
 
 
-def log_run(folder: Path, training: Path, options: dict[str, Any], summary: dict[str, Any]) -> None:
-    """Append one line: when, trained on which corpus (by its recipe's hash), with which options, and the scores.
+def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], summary: dict[str, Any]) -> None:
+    """Append one line: when, trained on which corpus and which `recipe` (its hash), with which options, and the scores.
 
     Raises BadInput if the folder cannot be written: a run that leaves no trace is not made.
     """
     line = {
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
         "train": str(training),
-        "recipe": read_manifest(training).identity.recipe_hash if training.is_dir() else "",
+        "recipe": recipe,
         "options": options,
         "versions": program_versions(),
         "scores": {

@@ -14,8 +14,11 @@ if TYPE_CHECKING:
     from datagen.benchmark.classify import Benchmark
 
 Option, Argument = typer.Option, typer.Argument
-Train = Annotated[Path, Option("--train", metavar="DIR", help="Simulated corpus to learn from.")]
-Folders = Annotated[list[Path], Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
+Train = Annotated[
+    Path, Option("--train", metavar="DIR|FILE", help="Simulated corpus to learn from, or a file that --save wrote.")
+]
+Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
+Save = Annotated[Path | None, Option("--save", metavar="FILE", help="Keep what was learned, for --train FILE later.")]
 More = Annotated[list[Path] | None, Argument(metavar="[DIR]...", help="More corpora to score on.")]
 Learner = Annotated[str, Option(help="forest, logistic, boosting or all.")]
 Estimator = Annotated[str | None, Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function.")]
@@ -42,7 +45,7 @@ Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder of repo
 @command("spallgen classify --train out/transfer --test out/transfer --test out/cwru --out out/scores")
 def classify(
     train: Train,
-    test: Folders,
+    test: Folders = None,
     more: More = None,
     learner: Learner = "all",
     estimator: Estimator = None,
@@ -55,6 +58,7 @@ def classify(
     noise_draws: NoiseDraws = 10,
     learning_curve: Curve = False,
     workers: Workers = 2,
+    save: Save = None,
     out: Out = None,
     json_file: JsonFile = None,
 ) -> None:
@@ -62,12 +66,12 @@ def classify(
 
     A corpus with virtual bearings that are also learned from, the same folder or another of the same recipe, is divided
     by its label split, that is by virtual bearing. Every run on imported recordings is logged in their folder, in
-    scored_runs.jsonl.
+    scored_runs.jsonl. A file that --save wrote is a pickle, which can run any program: use your own only.
     """
     from datagen.benchmark.request import Asked, benchmark_of
 
     asked = Asked(learner, estimator, inputs, bandwidth, speed_error, first, doubt, noise_db, noise_draws)
-    benchmark = benchmark_of(train, (*test, *(more or [])), asked, learning_curve, workers, out)
+    benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
     write_json(json_file, results)
     _tell(results)

@@ -16,11 +16,14 @@ MACHINE_FACTS = ("machine", "processor", "cores", "physics")
 
 
 @cache
-def program_hash() -> str:
-    """Hash of the text of every Python file of `labels` and `datagen`, 16 hexadecimal digits."""
+def program_hash(*packages: str) -> str:
+    """Hash of the text of every Python file of the `packages`, `labels` and `datagen` if none is named: 16 hexadecimal
+    digits."""
     root = Path(__file__).parents[2]
     digest = hashlib.sha256()
-    for path in sorted(path for package in ("labels", "datagen") for path in (root / package).rglob("*.py")):
+    for path in sorted(
+        path for package in packages or ("labels", "datagen") for path in (root / package).rglob("*.py")
+    ):
         digest.update(path.relative_to(root).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

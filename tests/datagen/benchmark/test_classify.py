@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from datagen.benchmark.fitness import UNKNOWN_SPEED
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
-from datagen.benchmark.machines import machines, share_machines, unseen_records
+from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
 from datagen.benchmark.rows import Reading, RecordRows, record_rows, windows
 from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import (
@@ -111,21 +111,23 @@ def renamed(folder, name):
 
 def test_a_corpus_learned_from_and_tested_on_is_divided_by_virtual_bearing(divided):
     train = training_records(divided, also_tested=True)
-    test = unseen_records(Corpus(divided), Corpus(divided), train["record"].to_numpy())
+    test = unseen_records(Corpus(divided), learned_machines(Corpus(divided), train["record"].to_numpy()))
     assert set(test["split"]) == {"test"}
     assert not set(train["bearing_id"]) & set(test["bearing_id"])
     every = training_records(divided, also_tested=False)
     assert len(every) == len(train) + len(test) == 14
     # Records that were left out of what is learned from, but are not of the split test, are not scored either.
     few = training_records(divided, also_tested=True, first=8)
-    assert len(unseen_records(Corpus(divided), Corpus(divided), few["record"].to_numpy())) == len(test)
+    assert len(unseen_records(Corpus(divided), learned_machines(Corpus(divided), few["record"].to_numpy()))) == len(
+        test
+    )
 
 
 def test_a_copy_under_any_name_is_divided_like_the_corpus_itself(divided):
     copy = renamed(divided, "other")
     assert share_machines(Corpus(divided), Corpus(copy))
     train = training_records(divided, also_tested=True)
-    test = unseen_records(Corpus(copy), Corpus(divided), train["record"].to_numpy())
+    test = unseen_records(Corpus(copy), learned_machines(Corpus(divided), train["record"].to_numpy()))
     numbers = [{name.rpartition("-")[2] for name in labels["bearing_id"]} for labels in (train, test)]
     assert numbers[1]
     assert not numbers[0] & numbers[1]
@@ -148,7 +150,7 @@ def test_machines_of_another_seed_or_recorded_are_others(tiny_corpus, other_corp
     one, other = Corpus(tiny_corpus), Corpus(other_corpus)
     assert not share_machines(one, other)
     assert set(one.labels["bearing_id"]) == set(other.labels["bearing_id"])
-    assert len(unseen_records(other, one, one.labels["record"].to_numpy())) == len(other.labels)
+    assert len(unseen_records(other, learned_machines(one, one.labels["record"].to_numpy()))) == len(other.labels)
     assert machines(one)[0] == "7-00000"
 
 

@@ -1,0 +1,86 @@
+"""What `classify` has learned, and the file in which it is kept for recordings that come later."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import zlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from datagen.benchmark.machines import Learned
+from datagen.benchmark.training import Model
+from datagen.corpora.atomic import write_atomically
+from datagen.errors import BadInput
+from datagen.records.versions import measured_on, program_hash
+from labels.classifier.rule import Rule
+
+FORMAT = "spallgen classifiers 1"
+SAVE = "--save"
+MADE_WITH = ("python", "scikit-learn", "numpy", "scipy")
+LONGEST_HEAD = 10_000
+
+
+@dataclass(frozen=True)
+class Trained:
+    """The rule and the models; the `machines` they must not be scored on (None: plain impulse trains have none); the
+    `bandwidth` (Hz) that all records are limited to, None for the usual one; the hash of the `recipe` learned from, ""
+    without; and the `facts` of the report that follow from learning alone."""
+
+    rule: Rule
+    models: list[Model]
+    machines: Learned | None
+    bandwidth: float | None
+    recipe: str
+    facts: dict[str, Any] = field(default_factory=dict)
+
+
+def is_saved(train: Path) -> bool:
+    """Whether `--train` names a file of learned classifiers and no corpus."""
+    return train.is_file()
+
+
+def save_trained(path: Path, trained: Trained) -> None:
+    """Keep what was learned at `path`, a line of JSON that says with what and a compressed pickle; raises BadInput."""
+    head = json.dumps({"format": FORMAT} | _made_with()).encode() + b"\n"
+    try:
+        write_atomically(path, head + zlib.compress(pickle.dumps(trained), 1))
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", field=SAVE, value=str(path)) from None
+
+
+def load_trained(path: Path) -> Trained:
+    """What was kept at `path`; raises BadInput unless it was with these versions of Python, of the packages that
+    learning rests on, and of the features. Nothing is unpickled before that is known."""
+    try:
+        with path.open("rb") as file:
+            head = _head(file.readline(LONGEST_HEAD))
+            if head.get("format") != FORMAT:
+                allowed = f"a corpus, or what {SAVE} wrote"
+                raise BadInput("holds no learned classifiers", str(path), "--train", allowed=allowed)
+            for name, now in _made_with().items():
+                if head.get(name) != now:
+                    problem = f"was learned with {name} {head.get(name)}, and this is {now}"
+                    raise BadInput(problem, str(path), "--train", allowed=f"learn again, with {SAVE}")
+            trained = pickle.loads(zlib.decompress(file.read()))
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror}", str(path), "--train") from None
+    except (zlib.error, pickle.UnpicklingError, EOFError):
+        raise BadInput("is damaged", str(path), "--train", allowed=f"learn again, with {SAVE}") from None
+    if not isinstance(trained, Trained):
+        raise BadInput("is damaged", str(path), "--train", allowed=f"learn again, with {SAVE}")
+    return trained
+
+
+def _head(line: bytes) -> dict[str, Any]:
+    try:
+        found = json.loads(line)
+    except ValueError:
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _made_with() -> dict[str, str]:
+    versions = measured_on(*MADE_WITH[1:])
+    return {name: versions[name] for name in MADE_WITH} | {"features": program_hash("labels")}

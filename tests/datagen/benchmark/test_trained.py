@@ -1,0 +1,174 @@
+"""What was learned is kept in a file, says the same later, and is refused where it would not."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+from typer.testing import CliRunner
+
+from datagen.benchmark.trained import load_trained
+from datagen.cli import app
+from datagen.errors import BadInput
+from datagen.recipes.recipe import load_recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
+
+LEFT_OUT = "tiny-00000"
+
+
+@pytest.fixture(autouse=True)
+def _short_records_are_judged(monkeypatch):
+    """The records of the tiny corpus are quick to make, and shorter than any that is judged."""
+    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
+    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
+
+
+def run(*command):
+    return CliRunner().invoke(app, ["classify", "--workers", "1", *map(str, command)], catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def divided(tiny_recipe, tmp_path_factory):
+    """A corpus of a dozen bearings of each kind, one of them of the split test."""
+    place = tmp_path_factory.mktemp("divided")
+    text = tiny_recipe.read_text().replace("records = 8", "records = 36").replace("records_per_machine = 2", "")
+    text = text.replace('{choice = ["healthy", "line", "extended"]}', '{balanced = ["healthy", "line", "extended"]}')
+    (place / "recipe.toml").write_text(text)
+    assert generate(load_recipe(place / "recipe.toml"), place / "corpus", engine=Engine(workers=1)).complete
+    index = pandas.read_csv(place / "corpus" / "index.csv", keep_default_na=False)
+    index["split"] = np.where(index["bearing_id"] == LEFT_OUT, "test", "train")
+    index.to_csv(place / "corpus" / "index.csv", index=False)
+    return place / "corpus"
+
+
+@pytest.fixture(scope="module")
+def learned(divided, tmp_path_factory):
+    """A file of what was learned from the divided corpus, and the results of that run."""
+    place = tmp_path_factory.mktemp("learned")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
+        patch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
+        options = (
+            "--learner",
+            "logistic",
+            "--bandwidth",
+            3000,
+            "--save",
+            place / "model",
+            "--json",
+            place / "results.json",
+        )
+        done = run("--train", divided, "--test", divided, *options)
+    assert done.exit_code == 0, done.output
+    return place / "model", json.loads((place / "results.json").read_text())
+
+
+def test_the_same_is_said_by_what_was_kept(learned, divided, tmp_path):
+    model, before = learned
+    done = run("--train", model, "--test", divided, "--json", tmp_path / "results.json")
+    assert done.exit_code == 0
+    assert "learning from" not in done.output
+    after = json.loads((tmp_path / "results.json").read_text())
+    (test,), (again,) = before["tests"], after["tests"]
+    assert again["predictions"] == test["predictions"]
+    assert {entry["bearing_id"] for entry in again["predictions"]} == {LEFT_OUT}
+    assert after["alarms"] == before["alarms"]
+    assert after["training_records"] == before["training_records"]
+
+
+def test_what_was_learned_from_is_not_scored(learned, divided, tmp_path):
+    model, _ = learned
+    undivided = tmp_path / "undivided"
+    shutil.copytree(divided, undivided)
+    index = (undivided / "index.csv").read_text()
+    (undivided / "index.csv").write_text(index.replace(",test,", ",train,"))
+    done = run("--train", model, "--test", undivided)
+    assert done.exit_code == 2
+    assert "another seed" in done.output
+
+
+def test_learning_needs_no_test(divided, tmp_path):
+    done = run("--train", divided, "--learner", "logistic", "--save", tmp_path / "model")
+    assert done.exit_code == 0
+    assert [model.name for model in load_trained(tmp_path / "model").models] == ["logistic"]
+    assert [path.name for path in tmp_path.iterdir()] == ["model"]
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--learner", "forest"), "--learner: {model} has learned already"),
+        (("--first", 5), "--first: {model} has learned already"),
+        (("--speed-error", 0.01), "--speed-error: {model} has learned already"),
+        (("--bandwidth", 5000), "--bandwidth: {model} has learned already"),
+        (("--learning-curve",), "--learning-curve: {model} has learned already"),
+        (("--save", "other"), "--save: {model} has learned already"),
+    ],
+)
+def test_options_of_learning_are_refused_for_what_has_learned(learned, divided, options, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = run("--train", learned[0], "--test", divided, *options)
+    assert done.exit_code == 2
+    assert told.format(model=learned[0]) in done.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_there_must_be_something_to_do(divided):
+    done = run("--train", divided)
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert "--test: nothing to score on" in done.output
+
+
+@pytest.mark.parametrize("place", ["absent/model", "."])
+def test_a_place_that_cannot_be_written_is_refused_first(divided, place, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("datagen.benchmark.training.read_rows", None)
+    done = run("--train", divided, "--save", place)
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert f'--save = "{place}"' in done.output
+
+
+def test_an_estimator_of_ones_own_is_not_kept(divided, tmp_path):
+    done = run("--train", divided, "--estimator", "math:sqrt", "--save", tmp_path / "model")
+    assert done.exit_code == 2
+    assert "yours to keep" in done.output
+
+
+class Bomb:
+    """What must never be unpickled."""
+
+    def __reduce__(self):
+        return Path.write_text, (Path("exploded"), "")
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda head, body: b"", "holds no learned classifiers"),
+        (lambda head, body: b"\x80\x04 nothing of ours", "holds no learned classifiers"),
+        (lambda head, body: b"[1, 2]\n" + body, "holds no learned classifiers"),
+        (lambda head, body: head.replace(b'"features": "', b'"features": "0') + body, "was learned with features 0"),
+        (lambda head, body: head.replace(b'"numpy": "', b'"numpy": "0.') + body, "was learned with numpy 0."),
+        (lambda head, body: head + body[:-100], "is damaged"),
+        (lambda head, body: head + body[: len(body) // 2] + b"\0" + body[len(body) // 2 + 1 :], "is damaged"),
+        (
+            lambda head, body: b'{"format": "spallgen classifiers 1"}\n' + pickle.dumps(Bomb()),
+            "was learned with python",
+        ),
+    ],
+    ids=["empty", "binary", "list", "other features", "other numpy", "cut", "flipped", "another pickle"],
+)
+def test_a_file_that_would_not_say_the_same_is_refused(learned, change, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    head, _, body = learned[0].read_bytes().partition(b"\n")
+    (tmp_path / "model").write_bytes(change(head + b"\n", body))
+    with pytest.raises(BadInput) as problem:
+        load_trained(tmp_path / "model")
+    assert told in str(problem.value)
+    assert not (tmp_path / "exploded").exists()

@@ -1,8 +1,9 @@
-"""The command `spallgen`: every command of `datagen.commands`, in the order in which help lists them."""
+"""The command `spallgen`: every command of `datagen.commands`; help lists them by name."""
 
 from __future__ import annotations
 
 import io
+import os
 import sys
 
 from datagen.commands import (
@@ -26,6 +27,8 @@ COMMANDS = (generate, import_recordings, check, info, preview, report, paper, ch
 
 def main() -> None:
     """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input) or 130 (Ctrl-C)."""
+    if sys.stdout is None:  # closed by whoever started the program
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # of an encoding that may lack ≤ and its like
             stream.reconfigure(errors="replace")

@@ -22,7 +22,9 @@ def chart(
         str,
         typer.Argument(metavar="RECIPE|SCENE", help=SOURCE_HELP),
     ] = "",
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON; needed.")
+    ] = None,
     record: Annotated[int, typer.Option(metavar="N", help="Which record of a recipe.")] = 0,
     quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s, no slow reference.")] = False,
     rounds: Annotated[int, typer.Option(metavar="N", help="Times each run is repeated; the median counts.")] = 5,

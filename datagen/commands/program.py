@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import functools
 import sys
 from collections.abc import Callable
@@ -70,6 +71,11 @@ def command(example: str, name: str | None = None) -> Callable[[Command], Comman
                 raise typer.Exit(FAILED) from None
             except PermissionError as problem:
                 complain(f"error: {problem.filename}: {problem.strerror}; allowed: what you may read and write")
+                raise typer.Exit(BAD_INPUT) from None
+            except OSError as problem:
+                if problem.errno == errno.EPIPE:  # whoever reads the output has had enough
+                    raise
+                complain(f"error: {problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt:
                 complain("interrupted; nothing that was finished is lost")

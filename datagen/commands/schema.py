@@ -18,6 +18,7 @@ def schema(
     json_file: JsonFile = None,
 ) -> None:
     """Write the JSON Schema of recipes: an editor completes, explains and checks keys with it."""
+    from datagen.corpora.atomic import write_atomically
     from datagen.recipes.recipe_schema import recipe_schema, schema_text
 
     if out is not None:
@@ -27,7 +28,10 @@ def schema(
         print(schema_text(), end="")
         return
     try:
-        out.write_text(schema_text(), encoding="utf-8")
+        if out.exists() and not out.is_file():
+            out.write_text(schema_text(), encoding="utf-8")  # a pipe or a terminal cannot be replaced
+        else:
+            write_atomically(out, schema_text().encode())
     except OSError as problem:
         raise BadInput(f"cannot write this file: {problem.strerror}", str(out), "--out") from None
     print(f"the schema of recipes is in {out}")

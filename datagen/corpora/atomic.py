@@ -13,7 +13,7 @@ from typing import BinaryIO
 from datagen.errors import BadInput
 
 TEMPORARY_SUFFIX = ".part"
-NO_SPACE = (errno.ENOSPC, errno.EDQUOT)
+NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def write_atomically(path: Path, data: bytes | memoryview) -> None:

@@ -17,7 +17,7 @@ from datagen.corpora.format import FORMAT, content_hash, data_hash, format_hash
 from datagen.corpora.index import LABEL_COLUMNS, read_index
 from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpora.netcdf import ONE_AT_A_TIME
-from datagen.corpora.reading import READ_ERRORS
+from datagen.corpora.reading import READ_ERRORS, unspeakable
 from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
 from datagen.records.versions import program_hash
@@ -112,6 +112,8 @@ class _Check:
         except BadInput as problem:
             self.problems.append(f"manifest.json: its recipe cannot be read: {problem}")
             return None
+        if recipe.name != self.manifest.name or recipe.count != self.manifest.recipe_records:
+            self.problems.append("manifest.json: name or recipe_records are not those of its recipe")
         if recipe.hash[:16] != self.manifest.identity.recipe_hash:
             self.problems.append("manifest.json: its recipe is not the one whose hash it states")
             return None
@@ -224,6 +226,12 @@ class _Check:
             self.problems.append(
                 f"{len(missing)} of {len(asked)} records asked for are missing, the first {min(missing)}"
             )
+        if not self.records <= asked:
+            self.problems.append("manifest.json: records are there that it says nobody asked for")
+        whole = self.manifest.with_shards(self.folder, self.sidecars)
+        for name in ("failed", "bytes", "seconds", "refused"):
+            if getattr(whole, name) != getattr(self.manifest, name):
+                self.problems.append(f"manifest.json: {name} is not what the sidecars of the shards add up to")
         if failed & asked:
             self.problems.append(f"{len(failed & asked)} records could not be made; failed.jsonl says why")
         if self.index is None:
@@ -282,6 +290,8 @@ def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[s
             dataset = opened.load()
         if content_hash(dataset) != sidecar.content:
             found.append("its arrays are not those that were written")
+    except UnicodeEncodeError:
+        raise unspeakable(path) from None
     except PermissionError:
         return None, [FORBIDDEN]
     except READ_ERRORS as problem:

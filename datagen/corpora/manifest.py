@@ -11,6 +11,7 @@ from typing import Any
 from datagen.corpora.atomic import write_atomically
 from datagen.corpora.format import FORMAT, IMPORTED, SIMULATED, Identity
 from datagen.corpora.shard import Failure, Sidecar, shard_path
+from datagen.corpora.stated import UNREADABLE, amount, row, text, whole
 from datagen.errors import BadInput
 from datagen.scenarios.redraw import Refused, add_refused
 
@@ -103,22 +104,22 @@ def read_manifest(folder: Path) -> Manifest:
     try:
         found = json.loads(path.read_text())
         return Manifest(
-            name=found["name"],
-            identity=Identity(**found["identity"]),
+            name=text(found["name"]),
+            identity=row(Identity, found["identity"]),
             recipe=dict(found["recipe"]),
-            recipe_records=int(found["recipe_records"]),
-            asked=_spans(found["asked"], int(found["recipe_records"])),
-            made_with=dict(found["made_with"]),
-            shards=tuple(ShardEntry(**shard) for shard in found["shards"]),
-            failed=tuple(Failure(**failure) for failure in found["failed"]),
-            bytes=int(found["bytes"]),
-            seconds=float(found["seconds"]),
-            refused={str(what): Refused(**counted) for what, counted in found["refused"].items()},
-            origin=str(found["origin"]),
+            recipe_records=whole(found["recipe_records"]),
+            asked=_spans(found["asked"], whole(found["recipe_records"])),
+            made_with={text(what): text(version) for what, version in found["made_with"].items()},
+            shards=tuple(row(ShardEntry, shard) for shard in found["shards"]),
+            failed=tuple(row(Failure, failure) for failure in found["failed"]),
+            bytes=whole(found["bytes"]),
+            seconds=amount(found["seconds"]),
+            refused={text(what): row(Refused, counted) for what, counted in found["refused"].items()},
+            origin=text(found["origin"]),
         )
     except (FileNotFoundError, NotADirectoryError):
         raise no_corpus(folder, path.name) from None
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as problem:
+    except UNREADABLE as problem:
         raise BadInput(f"not a manifest of a corpus: {_in_words(problem)}", str(path)) from None
 
 
@@ -133,7 +134,7 @@ def no_corpus(folder: Path, lacking: str) -> BadInput:
 
 def _spans(found: list[Any], records: int) -> tuple[Span, ...]:
     """Spans as they are written, none beyond the recipe's records; ValueError."""
-    spans = tuple((int(start), int(stop)) for start, stop in found)
+    spans = tuple((whole(start), whole(stop)) for start, stop in found)
     if not all(0 <= start <= stop <= records for start, stop in spans):
         raise ValueError("spans beyond the records of the recipe")
     return spans
@@ -144,6 +145,8 @@ def _in_words(problem: Exception) -> str:
         return f"cannot be read ({problem.strerror})"
     if isinstance(problem, json.JSONDecodeError):
         return f"no JSON from line {problem.lineno}, column {problem.colno} on"
+    if isinstance(problem, RecursionError):
+        return "it is nested too deeply"
     if isinstance(problem, UnicodeDecodeError):
         return "no text"
     if isinstance(problem, KeyError):

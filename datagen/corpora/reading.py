@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,11 +13,19 @@ AGAIN = "generate again into the same folder (a corpus of recordings: import it 
 READ_ERRORS = (OSError, RuntimeError, ValueError, KeyError, IndexError, AttributeError)
 
 
+def unspeakable(path: Path) -> BadInput:
+    """The error of a path that the library of netCDF cannot be told in this locale's encoding."""
+    problem = f"the encoding of this locale, {sys.getfilesystemencoding()}, lacks letters of this path"
+    return BadInput(problem, str(path), allowed="a locale with UTF-8 (LC_ALL=C.UTF-8), or a path in ASCII")
+
+
 @contextmanager
 def reading(folder: Path, shard: str) -> Iterator[None]:
     """Whatever goes wrong inside while `shard` (its name in the corpus `folder`) is read is BadInput that names it."""
     try:
         yield
+    except UnicodeEncodeError:
+        raise unspeakable(folder / shard) from None
     except PermissionError:
         raise BadInput("you may not read this shard; change its permissions", str(folder / shard)) from None
     except FileNotFoundError:

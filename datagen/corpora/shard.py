@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from datagen.corpora.atomic import write_atomically
 from datagen.corpora.format import Identity, content_hash
 from datagen.corpora.netcdf import netcdf_bytes
+from datagen.corpora.stated import UNREADABLE, amount, row, text, whole
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 
@@ -117,18 +118,18 @@ def read_sidecar(path: Path) -> Sidecar | None:
     try:
         found = json.loads(path.read_text())
         return Sidecar(
-            shard=int(found["shard"]),
-            identity=Identity(**found["identity"]),
-            records=tuple(found["records"]),
-            failed=tuple(Failure(**failure) for failure in found["failed"]),
-            bytes=int(found["bytes"]),
-            sha256=str(found["sha256"]),
-            content=str(found["content"]),
-            seconds=float(found["seconds"]),
+            shard=whole(found["shard"]),
+            identity=row(Identity, found["identity"]),
+            records=tuple(whole(record) for record in found["records"]),
+            failed=tuple(row(Failure, failure) for failure in found["failed"]),
+            bytes=whole(found["bytes"]),
+            sha256=text(found["sha256"]),
+            content=text(found["content"]),
+            seconds=amount(found["seconds"]),
             labels={str(name): list(column) for name, column in found["labels"].items()},
-            refused={str(what): Refused(**counted) for what, counted in found["refused"].items()},
+            refused={str(what): row(Refused, counted) for what, counted in found["refused"].items()},
         )
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except UNREADABLE:
         return None
 
 

@@ -123,4 +123,14 @@ def _draw_bars(
         heights = np.array([(values == value).sum() for value in distinct])
         axes.bar(np.arange(distinct.size), heights, bottom=below, color=colour, width=0.65, label=place)
         below += heights
-    axes.set_xticks(np.arange(distinct.size), [f"{value:.6g}" for value in distinct])
+    axes.set_xticks(np.arange(distinct.size), _short(distinct))
+
+
+def _short(distinct: NDArray[np.float64]) -> list[str]:
+    """Texts of different numbers with as few digits as keep them apart."""
+    texts: list[str] = []
+    for digits in range(3, 7):
+        texts = [f"{value:.{digits}g}" for value in distinct]
+        if len(set(texts)) == distinct.size:
+            break
+    return texts

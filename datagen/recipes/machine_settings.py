@@ -12,8 +12,13 @@ from physics.bearing import SMALLEST_CONFORMITY
 from physics.catalog import BEARINGS, RIGS
 
 DRAWN = "drawn"
-Positive = Annotated[Distribution, Between(0.0, above=True)]
-NotNegative = Annotated[Distribution, Between(0.0)]
+# Ranges far beyond all machines, within which numbers of physics neither overflow nor vanish.
+Positive = Annotated[Distribution, Between(1e-9, 1e15)]
+DiameterMm = Annotated[Distribution, Between(0.1, 1e5)]
+Mass = Annotated[Distribution, Between(1e-6, 1e7)]
+Frequency = Annotated[Distribution, Between(1e-3, 1e7)]
+Factor = Annotated[Distribution, Between(1e-6, 1e6)]
+NotNegative = Annotated[Distribution, Between(0.0, 1e15)]
 Degrees = Annotated[Distribution, Between()]
 Conformity = Annotated[Distribution, Between(SMALLEST_CONFORMITY, 1e3)]
 DampingRatio = Annotated[Distribution, Between(0.0, 2.0)]
@@ -45,25 +50,25 @@ OTHER_GROUPS = (("exponent", "elements"),)
 class FactorSettings(Table):
     """Deviations: each number is multiplied by a drawn factor; 1 if not given."""
 
-    pitch_diameter: Positive | None = None
+    pitch_diameter: Factor | None = None
     """Factor on the pitch diameter."""
-    ball_diameter: Positive | None = None
+    ball_diameter: Factor | None = None
     """Factor on the diameter of a rolling element."""
-    load_deflection: Positive | None = None
+    load_deflection: Factor | None = None
     """Factor on K, after K has followed the geometry."""
     clearance: NotNegative | None = None
     """Factor on the radial clearance."""
-    inner_mass: Positive | None = None
+    inner_mass: Factor | None = None
     """Factor on the mass of inner ring and shaft."""
-    outer_mass: Positive | None = None
+    outer_mass: Factor | None = None
     """Factor on the mass of outer ring and support."""
-    resonator_mass: Positive | None = None
+    resonator_mass: Factor | None = None
     """Factor on the mass of the resonator."""
-    support_stiffness: Positive | None = None
+    support_stiffness: Factor | None = None
     """Factor on the stiffness of the support along x and y."""
     support_damping: NotNegative | None = None
     """Factor on the damping of the support along x and y."""
-    resonator_stiffness: Positive | None = None
+    resonator_stiffness: Factor | None = None
     """Factor on the stiffness of the resonator."""
     resonator_damping: NotNegative | None = None
     """Factor on the damping of the resonator."""
@@ -86,9 +91,9 @@ class MachineSettings(Table):
     """Rolling elements in each row."""
     rows: Annotated[Distribution, Whole(1, 2)] | None = None
     """Rows of rolling elements."""
-    pitch_diameter_mm: Positive | None = None
+    pitch_diameter_mm: DiameterMm | None = None
     """Diameter of the circle through the balls' centres, mm."""
-    ball_diameter_mm: Positive | None = None
+    ball_diameter_mm: DiameterMm | None = None
     """Diameter of a rolling element, mm."""
     contact_angle_deg: Annotated[Distribution, Between(0.0, 60.0)] | None = None
     """Contact angle, degrees."""
@@ -101,11 +106,11 @@ class MachineSettings(Table):
     """Exponent n of the load-deflection law: 1.5 for balls, 1.1111 for rollers."""
     clearance_um: Annotated[Distribution, Between(-1000.0, 1000.0)] | None = None
     """Radial clearance (half the diametral play), µm; negative: preload."""
-    inner_mass_kg: Positive | None = None
+    inner_mass_kg: Mass | None = None
     """Mass of inner ring and shaft, kg."""
-    outer_mass_kg: Positive | None = None
+    outer_mass_kg: Mass | None = None
     """Mass of outer ring and support, kg."""
-    resonator_mass_kg: Positive | None = None
+    resonator_mass_kg: Mass | None = None
     """Mass of the high-frequency resonator, kg."""
     support_stiffness_x_n_per_m: Positive | None = None
     """Stiffness of the outer ring's support along x, N/m."""
@@ -135,17 +140,17 @@ class MachineSettings(Table):
     """Rolling elements in each row as a share of the most that fit, rounded down."""
     roller_length_of_diameter: Annotated[Distribution, Between(0.1, 20.0)] = Fixed(1.0)
     """Effective length of a roller over its diameter, where `elements` says rollers."""
-    support_frequency_hz: Positive | None = None
+    support_frequency_hz: Frequency | None = None
     """Natural frequency of the outer ring's mass alone on its support along y, Hz: gives the stiffness for the mass."""
-    support_stiffness_x_over_y: Positive = Fixed(1.0)
+    support_stiffness_x_over_y: Factor = Fixed(1.0)
     """Stiffness of the support along x over that along y, where support_frequency_hz is given."""
     support_damping_ratio: DampingRatio | None = None
     """Damping of the outer ring's mass alone on its support over the critical one, along x and y."""
-    resonator_frequency_hz: Positive | None = None
+    resonator_frequency_hz: Frequency | None = None
     """Natural frequency of the resonator alone, Hz: gives the stiffness for the mass."""
     resonator_damping_ratio: DampingRatio | None = None
     """Damping of the resonator alone over the critical one."""
-    film_damping_us: NotNegative | None = None
+    film_damping_us: Annotated[Distribution, Between(0.0, 1e6)] | None = None
     """Damping of the healthy bearing along y over its stiffness at the rated load, µs: gives that of one contact."""
     rated_speed_rpm: Positive | None = None
     """Rated speed of the machine, rpm."""

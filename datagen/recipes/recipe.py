@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import tomllib
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -28,6 +27,7 @@ from datagen.recipes.recipe_files import find_recipe
 from datagen.recipes.record_order import Place, machines, place_by_part, place_interleaved
 from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.recipes.settings import Between, OneOf, Table, refuse
+from datagen.recipes.toml_file import read_toml
 from labels.envelope import holds_a_line
 from physics.scene import CONTACT_LAWS
 
@@ -263,15 +263,7 @@ class Recipe(Table):
 def load_recipe(path_or_name: str | Path) -> Recipe:
     """The recipe in a file, in a folder's `recipe.toml` or of a dataset that comes with spallgen; raises BadInput."""
     path = find_recipe(path_or_name)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        content = tomllib.loads(text)
-    except OSError as error:
-        raise BadInput(f"cannot be read: {error.strerror}", file=str(path)) from None
-    except UnicodeDecodeError:
-        raise BadInput("not a UTF-8 text file", file=str(path)) from None
-    except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"not valid TOML: {error}", file=str(path)) from None
+    content, text = read_toml(path)
     if "recording" in content and "part" not in content:
         problem = "this is a SPEC of recordings, which `spallgen import` brings in, and no recipe"
         raise BadInput(problem, str(path), "recording", allowed="[[part]]")

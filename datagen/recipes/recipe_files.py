@@ -30,12 +30,15 @@ def shipped_recipes() -> dict[str, Path]:
 def find_recipe(path_or_name: str | Path) -> Path:
     """File of a recipe given as a file, a folder or the name of a dataset ("quickstart", "datasets/quickstart")."""
     path = Path(path_or_name)
-    if path.is_file():
-        return path
-    if (path / FILE_NAME).is_file():
-        return path / FILE_NAME
-    if path.is_dir():
-        raise BadInput(f"this folder has no {FILE_NAME}", file=str(path))
+    try:
+        if path.is_file():
+            return path
+        if (path / FILE_NAME).is_file():
+            return path / FILE_NAME
+        if path.is_dir():
+            raise BadInput(f"this folder has no {FILE_NAME}", file=str(path))
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     shipped = shipped_recipes()
     name = _dataset_name(path)
     if name in shipped:

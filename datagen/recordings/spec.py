@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,6 +10,7 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from datagen.errors import BadInput
 from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.settings import Table, refuse
+from datagen.recipes.toml_file import read_toml
 from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
@@ -101,15 +101,7 @@ class Spec(Table):
 def load_spec(path_or_name: str | Path) -> Spec:
     """The SPEC in a file, or the one that comes with spallgen under that name; raises BadInput."""
     path = find_spec(path_or_name)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        content = tomllib.loads(text)
-    except OSError as error:
-        raise BadInput(f"cannot be read: {error.strerror}", str(path)) from None
-    except UnicodeDecodeError:
-        raise BadInput("not a UTF-8 text file", str(path)) from None
-    except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"not valid TOML: {error}", str(path)) from None
+    content, text = read_toml(path)
     if "part" in content and "recording" not in content:
         problem = "this is a recipe, whose corpus `spallgen generate` makes, and no SPEC of recordings"
         raise BadInput(problem, str(path), "part", allowed="[[recording]]")

@@ -19,6 +19,9 @@ from datagen.scenarios.scenario import Scenario
 from labels.schema import LAYERS
 from labels.variables import AXES, COMPONENTS, SIGNALS
 
+SHARD_BYTES = 250_000.0
+"""What a shard takes beside its signals: labels, tables, scenarios and the library's blocks."""
+
 
 @dataclass(frozen=True)
 class PlannedShard:
@@ -109,7 +112,7 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
 
 def needed_bytes(shards: Sequence[PlannedShard]) -> float:
     """About what the shards need on the disk."""
-    return sum(len(shard.records) * shard.record_bytes for shard in shards)
+    return sum(SHARD_BYTES + len(shard.records) * shard.record_bytes for shard in shards)
 
 
 def longest_first(shards: Iterable[PlannedShard]) -> list[PlannedShard]:

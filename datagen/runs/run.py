@@ -116,8 +116,9 @@ class Run:
         """Rebuild manifest, index and the list of failures from the finished shards."""
         self._rescan()
         try:
-            write_index(self.folder, self._own_sidecars())
+            # The manifest first: a folder with an index alone would be taken for somebody else's.
             write_manifest(self.folder, self.manifest)
+            write_index(self.folder, self._own_sidecars())
             self._write_failures()
         except OSError as problem:
             if problem.errno not in NO_SPACE:

@@ -180,3 +180,30 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
     path.write_text(GOOD, encoding="utf-8")
     arguments = ["generate", str(path), "--out", str(tmp_path / "out"), "--workers", "1"]
     assert CliRunner().invoke(app, arguments, catch_exceptions=False).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("pitch_diameter_mm = 1e10", "pitch_diameter_mm = 10000000000.0; allowed: a number from 0.1 to 100000"),
+        ("ball_diameter_mm = 1e-300", "ball_diameter_mm = 1e-300; allowed: a number from 0.1 to 100000"),
+        ("support_frequency_hz = 1e300", "support_frequency_hz = 1e+300; allowed: a number from 0.001 to 1e+07"),
+        ("outer_mass_kg = 1e-300", "outer_mass_kg = 1e-300; allowed: a number from 1e-06 to 1e+07"),
+        ("film_damping_us = {uniform = [1e-308, 1e308]}", "allowed: a number from 0 to 1e+06"),
+        (f"balls = {'9' * 400}", "a whole number in it has 400 digits"),
+        (f"balls = {'9' * 5000}", "a whole number in it has too many digits"),
+        (f"balls = {'[' * 100_000}", "nested too deeply"),
+    ],
+)
+def test_numbers_beyond_all_machines_are_refused(line: str, told: str, tmp_path: Path) -> None:
+    (tmp_path / "recipe.toml").write_text(GOOD.replace("machine.rig", f"machine.{line}\nmachine.rig"))
+    done = CliRunner().invoke(app, ["generate", str(tmp_path), "--out", str(tmp_path / "out")], catch_exceptions=False)
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert told in done.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_path_too_long_for_the_system_is_told(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["generate", "x" * 5000, "--out", str(tmp_path / "out")], catch_exceptions=False)
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert "cannot be read" in done.output

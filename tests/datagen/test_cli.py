@@ -211,3 +211,21 @@ def test_generate_ends_with_1_and_names_the_record_that_could_not_be_made(tiny_r
     assert "3 of 4 records are in" in shown
     assert "record 3 could not be made: " in told
     assert "the response stopped being finite" in told
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+def test_an_output_that_cannot_be_written_is_told_in_a_line() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "datagen", "catalog"], cwd=ROOT, stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert "the output: No space left on device" in done.stderr
+
+
+def test_a_closed_output_ends_no_command() -> None:
+    done = subprocess.run(
+        ["sh", "-c", '"$0" -m datagen catalog >&-', sys.executable], cwd=ROOT, capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "")

@@ -34,6 +34,7 @@ def forge(folder: Path, shard: int, change: Change) -> None:
     new = {"bytes": path.stat().st_size, "sha256": file_hash(path), "content": content_hash(dataset)}
     sidecar_path(folder, shard).write_text(json.dumps(sidecar | new | {"labels": label_columns(dataset)}))
     entry.update(new)
+    manifest["bytes"] = sum(entry["bytes"] for entry in manifest["shards"])
     (folder / "manifest.json").write_text(json.dumps(manifest))
 
 
@@ -139,6 +140,26 @@ def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
     text = (copy / "manifest.json").read_text()
     write_atomically(copy / "manifest.json", text.replace('"seed": 7', '"seed": 8').encode())
     assert "its recipe is not the one whose hash it states" in only_problem(copy)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        ("name", "other", "name or recipe_records are not those of its recipe"),
+        ("recipe_records", 99, "name or recipe_records are not those of its recipe"),
+        ("asked", [], "records are there that it says nobody asked for"),
+        ("bytes", 5, "bytes is not what the sidecars of the shards add up to"),
+        ("seconds", 1e9, "seconds is not what the sidecars of the shards add up to"),
+        ("refused", {"machine: fill": {"count": 3, "example": "why"}}, "refused is not what the sidecars"),
+        ("failed", [{"record": 3, "reason": "why"}], "failed is not what the sidecars"),
+    ],
+)
+def test_a_manifest_that_says_other_things_than_the_shards_is_found(
+    copy: Path, name: str, value: object, told: str
+) -> None:
+    manifest = json.loads((copy / "manifest.json").read_text()) | {name: value}
+    (copy / "manifest.json").write_text(json.dumps(manifest))
+    assert f"manifest.json: {told}" in " / ".join(check_corpus(copy).problems)
 
 
 def test_a_folder_without_manifest_is_no_corpus(tmp_path: Path) -> None:

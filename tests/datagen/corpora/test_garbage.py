@@ -10,8 +10,10 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
+from datagen.corpora.check import check_corpus
 from datagen.corpora.index import index_path, read_index
 from datagen.corpora.manifest import manifest_path
+from datagen.corpora.shard import sidecar_path
 from datagen.errors import BadInput
 
 PYTHON = re.compile(r"Error|Traceback|\(\)|object|None|NoneType|\['")
@@ -52,6 +54,47 @@ def test_a_manifest_that_lacks_a_key_or_holds_nonsense_says_so(key: str, copy: P
     del content[key]
     manifest_path(copy).write_text(json.dumps(content))
     assert f'it lacks "{key}"' in told_by("info", copy)
+
+
+@pytest.mark.parametrize(
+    ("key", "strange"),
+    [
+        ("bytes", float("inf")),
+        ("recipe_records", float("inf")),
+        ("asked", [[0, float("inf")]]),
+        ("name", 1),
+        ("identity", {"recipe_hash": 1, "model_hash": "", "format_hash": "", "program_hash": ""}),
+        ("made_with", {"numpy": 2}),
+        ("seconds", "long"),
+    ],
+)
+def test_numbers_and_texts_of_a_manifest_are_such(key: str, strange: object, copy: Path) -> None:
+    content = json.loads(manifest_path(copy).read_text())
+    manifest_path(copy).write_text(json.dumps(content | {key: strange}))
+    for command in ("info", "check", "report"):
+        assert f"{manifest_path(copy)}: not a manifest of a corpus" in told_by(command, copy)
+
+
+def test_a_manifest_nested_without_end_is_told(copy: Path) -> None:
+    manifest_path(copy).write_text("[" * 100_000)
+    assert "it is nested too deeply" in told_by("check", copy)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"shard": float("inf")},
+        {"shard": 1e308},
+        {"records": [[]]},
+        {"bytes": True},
+        {"seconds": -1.0},
+        {"sha256": None},
+    ],
+)
+def test_a_sidecar_that_is_none_is_damage(change: dict[str, object], copy: Path) -> None:
+    path = sidecar_path(copy, 0)
+    path.write_text(json.dumps(json.loads(path.read_text()) | change))
+    assert "shards/shard_000000.json" in check_corpus(copy).damaged
 
 
 INDICES = {

@@ -47,9 +47,8 @@ def test_the_size_of_a_record_counts_every_stored_signal(tiny: Recipe) -> None:
 
 
 def test_the_size_said_beforehand_is_near_that_of_the_corpus(tiny: Recipe, tiny_corpus: Path) -> None:
-    signals = needed_bytes(plan_shards(tiny, tiny.count))
-    # a shard of 1600 samples is half labels, tables and the library's 64 kB blocks
-    assert 0.2 < signals / sum(path.stat().st_size for path in (tiny_corpus / "shards").glob("*.nc")) < 1.2
+    said = needed_bytes(plan_shards(tiny, tiny.count))
+    assert 0.7 < said / sum(path.stat().st_size for path in (tiny_corpus / "shards").glob("*.nc")) < 1.4
 
 
 def test_a_selection_is_everything_a_prefix_or_a_list(tiny: Recipe) -> None:

@@ -24,7 +24,7 @@ READ_BLOCK = 1 << 20
 
 @dataclass(frozen=True)
 class Failure:
-    """A record that could not be made: `reason` is one sentence."""
+    """A record that could not be made: `reason` is one sentence; of a fault in the program, its traceback."""
 
     record: int
     reason: str

@@ -11,13 +11,14 @@ from typing import Any
 
 from datagen.benchmark.machines import Learned
 from datagen.benchmark.training import Model
-from datagen.corpora.atomic import write_atomically
+from datagen.corpora.atomic import write_file
 from datagen.errors import BadInput
 from datagen.records.versions import measured_on, program_hash
 from labels.classifier.rule import Rule
 
 FORMAT = "spallgen classifiers 1"
-SAVE = "--save"
+SAVE, TRAIN = "--save", "--train"
+AGAIN = f"learn again, with {SAVE}"
 MADE_WITH = ("python", "scikit-learn", "numpy", "scipy")
 LONGEST_HEAD = 10_000
 
@@ -44,10 +45,7 @@ def is_saved(train: Path) -> bool:
 def save_trained(path: Path, trained: Trained) -> None:
     """Keep what was learned at `path`, a line of JSON that says with what and a compressed pickle; raises BadInput."""
     head = json.dumps({"format": FORMAT} | _made_with()).encode() + b"\n"
-    try:
-        write_atomically(path, head + zlib.compress(pickle.dumps(trained), 1))
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", field=SAVE, value=str(path)) from None
+    write_file(path, head + zlib.compress(pickle.dumps(trained), 1), SAVE)
 
 
 def load_trained(path: Path) -> Trained:
@@ -55,22 +53,26 @@ def load_trained(path: Path) -> Trained:
     learning rests on, and of the features. Nothing is unpickled before that is known."""
     try:
         with path.open("rb") as file:
-            head = _head(file.readline(LONGEST_HEAD))
-            if head.get("format") != FORMAT:
-                allowed = f"a corpus, or what {SAVE} wrote"
-                raise BadInput("holds no learned classifiers", str(path), "--train", allowed=allowed)
-            for name, now in _made_with().items():
-                if head.get(name) != now:
-                    problem = f"was learned with {name} {head.get(name)}, and this is {now}"
-                    raise BadInput(problem, str(path), "--train", allowed=f"learn again, with {SAVE}")
+            _require_same(path, _head(file.readline(LONGEST_HEAD)))
             trained = pickle.loads(zlib.decompress(file.read()))
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path), "--train") from None
+        raise BadInput(f"cannot be read: {problem.strerror}", str(path), TRAIN) from None
     except (zlib.error, pickle.UnpicklingError, EOFError):
-        raise BadInput("is damaged", str(path), "--train", allowed=f"learn again, with {SAVE}") from None
+        trained = None
     if not isinstance(trained, Trained):
-        raise BadInput("is damaged", str(path), "--train", allowed=f"learn again, with {SAVE}")
+        raise BadInput("is damaged", str(path), TRAIN, allowed=AGAIN)
     return trained
+
+
+def _require_same(path: Path, head: dict[str, Any]) -> None:
+    """Raise BadInput unless the `head` of a file says that it was made by what runs now."""
+    if head.get("format") != FORMAT:
+        raise BadInput("holds no learned classifiers", str(path), TRAIN, allowed=f"a corpus, or what {SAVE} wrote")
+    for name, now in _made_with().items():
+        if head.get(name) != now:
+            raise BadInput(
+                f"was learned with {name} {head.get(name)}, and this is {now}", str(path), TRAIN, None, AGAIN
+            )
 
 
 def _head(line: bytes) -> dict[str, Any]:

@@ -105,17 +105,10 @@ def write_json(path: Path | None, result: Any) -> None:
     """Write a dataclass or a mapping as JSON; NaN becomes null."""
     if path is None:
         return
-    from datagen.corpora.atomic import write_atomically
+    from datagen.corpora.atomic import write_file
     from datagen.plain import plain_json
 
-    text = plain_json(result)
-    try:
-        if path.exists() and not path.is_file():
-            path.write_text(text)  # a pipe or a terminal cannot be replaced
-        else:
-            write_atomically(path, text.encode())
-    except OSError as problem:
-        raise BadInput(f"cannot write this file: {problem.strerror}", str(path), "--json") from None
+    write_file(path, plain_json(result).encode(), "--json")
 
 
 def complain(sentence: str) -> None:

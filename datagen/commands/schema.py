@@ -8,7 +8,6 @@ from typing import Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, write_json
-from datagen.errors import BadInput
 from datagen.places import require_file
 
 
@@ -18,7 +17,7 @@ def schema(
     json_file: JsonFile = None,
 ) -> None:
     """Write the JSON Schema of recipes: an editor completes, explains and checks keys with it."""
-    from datagen.corpora.atomic import write_atomically
+    from datagen.corpora.atomic import write_file
     from datagen.recipes.recipe_schema import recipe_schema, schema_text
 
     if out is not None:
@@ -27,11 +26,5 @@ def schema(
     if out is None:
         print(schema_text(), end="")
         return
-    try:
-        if out.exists() and not out.is_file():
-            out.write_text(schema_text(), encoding="utf-8")  # a pipe or a terminal cannot be replaced
-        else:
-            write_atomically(out, schema_text().encode())
-    except OSError as problem:
-        raise BadInput(f"cannot write this file: {problem.strerror}", str(out), "--out") from None
+    write_file(out, schema_text().encode(), "--out")
     print(f"the schema of recipes is in {out}")

@@ -38,6 +38,20 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
     _sync_folder(path.parent)
 
 
+def write_file(path: Path, data: bytes, option: str) -> None:
+    """Put `data` at `path`, which the user has named with an `option`, whole or not at all; raises BadInput.
+
+    A pipe or a device is written to as it is, and not replaced by a file.
+    """
+    try:
+        if path.exists() and not path.is_file():
+            path.write_bytes(data)
+        else:
+            write_atomically(path, data)
+    except OSError as problem:
+        raise BadInput(f"cannot write this file: {problem.strerror}", str(path), option) from None
+
+
 def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
     """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput."""
     try:

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpora.conformity import violations
-from datagen.corpora.format import FORMAT, content_hash, data_hash, format_hash
+from datagen.corpora.format import FORMAT, content_hash, format_hash
 from datagen.corpora.index import LABEL_COLUMNS, read_index
 from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
+from datagen.corpora.manifest_check import differences, recipe_of
 from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.corpora.reading import READ_ERRORS, unspeakable
 from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     import xarray
 
     from datagen.corpus import Corpus
-    from datagen.recipes.recipe import Recipe
 
 LARGEST_DIFFERENCE = 1e-3
 FORBIDDEN = "you may not read it; change its permissions"
@@ -91,7 +91,8 @@ class _Check:
         self.remade: list[int] = []
         self.difference = 0.0
         self.index = self._read_index()
-        self.recipe = self._read_recipe()
+        self.recipe, problems = recipe_of(manifest, folder)
+        self.problems += problems
 
     def _read_index(self) -> pandas.DataFrame | None:
         try:
@@ -99,29 +100,6 @@ class _Check:
         except BadInput as problem:
             self.problems.append(str(problem))
             return None
-
-    def _read_recipe(self) -> Recipe | None:
-        """The recipe, if it can be read and is the one that made the corpus; None for imported recordings."""
-        from datagen.recipes.recipe import parse_recipe
-
-        if self.manifest.imported:
-            self._check_import()
-            return None
-        try:
-            recipe = parse_recipe(self.manifest.recipe, self.folder / "manifest.json")
-        except BadInput as problem:
-            self.problems.append(f"manifest.json: its recipe cannot be read: {problem}")
-            return None
-        if recipe.name != self.manifest.name or recipe.count != self.manifest.recipe_records:
-            self.problems.append("manifest.json: name or recipe_records are not those of its recipe")
-        if recipe.hash[:16] != self.manifest.identity.recipe_hash:
-            self.problems.append("manifest.json: its recipe is not the one whose hash it states")
-            return None
-        return recipe
-
-    def _check_import(self) -> None:
-        if data_hash(self.manifest.recipe) != self.manifest.identity.recipe_hash:
-            self.problems.append("manifest.json: its SPEC and files are not those whose hash it states")
 
     def files(self) -> None:
         """Read every sidecar, and find files that do not belong together."""
@@ -226,12 +204,7 @@ class _Check:
             self.problems.append(
                 f"{len(missing)} of {len(asked)} records asked for are missing, the first {min(missing)}"
             )
-        if not self.records <= asked:
-            self.problems.append("manifest.json: records are there that it says nobody asked for")
-        whole = self.manifest.with_shards(self.folder, self.sidecars)
-        for name in ("failed", "bytes", "seconds", "refused"):
-            if getattr(whole, name) != getattr(self.manifest, name):
-                self.problems.append(f"manifest.json: {name} is not what the sidecars of the shards add up to")
+        self.problems += differences(self.manifest, self.folder, self.sidecars)
         if failed & asked:
             self.problems.append(f"{len(failed & asked)} records could not be made; failed.jsonl says why")
         if self.index is None:

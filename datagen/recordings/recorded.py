@@ -20,7 +20,7 @@ from datagen.recordings.listing import Request
 from datagen.recordings.placeholders import without_ending
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
-from datagen.recordings.source import Source, open_source, samples_hash, source_hash
+from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.envelope import holds_a_line
 from labels.kurtogram import most_impulsive_band
@@ -64,7 +64,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     axes = tuple(axis for axis in AXES if getattr(request.channel, axis) is not None)
     rate = _rate(source)
     counts = _samples(source, axes)
-    filled = sum(source.missing(getattr(request.channel, axis), axis).size for axis in axes)
+    filled = _filled(source, axes)
     factor = _scale(source)
     pieces = _pieces(source, rate, counts.shape[0])
     shortest = min(stop - start for start, stop in pieces)
@@ -119,6 +119,13 @@ def _samples(source: Source, axes: tuple[str, ...]) -> NDArray[np.float64]:
         sizes = " and ".join(str(column.size) for column in columns)
         raise BadInput(f"the axes differ in length: {sizes} samples", str(source.path), "x, y")
     return np.stack(columns, axis=1)
+
+
+def _filled(source: Source, axes: tuple[str, ...]) -> int:
+    """How many samples of all axes were missing and are filled; others are refused where they are read."""
+    if source.setting("missing_samples") != FILL:
+        return 0
+    return sum(source.missing(getattr(source.request.channel, axis), axis).size for axis in axes)
 
 
 def _scale(source: Source) -> float:

@@ -30,6 +30,7 @@ DECISIVE = 12.0
 STANDS_OUT = 4.0
 """Nats that noise gives one line in 500."""
 MORE_LINES = 4
+"""By how many lines that stand out a speed must lead to be taken for a better one."""
 
 
 @dataclass(frozen=True)
@@ -66,22 +67,16 @@ def refine_speed(
     count = int(np.ceil(2.0 * tolerance * known.shaft_hz * SHAFT_HARMONICS / (BINS_BETWEEN * spectrum.step))) + 1
     places = max(PLACES[0], min(count, PLACES[1])) // 2 * 2 + 1 if tolerance > 0.0 else 1
     factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
-    comb = _comb(spectrum, turning, known, factors, (SHAFT_HARMONICS, 4))
+    speeds = known.shaft_hz * factors
+    shaft = _tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
+    modulation = _tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
+    comb = shaft.sum(axis=0) + modulation.sum(axis=0)
     joint = comb + _families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
     place = int(joint.argmax())
     factor, nats = float(factors[place]), float(comb[place])
     if places > 1 and nats > 0.0:
         factor = _sharpened(spectrum, turning, known, factor, float(factors[1] - factors[0]))
     return Speed(known.shaft_hz * factor, nats)
-
-
-def _comb(spectrum: Lines, turning: Lines, known: Kinematics, factors: Array, harmonics: tuple[int, int]) -> Array:
-    """Nats of so many harmonics of the shaft in the vibration and in its envelope, at each of the speeds (N,)."""
-    found = (
-        _tempered(harmonic_evidence(lines, known.shaft_hz * factors, known.shaft_hz, 0.0, count)[:, 0]).sum(axis=0)
-        for lines, count in zip((spectrum, turning), harmonics, strict=True)
-    )
-    return np.asarray(sum(found))
 
 
 def _sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float, between: float) -> float:

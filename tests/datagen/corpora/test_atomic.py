@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from datagen.corpora.atomic import locked, sweep_temporaries, write_atomically
+from datagen.corpora.atomic import locked, sweep_temporaries, write_atomically, write_file
 from datagen.errors import BadInput
 
 ROOT = Path(__file__).parents[3]
@@ -81,3 +81,21 @@ def test_a_folder_in_use_is_refused_until_its_holder_dies(tmp_path: Path) -> Non
     holder.stdout.close()
     with locked(tmp_path):
         pass
+
+
+def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        write_file(pipe, b"as it is", "--save")
+        assert os.read(reader, 100) == b"as it is"
+    finally:
+        os.close(reader)
+    assert pipe.is_fifo()
+    assert [path.name for path in tmp_path.iterdir()] == ["pipe"]
+
+
+def test_a_file_that_cannot_be_written_is_told_with_its_option(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="--save: cannot write this file: No such file or directory"):
+        write_file(tmp_path / "absent" / "model", b"", "--save")

@@ -1,0 +1,48 @@
+"""Checking a manifest: against the recipe or SPEC in it, and against what the sidecars of the shards say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from datagen.corpora.format import data_hash
+from datagen.corpora.manifest import Manifest
+from datagen.corpora.shard import Sidecar
+from datagen.errors import BadInput
+
+if TYPE_CHECKING:
+    from datagen.recipes.recipe import Recipe
+
+SUMMED = ("failed", "bytes", "seconds", "refused")
+"""What a manifest says that follows from the sidecars of the shards."""
+
+
+def recipe_of(manifest: Manifest, folder: Path) -> tuple[Recipe | None, list[str]]:
+    """The recipe of the corpus `folder`, if it can be read and is the one that made it, and what is wrong with it; None
+    for imported recordings."""
+    from datagen.recipes.recipe import parse_recipe
+
+    if manifest.imported:
+        same = data_hash(manifest.recipe) == manifest.identity.recipe_hash
+        return None, [] if same else ["manifest.json: its SPEC and files are not those whose hash it states"]
+    try:
+        recipe = parse_recipe(manifest.recipe, folder / "manifest.json")
+    except BadInput as problem:
+        return None, [f"manifest.json: its recipe cannot be read: {problem}"]
+    if recipe.hash[:16] != manifest.identity.recipe_hash:
+        return None, ["manifest.json: its recipe is not the one whose hash it states"]
+    if recipe.name != manifest.name or recipe.count != manifest.recipe_records:
+        return recipe, ["manifest.json: name or recipe_records are not those of its recipe"]
+    return recipe, []
+
+
+def differences(manifest: Manifest, folder: Path, sidecars: Sequence[Sidecar]) -> Iterator[str]:
+    """In what a manifest differs from what the `sidecars` of all shards of the corpus `folder` add up to."""
+    made = {record for sidecar in sidecars for record in sidecar.records}
+    if not made <= {record for start, stop in manifest.asked for record in range(start, stop)}:
+        yield "manifest.json: records are there that it says nobody asked for"
+    summed = manifest.with_shards(folder, sidecars)
+    for name in SUMMED:
+        if getattr(summed, name) != getattr(manifest, name):
+            yield f"manifest.json: {name} is not what the sidecars of the shards add up to"

@@ -22,7 +22,7 @@ from physics.integrators.modal.bumps import is_bumpy
 from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
 from physics.integrators.modal.choice import Choice, next_step
-from physics.integrators.modal.flow import OUTPUT, LinearFlow, set_rest
+from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.grazing import is_rough, mark_grazing
 from physics.integrators.modal.judgement import (
     dipped,
@@ -251,7 +251,6 @@ def march_modal(
         step = choice.end - clock[TIME]
         if choice.row == BETWEEN:
             set_between(flow, memory, step, grid.interval / UNITS)
-        before = rest[0, OUTPUT], rest[1, OUTPUT]
         trial, middle = try_step(contacts, flow, memory, choice.row, step, now, force, then)
         after = trial.after
         if marks[BALL] == NO_BALL:
@@ -266,7 +265,7 @@ def march_modal(
         add_contact_time(contacts, memory, step, output)
         remember(memory, step, force, middle)
         if choice.units > UNITS:
-            write_inside(contacts, flow, grid, memory, choice, trial, before, output)
+            write_inside(contacts, flow, grid, memory, choice, trial, output)
         now, then = then, now
         force = after
         land(grid, memory, choice.units, choice.beyond)

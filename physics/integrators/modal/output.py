@@ -171,21 +171,21 @@ def write_inside(
     memory: Memory,
     choice: Choice,
     trial: Trial,
-    before: tuple[float, float],
     output: Output,
 ) -> None:
     """Write the samples inside the stride that was taken as tried, from the memory's clock on.
 
-    `before` (x, y) is the resonator acceleration of the loads alone at its beginning; the memory's `rest` is of its
-    end, and its `course` the contact force.
+    The memory's `rest` is of its end, and its `course` the contact force.
     """
     rest, course, sample = memory.rest, memory.course, memory.marks[CELL] // UNITS
     first, count = FIRST_INSIDE[choice.row - UNITS - 1], choice.units // UNITS
     for k in range(count - 1):
         w = memory.inside[first + k]
-        share = (k + 1.0) / count
-        x = before[0] + share * (rest[0, OUTPUT] - before[0])
-        y = before[1] + share * (rest[1, OUTPUT] - before[1])
+        x, y = rest[0, OUTPUT], rest[1, OUTPUT]
+        if flow.turning:
+            cosine, sine = cosine_sine(flow.shaft_speed * (trial.time + (k + 1) * grid.interval))
+            x = flow.rest[0, OUTPUT] + cosine * flow.cosine[0, OUTPUT] + sine * flow.sine[0, OUTPUT]
+            y = flow.rest[1, OUTPUT] + cosine * flow.cosine[1, OUTPUT] + sine * flow.sine[1, OUTPUT]
         output.acceleration[sample + 1 + k, 0] = x + read_inside(w, 0, 0, trial.now, course)
         output.acceleration[sample + 1 + k, 1] = y + read_inside(w, 0, 1, trial.now, course)
     if output.outer.shape[0] > 0:

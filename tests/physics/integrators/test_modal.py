@@ -577,3 +577,15 @@ def test_the_sensitivity_of_a_tame_scene_is_small(reference_scene):
     trace = simulate(reference_scene("G1", 0.1), RATE)
     assert 0.0 < trace.sensitivity < 10.0
     assert not trace.chaotic
+
+
+def test_under_loads_that_turn_the_acceleration_inside_strides_is_that_of_the_states(gearbox, build_scene):
+    # A preloaded bearing without spalls lets the method take strides of many samples.
+    run = {"shaft_speed": 2.0 * math.pi * 50.0, "unbalance_force": 100.0}
+    scene = build_scene(gearbox, bearing={"clearance": -10e-6}, operation=run)
+    trace = simulate(scene, 65536.0, accuracy=1e-3, estimate_error=False, keep_state=True)
+
+    xo, xr, vo, vr = (trace.state[:, part : part + 2] for part in (2, 4, 8, 10))
+    rig = gearbox
+    expected = (rig.resonator_stiffness * (xo - xr) + rig.resonator_damping * (vo - vr)) / rig.resonator_mass
+    assert trace.acceleration == pytest.approx(expected, abs=1e-8 * np.abs(expected).max())

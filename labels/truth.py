@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.contact_events import contact_events
 from labels.load_dips import load_dips
 from physics.paths.passages import Passages, passages
 from physics.paths.profile import build_path
@@ -14,7 +15,7 @@ from physics.scene import Scene
 from physics.trace import ContactChanges
 
 Array = NDArray[np.float64]
-Truth = NDArray[np.bool_]
+Flags = NDArray[np.bool_]
 Index = NDArray[np.int16]
 
 
@@ -39,8 +40,8 @@ class PassTable:
     exit_time: Array
     release_time: Array
     regain_time: Array
-    loaded: Truth
-    complete: Truth
+    loaded: Flags
+    complete: Flags
     fall_time: Array
     rise_time: Array
 
@@ -73,7 +74,7 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
     loaded = np.zeros(ball.size, np.bool_)
     if changes is not None:
-        release, regain, loaded = _contact_events(changes, row, ball, entry, leave)
+        release, regain, loaded = contact_events(changes, row, ball, entry, leave)
     ended = np.isnan(release) | np.isfinite(regain)
     kept = loaded & np.isnan(release) & (entry >= 0.0) & (leave <= duration)
     fall, rise = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
@@ -117,36 +118,3 @@ def _following(entries: Passages, later: Passages) -> Array:
     """Times (N,) at which the ball of each entry crosses a later point: both lists hold consecutive balls."""
     first = int(np.argmax(later.ball == entries.ball[0]))
     return later.time[first : first + entries.time.size]
-
-
-def _contact_events(
-    changes: ContactChanges, row: int, ball: Index, entry: Array, leave: Array
-) -> tuple[Array, Array, Truth]:
-    """Release (N,), regain (N,), s, and `loaded` (N,) of `ball` (N,), from 1, of `row` in passes `entry` to `leave`."""
-    own = changes.row == row
-    balls = np.arange(1, changes.initial.shape[1] + 1)
-    # How a ball begins counts as its change before all others.
-    when = _instants(np.append(balls, changes.ball[own]), np.append(np.full(balls.size, -np.inf), changes.time[own]))
-    order = np.argsort(when, kind="stable")
-    when, made = when[order], np.append(changes.initial[row - 1], changes.made[own])[order]
-    losses, makings = when[~made], when[made]
-    begin, end = _instants(ball, entry), _instants(ball, leave)
-    touched = made[np.searchsorted(when, _instants(ball, np.maximum(entry, 0.0)), side="left") - 1]
-    first_loss = np.searchsorted(losses, begin, side="left")
-    last_loss = np.searchsorted(losses, end, side="right") - 1
-    made_within = np.searchsorted(makings, end, side="right") > np.searchsorted(makings, begin, side="left")
-    released = touched & (last_loss >= first_loss)
-    release, regain = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
-    release[released] = losses[first_loss[released]].imag
-    ended_by = np.searchsorted(makings, losses[last_loss[released]], side="right")
-    # Balls count from 1: that of the added instant has no pass.
-    ending = np.append(makings, 0.0)[ended_by]
-    regain[released] = np.where(ending.real == ball[released], ending.imag, np.nan)
-    return release, regain, touched | made_within
-
-
-def _instants(ball: NDArray[np.integer], time: Array) -> NDArray[np.complex128]:
-    """Instants (N,) of balls as ball + i time: complex numbers are sorted by their real part, then by the other one."""
-    instants = np.empty(time.size, dtype=np.complex128)
-    instants.real, instants.imag = ball, time
-    return instants

@@ -1,0 +1,70 @@
+"""Release, regain and load of ball passes, read from the log of when each ball touched the races."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics._jit import njit
+from physics.trace import ContactChanges
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+
+def contact_events(
+    changes: ContactChanges, row: int, ball: NDArray[np.int16], entry: Array, leave: Array
+) -> tuple[Array, Array, Flags]:
+    """`release` (N,) and `regain` (N,), s, and `loaded` (N,) of passes of `ball` (N,), from 1, of the `row`.
+
+    A pass lasts from `entry` to `leave` (N,), s; what the three mean is told at labels.truth.PassTable.
+    """
+    own = changes.row == row
+    order = np.lexsort((changes.time[own], changes.ball[own]))
+    balls, times, begins = (column[own][order] for column in (changes.ball, changes.time, changes.made))
+    first = np.searchsorted(balls, np.arange(1, changes.initial.shape[1] + 2))
+    release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
+    loaded = np.zeros(ball.size, np.bool_)
+    _read(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded)
+    return release, regain, loaded
+
+
+@njit
+def _read(
+    times: Array,
+    begins: Flags,
+    first: NDArray[np.int64],
+    initial: Flags,
+    ball: NDArray[np.int16],
+    entry: Array,
+    leave: Array,
+    release: Array,
+    regain: Array,
+    loaded: Flags,
+) -> None:
+    """Fill `release`, `regain` and `loaded` (N,) from the changes of each ball, which lie from `first` (B + 1,) on.
+
+    Each ball's `times` (C,) rise; contact `begins` (C,) at them or is lost, and stood as in `initial` (B,) before.
+    """
+    for k in range(ball.size):
+        touches = initial[ball[k] - 1]
+        touches_at_entry, made_within, ended = touches, False, True
+        for change in range(first[ball[k] - 1], first[ball[k]]):
+            time, made = times[change], begins[change]
+            if time < max(entry[k], 0.0):
+                touches_at_entry = made
+            within = entry[k] <= time <= leave[k]
+            made_within = made_within or (within and made)
+            if within and not made:
+                if np.isnan(release[k]):
+                    release[k] = time
+                ended = False
+            elif made and not ended:
+                regain[k] = time
+                ended = True
+        if not touches_at_entry:
+            release[k] = np.nan
+        # A loss that did not end leaves no regain of an earlier one.
+        if not (touches_at_entry and ended):
+            regain[k] = np.nan
+        loaded[k] = touches_at_entry or made_within

@@ -56,7 +56,7 @@ class Chart:
     """All runs on one scene, where each method stops being stable, and with what it was measured.
 
     `edges`: times real time at which a fixed-step method would be at its longest stable step, by name.
-    `best`: times real time at an acceleration error of 1e-3, by group and name, interpolated; null if not reached.
+    `best`: times real time at an acceleration error of 1e-3, by name, interpolated; null if not reached.
     `contracts`: what each method and simpler model states of itself, by name.
     """
 

@@ -54,8 +54,8 @@ class Program(TyperGroup):
             return _of_option(problem, command)
         if command is self:
             word = next(part for part in self._given if not part.startswith("-"))
-            problem = f"there is no such command{_meant(nearest(word, self.commands))}"
-            return BadInput(problem, field=word, allowed=", ".join(self.commands))
+            said = f"there is no such command{_meant(nearest(word, self.commands))}"
+            return BadInput(said, field=word, allowed=", ".join(self.commands))
         said = problem.format_message().rstrip(".")
         return BadInput(said[:1].lower() + said[1:], field=str(context.info_name), allowed=_usage(context))
 

@@ -82,7 +82,7 @@ def sweep_temporaries(folder: Path) -> int:
 def locked(folder: Path) -> Iterator[None]:
     """Hold `folder` for this process alone; BadInput if another run holds it or it cannot be written into.
 
-    The lock dies with its process.
+    The lock dies with its process. On a file system without locks, as some network ones are, nothing is held.
     """
     import fcntl
 
@@ -96,7 +96,7 @@ def locked(folder: Path) -> Iterator[None]:
         os.close(descriptor)
         raise BadInput("another run is writing into this folder", file=str(folder)) from problem
     except OSError:
-        pass  # a file system without locks (some network ones): go on unprotected
+        pass  # a file system without locks: go on unprotected
     try:
         yield
     finally:

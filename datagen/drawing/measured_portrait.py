@@ -38,7 +38,6 @@ class MeasuredPortrait:
     rate: float
     axes: tuple[str, ...]
     acceleration: Array
-    clean: None = None
     shaft_angle: Array | None = None
 
     @property

@@ -22,7 +22,7 @@ from physics.modes import rated_matrices
 from physics.rating import static_load_rating
 from physics.rig import Rig
 
-RPM = 60.0 / (2.0 * math.pi)
+RPM_PER_RAD_S = 60.0 / (2.0 * math.pi)
 # (setting, field, how many of the setting's units make one SI unit). Append only: the order is that of the stream.
 BEARING_NUMBERS = (
     ("pitch_diameter_mm", "pitch_diameter", 1e3),
@@ -49,7 +49,7 @@ CONFORMITIES = (
     ("inner_conformity", "inner_conformity", 1.0),
     ("outer_conformity", "outer_conformity", 1.0),
 )
-RATED_NUMBERS = (("rated_speed_rpm", "rated_speed", RPM), ("rated_load_n", "rated_load", 1.0))
+RATED_NUMBERS = (("rated_speed_rpm", "rated_speed", RPM_PER_RAD_S), ("rated_load_n", "rated_load", 1.0))
 # Every setting of the machine table but its factors, in the order of the stream.
 STREAM = (
     "rig",

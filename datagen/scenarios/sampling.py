@@ -13,7 +13,7 @@ from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.defect import draw_spalls
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.drawn_background import draw_noise_target, draw_stretch
-from datagen.scenarios.drawn_rig import RPM
+from datagen.scenarios.drawn_rig import RPM_PER_RAD_S
 from datagen.scenarios.feasibility import require_equilibrium
 from datagen.scenarios.machine import Machine, draw_machine
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
@@ -102,7 +102,7 @@ def _spalls(draw: Draw, machine: Machine, place: Place, load: float) -> tuple[Sp
 
 
 def _draw_operation(settings: OperationSettings, rig: Rig, pick: Picker) -> Operation:
-    speed = _absolute_or_relative(settings.speed_rpm, RPM, settings.speed_of_rated, rig.rated_speed, pick)
+    speed = _absolute_or_relative(settings.speed_rpm, RPM_PER_RAD_S, settings.speed_of_rated, rig.rated_speed, pick)
     load = _absolute_or_relative(settings.load_n, 1.0, settings.load_of_rated, rig.rated_load, pick)
     unbalance = _draw_unbalance(settings, rig, speed, pick)
     unbalance_phase = pick.number(settings.unbalance_phase_deg)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import FEWEST_BINS, Array, Spectrum, local_mean_power
+from labels.features.conditioning import FEWEST_BINS, Array, Spectrum, over_floor
 from labels.features.families import find_family, lines_in, near_mains
 from labels.features.speed import SPECTRUM_FLOOR_ORDERS, SPEED_TOLERANCE
 
@@ -111,9 +111,7 @@ def _turning(analysis: Analysis) -> float:
     spectrum, step = analysis.record.raw, analysis.record.step
     power = np.abs(spectrum[None, : int(STILL_BAND[1] / step)]) ** 2
     block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * analysis.given.shaft_hz / step))
-    floor = local_mean_power(power[:, 1:], block)
-    excess = np.ones_like(power)
-    excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    excess = over_floor(power, block)
     frequency = np.arange(excess.shape[-1]) * step
     lines = lines_in(np.where(_hum(frequency, step) | (frequency <= 2.0 * step), 1.0, excess), step)
     known = analysis.given

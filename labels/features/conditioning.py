@@ -99,6 +99,14 @@ def local_mean_power(power: Array, block: int) -> Array:
     return np.exp(_linear_between(starts + 0.5 * (block - 1), levels, size))
 
 
+def over_floor(power: Array, block: int) -> Array:
+    """Power (B, F) over its local mean, from blocks of that many components; 0 in component 0, which is no line."""
+    floor = local_mean_power(power[:, 1:], block)
+    excess = np.zeros_like(power)
+    excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    return excess
+
+
 def _linear_between(centres: Array, levels: Array, size: int) -> Array:
     """`levels` (…, B) at `centres` (B,), read at 0 … size − 1; constant beyond the ends."""
     if centres.size == 1:

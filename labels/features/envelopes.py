@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from labels.features.conditioning import Array, Conditioned, Spectrum, local_mean_power
+from labels.features.conditioning import Array, Conditioned, Spectrum, over_floor
 from labels.features.families import mains_components
 from labels.features.turning import Turning
 
@@ -64,9 +64,7 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrow
         inside = record.flat[int(low * record.flat.size) : int(high * record.flat.size)]
         power[band], square_mean[band], kurtosis[band] = _squared_envelope(inside, count, record)
     block = max(FEWEST_FLOOR_BINS, int(FLOOR_ORDERS * shaft_hz / record.step))
-    floor = local_mean_power(power[:, 1:], block)
-    excess = np.zeros_like(power)
-    excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    excess = over_floor(power, block)
     widths = (edges[:, 1] - edges[:, 0]) * record.bandwidth
     beyond = np.arange(count) * record.step > FULL_SHARE * widths[:, None]
     excess[beyond] = 1.0

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labels.features.conditioning import FEWEST_BINS, Array, Conditioned, local_mean_power
+from labels.features.conditioning import FEWEST_BINS, Array, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
 from labels.features.families import Lines, find_family, harmonic_evidence, lines_in
 from labels.features.kinematics import Kinematics
@@ -47,9 +47,7 @@ def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tupl
     count = min(record.raw.size, int(top_hz / record.step) + 2)
     power = np.abs(record.slow(count)[None]) ** 2
     block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * shaft_hz / record.step))
-    floor = local_mean_power(power[:, 1:], min(block, max(2, count // 2)))
-    excess = np.zeros_like(power)
-    excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    excess = over_floor(power, min(block, max(2, count // 2)))
     return lines_in(excess, record.step), excess
 
 

@@ -52,7 +52,7 @@ def drawn_settings(node: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str,
     elif isinstance(node, dict) and any(name in node for name in NAMES):
         yield (
             ".".join(path),
-            [value for held in node.values() for value in (held if isinstance(held, list) else [held])],
+            [value for held in node.values() for value in as_list(held)],
         )
     elif isinstance(node, dict):
         for key, value in node.items():
@@ -68,9 +68,7 @@ def test_the_page_gives_every_drawn_setting_its_range_its_reason_and_whether_it_
     for name, values in ranges.items():
         stated, reason, status = rows[name]
         words = set(re.findall(r"[\w.-]+", stated))
-        assert {
-            str(v).lower() if isinstance(v, bool) else f"{v:g}" if isinstance(v, float) else str(v) for v in values
-        } <= words
+        assert set(map(as_written, values)) <= words
         assert reason
         assert status in ("sourced", "assumed")
 

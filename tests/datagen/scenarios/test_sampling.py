@@ -38,7 +38,6 @@ PINNED = [
 PINNED_WORDS = ("extended", "outer", "train")
 HEALTHY: dict[str, Any] = {"name": "p", "records": 40, "machine": {"rig": "gearbox"}}
 LINE = {"condition": "line", "extent_deg": 2, "depth_um": 12}
-SOFT = {"rig": "gearbox", "load_deflection_n_per_m_to_n": 1e4}
 EXTENDED = {"condition": "extended", "extent_deg": 40, "depth_um": 6}
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.machines import Learned
+from datagen.benchmark.options import Learning
 from datagen.benchmark.training import Model
 from datagen.corpora.atomic import write_file
 from datagen.errors import BadInput
@@ -26,13 +27,13 @@ LONGEST_HEAD = 10_000
 @dataclass(frozen=True)
 class Trained:
     """The rule and the models; the `machines` they must not be scored on (None: plain impulse trains have none); the
-    `bandwidth` (Hz) that all records are limited to, None for the usual one; the hash of the `recipe` learned from, ""
-    without; and the `facts` of the report that follow from learning alone."""
+    options of `learning`; the hash of the `recipe` learned from, "" without; and the `facts` of the report that follow
+    from learning alone."""
 
     rule: Rule
     models: list[Model]
     machines: Learned | None
-    bandwidth: float | None
+    learning: Learning
     recipe: str
     facts: dict[str, Any] = field(default_factory=dict)
 

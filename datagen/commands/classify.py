@@ -49,11 +49,11 @@ def classify(
     more: More = None,
     learner: Learner = "all",
     estimator: Estimator = None,
-    inputs: Inputs = "features",
+    input: Inputs = "features",
     bandwidth: Bandwidth = None,
     speed_error: SpeedError = 0.02,
     first: First = None,
-    doubt: Reject = 0.0,
+    reject: Reject = 0.0,
     noise_db: NoiseDb = "",
     noise_draws: NoiseDraws = 10,
     learning_curve: Curve = False,
@@ -68,9 +68,13 @@ def classify(
     by its label split, that is by virtual bearing. Every run on imported recordings is logged in their folder, in
     scored_runs.jsonl. A file that --save wrote is a pickle, which can run any program: use your own only.
     """
-    from datagen.benchmark.request import Asked, benchmark_of
+    from datagen.benchmark.options import Asked, Learning, Scoring
+    from datagen.benchmark.request import benchmark_of
 
-    asked = Asked(learner, estimator, inputs, bandwidth, speed_error, first, doubt, noise_db, noise_draws)
+    learning = Learning(
+        learner=learner, estimator=estimator, input=input, bandwidth=bandwidth, speed_error=speed_error, first=first
+    )
+    asked = Asked(learning, Scoring(reject=reject, noise_db=noise_db, noise_draws=noise_draws))
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
     write_json(json_file, results)

@@ -82,6 +82,30 @@ def test_the_same_is_said_by_what_was_kept(learned, divided, tmp_path):
     assert after["training_records"] == before["training_records"]
 
 
+def test_a_run_is_logged_with_the_options_that_it_was_learned_with_and_scored_with(learned, divided, tmp_path):
+    recorded = tmp_path / "recorded"
+    shutil.copytree(divided, recorded)
+    manifest = json.loads((recorded / "manifest.json").read_text())
+    (recorded / "manifest.json").write_text(json.dumps(manifest | {"origin": "imported"}))
+    done = run("--train", learned[0], "--test", recorded, "--reject", 0.25, "--json", tmp_path / "results.json")
+    assert done.exit_code == 0, done.output
+    began, ended = (json.loads(line) for line in (recorded / "scored_runs.jsonl").read_text().splitlines())
+    used = {"learner": "logistic", "bandwidth": 3000.0, "reject": 0.25}
+    for options in (began["began"], ended["options"], json.loads((tmp_path / "results.json").read_text())["options"]):
+        assert {name: options[name] for name in used} == used
+        assert list(options) == [
+            "learner",
+            "estimator",
+            "input",
+            "bandwidth",
+            "speed_error",
+            "first",
+            "reject",
+            "noise_db",
+            "noise_draws",
+        ]
+
+
 def test_what_was_learned_from_is_not_scored(learned, divided, tmp_path):
     model, _ = learned
     undivided = tmp_path / "undivided"

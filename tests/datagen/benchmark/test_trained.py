@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 import shutil
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -178,7 +179,10 @@ class Bomb:
         (lambda head, body: b"\x80\x04 nothing of ours", "holds no learned classifiers"),
         (lambda head, body: b"[1, 2]\n" + body, "holds no learned classifiers"),
         (lambda head, body: head.replace(b'"features": "', b'"features": "0') + body, "was learned with features 0"),
+        (lambda head, body: head.replace(b'"benchmark": "', b'"benchmark": "0') + body, "was learned with benchmark 0"),
         (lambda head, body: head.replace(b'"numpy": "', b'"numpy": "0.') + body, "was learned with numpy 0."),
+        (lambda head, body: head + zlib.compress(pickle.dumps(Path()).replace(b"pathlib", b"pathlab")), "is damaged"),
+        (lambda head, body: head + zlib.compress(pickle.dumps(Path()).replace(b"Posix", b"Waxen")), "is damaged"),
         (lambda head, body: head + body[:-100], "is damaged"),
         (lambda head, body: head + body[: len(body) // 2] + b"\0" + body[len(body) // 2 + 1 :], "is damaged"),
         (
@@ -186,7 +190,19 @@ class Bomb:
             "was learned with python",
         ),
     ],
-    ids=["empty", "binary", "list", "other features", "other numpy", "cut", "flipped", "another pickle"],
+    ids=[
+        "empty",
+        "binary",
+        "list",
+        "other features",
+        "other benchmark",
+        "other numpy",
+        "a module gone",
+        "a class renamed",
+        "cut",
+        "flipped",
+        "another pickle",
+    ],
 )
 def test_a_file_that_would_not_say_the_same_is_refused(learned, change, told, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

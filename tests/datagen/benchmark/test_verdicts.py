@@ -178,6 +178,15 @@ def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     assert "calibration_error" not in said
 
 
+def test_a_class_is_called_where_the_rows_pass_their_alarm_and_healthy_else():
+    # The likeliest class of all is healthy in each; what counts is the alarm, and then the likeliest spall.
+    said = Said([[0.5, 0.1, 0.4, 0.0, 0.0], [0.6, 0.3, 0.1, 0.0, 0.0]])
+    table, records = np.zeros((2, len(FEATURE_NAMES))), np.arange(3)
+    _, called, alarm = vote(Model("said", said, 0.45), table, records[:2], records)
+    assert called.tolist() == ["line inner", "healthy", "healthy"]  # the last has no rows
+    assert np.isnan(alarm).tolist() == [False, False, True]
+
+
 def test_the_rows_of_a_record_agree_on_its_alarm():
     model = Model("said", Said([[0.5, 0.5, 0.0, 0.0, 0.0]] * 2), Alarm(0.2, 0.8))
     table = np.zeros((2, len(FEATURE_NAMES)))

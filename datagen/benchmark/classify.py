@@ -90,7 +90,7 @@ class Benchmark:
 
 
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
-    """The results as plain numbers, and what was said of every record; raises BadInput."""
+    """The results, with the Scores of each model, and what was said of every record; raises BadInput."""
     began = time.monotonic()
     if is_saved(benchmark.train):
         trained = load_trained(benchmark.train)
@@ -202,7 +202,7 @@ def _test(
         say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
     summary["noise"] = [_noisy(benchmark, folder, labels, trained, level, say) for level in levels]
     if imported:
-        log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), summary)
+        log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), summary["models"])
     return tested, summary
 
 

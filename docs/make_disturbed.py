@@ -1,7 +1,8 @@
 """What shorter, resampled, clipped or otherwise worse recordings change: python docs/make_disturbed.py TRAIN TEST…
 
 Learns once from all of TRAIN, disturbs the recordings of every TEST in memory, scores them as `spallgen classify` does,
-and writes the table of docs/transfer.md.
+and writes the table of docs/transfer.md. Recordings with a shaft angle are refused: what disturbs a signal leaves the
+angle as it was.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ from datagen.benchmark.summary import RACES, race_balance
 from datagen.benchmark.training import train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Tested, judge
 from datagen.corpus import Corpus
+from datagen.errors import BadInput
 from datagen.marked_tables import write_marked
+from labels.variables import SHAFT_ANGLE
 
 if TYPE_CHECKING:
     import pandas
@@ -89,6 +92,15 @@ DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]
 }
 
 
+def require_no_angle(folder: Path) -> None:
+    """Raise BadInput if any record of a corpus has a shaft angle, by which `spallgen classify` would read it."""
+    with Corpus(folder) as corpus:
+        for record in corpus.labels["record"].tolist():
+            if corpus.has(record, SHAFT_ANGLE.name):
+                problem = f"record {record} has a shaft angle, which cannot be disturbed with its signal"
+                raise BadInput(problem, str(folder), "TEST", None, "records without a shaft angle")
+
+
 def read(folder: Path, label: pandas.Series[Any], name: str) -> RecordRows:
     """Rows of one disturbed record."""
     with Corpus(folder) as corpus:
@@ -128,7 +140,9 @@ def scores(tested: list[Tested]) -> list[tuple[str, str, str, str]]:
 
 
 def main(train: Path, tests: list[Path]) -> None:
-    """Score every disturbance and write the table."""
+    """Score every disturbance and write the table; raises BadInput before anything is learned."""
+    for folder in tests:
+        require_no_angle(folder)
     training = training_set(train, training_records(train, False), Benchmark(train, ()).training_reading(), WORKERS)
     rule, models = train_rule(training), train_models(training, "all")
     names = ["rule", *(model.name for model in models)]

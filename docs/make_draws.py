@@ -29,9 +29,7 @@ ODD = ("197", "198", "199", "174", "201")
 def drawn(training: TrainingSet, draw: int) -> TrainingSet:
     """The rows of four fifths of the virtual machines."""
     machines = np.random.default_rng(SEED + draw).permutation(np.unique(training.bearings))
-    chosen = np.isin(training.bearings, machines[: int(SHARE * machines.size)])
-    names = ("table", "classes", "bearings", "records", "noisy")
-    return TrainingSet(*(getattr(training, name)[chosen] for name in names))
+    return training.subset(np.isin(training.bearings, machines[: int(SHARE * machines.size)]))
 
 
 def scores(tested: Tested) -> dict[str, dict[str, float | None]]:

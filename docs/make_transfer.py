@@ -20,6 +20,7 @@ from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, paired_di
 
 PAGE = Path(__file__).with_name("transfer.md")
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
+FAULTS, RACE, AUC = "faults_balanced_accuracy", "race_accuracy", "detection_auc"
 ODD = {"197", "198", "199", "174", "201"}
 
 
@@ -73,14 +74,14 @@ def main_table(report: dict[str, Any]) -> list[str]:
     ]
     for test in report["tests"]:
         for name, scores in test["models"].items():
-            minus = scores.get("minus_rule", {}).get("faults_balanced_accuracy")
+            minus = scores.get("minus_rule", {}).get(FAULTS)
             cells = (
                 Path(test["corpus"]).name,
                 name,
-                interval(scores["faults_balanced_accuracy"]),
+                interval(scores[FAULTS]),
                 without_odd(test, name),
-                interval(scores["race_accuracy"]),
-                interval(scores["detection_auc"]),
+                interval(scores[RACE]),
+                interval(scores[AUC]),
                 interval(minus) if minus else "",
                 counted(scores["false_alarms"], scores["healthy"]),
                 calibration(scores),
@@ -93,7 +94,7 @@ def main_table(report: dict[str, Any]) -> list[str]:
 
 def noise_table(report: dict[str, Any]) -> list[str]:
     """Faults found at the alarm, race accuracy and AUC under added white noise, with the difference to the rule."""
-    names = ("faults_balanced_accuracy", "race_accuracy", "detection_auc")
+    names = (FAULTS, RACE, AUC)
     head = ["corpus", "SNR, dB", "model", "outer and inner, at the alarm", "minus rule", "race", "minus rule"]
     head += ["AUC", "minus rule"]
     lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
@@ -137,8 +138,8 @@ def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
         tests = {Path(test["corpus"]).name: test for test in report["tests"]}
         for model in next(iter(tests.values()))["models"]:
             cells = [without_odd(tests[corpus], model) for corpus in corpora]
-            cells += [alarms(report, model), in_noise(report, model, "race_accuracy")]
-            cells += [in_noise(report, model, "detection_auc"), simulated(report, model)]
+            cells += [alarms(report, model), in_noise(report, model, RACE)]
+            cells += [in_noise(report, model, AUC), simulated(report, model)]
             lines.append(f"| {name} | {model} | " + " | ".join(cells) + " |")
     return lines
 
@@ -213,7 +214,7 @@ def in_noise(report: dict[str, Any], model: str, score: str) -> str:
 def simulated(report: dict[str, Any], model: str) -> str:
     """Balanced accuracy over outer and inner of simulated records, with its interval."""
     own = [test["models"][model] for test in report["tests"] if not test["imported"]]
-    return interval(own[0]["faults_balanced_accuracy"]) if own else "–"
+    return interval(own[0][FAULTS]) if own else "–"
 
 
 def main(paths: list[str]) -> None:

@@ -1,8 +1,9 @@
 """Benchmarks of classifiers: features of corpora, training, scoring, reports.
 
-- `request`: what was asked, checked; `classify`: the run from training to report
+- `options`: what was asked; `request`: that checked; `classify`: the run from training to report
 - `known`: what may be known of a record; `rows`: its features; `windows`: raw pieces for other people's estimators
 - `training`, `learning` (the curve), `importance`; `impulse_train`, `impulse_training`: learning without physics
 - `machines`: no record is scored of a machine that was learned from; `answers`: what an estimator says, checked
-- `verdicts`, `votes`: one answer a record; `summary`: scores; `score_log`: the log beside each scored corpus
+- `verdicts`, `votes`: one answer a record; `summary`: scores, which `model_scores` holds; `score_log`: the log
+  beside each scored corpus
 """

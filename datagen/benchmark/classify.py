@@ -16,6 +16,7 @@ from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
+from datagen.benchmark.options import Asked, Learning, Scoring
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.score_log import log_run, write_line
 from datagen.benchmark.summary import RACES, summarise
@@ -23,7 +24,6 @@ from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trai
 from datagen.benchmark.training import (
     COPIES_DB,
     LOWEST_BANDWIDTH,
-    SPEED_ERROR,
     Model,
     TrainingSet,
     joined_labels,
@@ -48,26 +48,27 @@ Say = Callable[[str], None]
 class Benchmark:
     """What is learned from, what is tested on, and how.
 
-    `train` is a corpus, or a file of what was learned from one; what is learned is kept at `save`, if given.
-    `estimator` is the user's own, None for ours, and `given` how it was named.
+    `train` is a corpus, or a file of what was learned from one; what is learned is kept at `save`, if given. `own` is
+    the user's estimator that the options name, None for ours. With `learning_curve` it is also learned from shares.
     """
 
     train: Path
     tests: tuple[Path, ...]
-    learner: str = "all"
-    estimator: Any | None = None
-    given: str = ""
-    takes_windows: bool = False
-    bandwidth: float | None = None
-    speed_error: float = SPEED_ERROR
-    first: int | None = None
-    doubt: float = 0.0
-    noise_db: tuple[float, ...] = ()
-    noise_draws: int = 10
+    asked: Asked = field(default_factory=Asked)
+    own: Any | None = None
+    learning_curve: bool = False
     workers: int = 2
-    curve: bool = False
     save: Path | None = None
-    options: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def learning(self) -> Learning:
+        """The options of learning."""
+        return self.asked.learning
+
+    @property
+    def scoring(self) -> Scoring:
+        """The options of scoring."""
+        return self.asked.scoring
 
     @cached_property
     def window_rate(self) -> float:
@@ -76,21 +77,24 @@ class Benchmark:
 
     def reading(self) -> Reading:
         """How the records that are tested on are read."""
-        return Reading() if self.bandwidth is None else Reading(bandwidth=self.bandwidth)
+        return Reading() if self.learning.bandwidth is None else Reading(bandwidth=self.learning.bandwidth)
 
     def training_reading(self) -> Reading:
         """How those that are learned from are: speeds only roughly known, any bandwidth, and noisy copies."""
         return replace(
-            self.reading(), speed_error=self.speed_error, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB
+            self.reading(),
+            speed_error=self.learning.speed_error,
+            lowest_bandwidth=LOWEST_BANDWIDTH,
+            copies_db=COPIES_DB,
         )
 
 
 def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any], list[Tested]]:
-    """The results as plain numbers, and what was said of every record; raises BadInput."""
+    """The results, with the Scores of each model, and what was said of every record; raises BadInput."""
     began = time.monotonic()
     if is_saved(benchmark.train):
         trained = load_trained(benchmark.train)
-        benchmark = replace(benchmark, bandwidth=trained.bandwidth)
+        benchmark = replace(benchmark, asked=replace(benchmark.asked, learning=trained.learning))
         chosen = [_tested_records(folder, trained.machines) for folder in benchmark.tests]
     else:
         labels = _training_labels(benchmark)
@@ -101,7 +105,7 @@ def run(benchmark: Benchmark, say: Say = lambda _: None) -> tuple[dict[str, Any]
         trained = _learn(benchmark, labels, learned, say)
     if benchmark.save is not None:
         save_trained(benchmark.save, trained)
-    results: dict[str, Any] = {"train": str(benchmark.train), "options": benchmark.options} | trained.facts
+    results: dict[str, Any] = {"train": str(benchmark.train), "options": benchmark.asked.to_dict()} | trained.facts
     tested = []
     results["tests"] = []
     for folder, records in zip(benchmark.tests, chosen, strict=True):
@@ -126,7 +130,7 @@ def _learn(benchmark: Benchmark, labels: pandas.DataFrame | None, learned: Learn
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
     }
     recipe = "" if labels is None else Corpus(benchmark.train).manifest.identity.recipe_hash
-    return Trained(rule, models, learned, benchmark.bandwidth, recipe, facts | curve)
+    return Trained(rule, models, learned, benchmark.learning, recipe, facts | curve)
 
 
 def _plain(alarm: Alarm | float) -> dict[str, float] | float:
@@ -139,37 +143,40 @@ def _training_labels(benchmark: Benchmark) -> pandas.DataFrame | None:
         return None
     own = Corpus(benchmark.train)
     also_tested = any(share_machines(own, Corpus(folder)) for folder in benchmark.tests)
-    return training_records(benchmark.train, also_tested, benchmark.first)
+    return training_records(benchmark.train, also_tested, benchmark.learning.first)
 
 
 def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, say: Say) -> TrainingSet:
     reading, workers = benchmark.training_reading(), benchmark.workers
     if labels is None:
         say("learning from plain impulse trains")
-        return impulse_training(ingredients_of(benchmark.train) or Ingredients(), reading, workers, benchmark.first)
+        ingredients = ingredients_of(benchmark.train) or Ingredients()
+        return impulse_training(ingredients, reading, workers, benchmark.learning.first)
     say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
     return training_set(benchmark.train, labels, reading, workers)
 
 
 def _own_input(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None) -> TrainingSet:
     """What the models learn from: the same records as raw windows where the user's estimator takes those."""
-    if labels is None or not benchmark.takes_windows:
+    if labels is None or not benchmark.learning.takes_windows:
         return training
     raw = read_windows(benchmark.train, labels["record"].to_numpy(np.int64), benchmark.window_rate)
     return joined_labels(raw, labels)
 
 
 def _curve(benchmark: Benchmark, training: TrainingSet) -> dict[str, Any]:
-    if not benchmark.curve:
+    if not benchmark.learning_curve:
         return {}
-    own, windows = benchmark.estimator, benchmark.takes_windows
-    return {"learning_curve": learning_curve(training, benchmark.learner, own, windows, benchmark.given)}
+    asked = benchmark.learning
+    found = learning_curve(training, asked.learner, benchmark.own, asked.takes_windows, asked.estimator or "")
+    return {"learning_curve": found}
 
 
 def _models(benchmark: Benchmark, training: TrainingSet) -> list[Model]:
-    if benchmark.estimator is None:
-        return train_models(training, benchmark.learner)
-    return [train_own(training, benchmark.estimator, benchmark.takes_windows, benchmark.given)]
+    asked = benchmark.learning
+    if benchmark.own is None:
+        return train_models(training, asked.learner)
+    return [train_own(training, benchmark.own, asked.takes_windows, asked.estimator or "")]
 
 
 def _tested_records(folder: Path, learned: Learned | None) -> pandas.DataFrame:
@@ -181,21 +188,21 @@ def _test(
 ) -> tuple[Tested, dict[str, Any]]:
     imported = bool(Corpus(folder).manifest.imported)
     if imported:
-        write_line(folder, {"began": benchmark.options, "train": str(benchmark.train)})
+        write_line(folder, {"began": benchmark.asked.to_dict(), "train": str(benchmark.train)})
     say(f"testing on {len(labels)} records of {folder}")
     rows = _rows(folder, labels, benchmark.reading(), benchmark.workers)
     raw = None
-    if benchmark.takes_windows:
+    if benchmark.learning.takes_windows:
         raw = read_windows(folder, labels["record"].to_numpy(np.int64), benchmark.window_rate)
-    tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.doubt, imported, raw)
+    tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, imported, raw)
     summary = summarise(tested)
     noise_tells = imported and np.isin(tested.truth, RACES).any()
-    levels = benchmark.noise_db if noise_tells else ()
-    if benchmark.noise_db and not noise_tells:
+    levels = benchmark.scoring.levels if noise_tells else ()
+    if benchmark.scoring.levels and not noise_tells:
         say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
     summary["noise"] = [_noisy(benchmark, folder, labels, trained, level, say) for level in levels]
     if imported:
-        log_run(folder, benchmark.train, trained.recipe, benchmark.options, summary)
+        log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), summary["models"])
     return tested, summary
 
 
@@ -207,11 +214,12 @@ def _noisy(
     benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, level: float, say: Say
 ) -> dict[str, Any]:
     """Scores with white noise of that level (signal over noise, dB) added, all draws pooled."""
-    say(f"testing on {folder} with noise at {level:g} dB, {benchmark.noise_draws} draws")
+    draws = benchmark.scoring.noise_draws
+    say(f"testing on {folder} with noise at {level:g} dB, {draws} draws")
     pooled = []
-    for draw in range(benchmark.noise_draws):
+    for draw in range(draws):
         reading = replace(benchmark.reading(), noise_db=level, noise_draw=draw)
         rows = _rows(folder, labels, reading, benchmark.workers)
-        pooled.append(judge(folder, labels, rows, trained.rule, trained.models, benchmark.doubt, True))
+        pooled.append(judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, True))
     joined = pooled_draws(pooled)
-    return {"snr_db": level, "draws": benchmark.noise_draws} | summarise(joined, predictions=False)
+    return {"snr_db": level, "draws": draws} | summarise(joined, predictions=False)

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
 from labels.features.kinematics import Kinematics
+from labels.schema import LOCATIONS
 
 Array = NDArray[np.float64]
-LOCATIONS = ("none", "outer", "inner")
 DURATIONS, SHARES = (0.4, 0.8, 2.0, 10.0), (4 / 12, 4 / 12, 3 / 12, 1 / 12)
 """Lengths (s) and their shares, as in the transfer recipe."""
 PURPOSES = ("duration", "bearing", "paths", "floor", "noise", "background", "impulses")

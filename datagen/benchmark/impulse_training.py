@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.benchmark.impulse_train import LOCATIONS, Ingredients, draw_train
+from datagen.benchmark.impulse_train import Ingredients, draw_train
 from datagen.benchmark.rows import Reading, signal_rows
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from labels.classifier.classes import HEALTHY
+from labels.schema import LOCATIONS
 
 NAME = "impulse-trains"
 SEED = 20_140

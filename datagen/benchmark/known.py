@@ -8,7 +8,7 @@ from typing import Any
 
 from labels.classifier.classes import joint_class
 from labels.features.kinematics import Kinematics, bearing_kinematics
-from labels.schema import UNKNOWN
+from labels.schema import LOCATIONS, UNKNOWN
 
 RPM = 60.0
 
@@ -58,7 +58,7 @@ def true_class(labels: Mapping[str, Any]) -> str:
 def true_location(labels: Mapping[str, Any]) -> str:
     """none, outer or inner; "unknown" for everything else (a ball's fault too), which is predicted and not scored."""
     said = str(labels["location"])
-    return said if said in ("none", "outer", "inner") else UNKNOWN
+    return said if said in LOCATIONS else UNKNOWN
 
 
 def _number(labels: Mapping[str, Any], name: str) -> float:

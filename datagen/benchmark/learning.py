@@ -15,7 +15,8 @@ from labels.classifier.scores import Interval, balanced_accuracy, bootstrap
 
 SHARES = (0.125, 0.25, 0.5, 1.0)
 HELD_OUT = 0.25
-FEWEST_BEARINGS = 10
+FEWEST_AT_A_POINT = 10
+"""Virtual bearings that the first point of a curve is learned from, or all where there are fewer."""
 SEED = 31
 
 
@@ -32,11 +33,11 @@ def learning_curve(
     bearings = generator.permutation(np.unique(training.bearings))
     cut = max(1, int(HELD_OUT * bearings.size))
     others = bearings[cut:]
-    held_out = _part(training, np.isin(training.bearings, bearings[:cut]) & ~training.noisy)
-    counts = {min(others.size, max(FEWEST_BEARINGS, round(share * others.size))) for share in SHARES}
+    held_out = training.subset(np.isin(training.bearings, bearings[:cut]) & ~training.noisy)
+    counts = {min(others.size, max(FEWEST_AT_A_POINT, round(share * others.size))) for share in SHARES}
     curve: dict[str, list[dict[str, Any]]] = {}
     for count in sorted(counts):
-        part = _part(training, np.isin(training.bearings, others[:count]))
+        part = training.subset(np.isin(training.bearings, others[:count]))
         fresh = None if own is None else copy_of(own, given)
         try:
             models = train_models(part, learner) if fresh is None else [train_own(part, fresh, takes_windows, given)]
@@ -54,16 +55,6 @@ def _score(model: Model, held_out: TrainingSet) -> Interval:
     _, said, _ = vote(model, held_out.table, held_out.records, records)
     truth = _locations(held_out.classes[first])
     return bootstrap(balanced_accuracy, truth, _locations(said), groups=held_out.bearings[first], draws=300)
-
-
-def _part(training: TrainingSet, chosen: NDArray[np.bool_]) -> TrainingSet:
-    return TrainingSet(
-        training.table[chosen],
-        training.classes[chosen],
-        training.bearings[chosen],
-        training.records[chosen],
-        training.noisy[chosen],
-    )
 
 
 def _locations(classes: NDArray[np.str_]) -> NDArray[np.str_]:

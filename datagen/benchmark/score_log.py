@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from datagen.benchmark.model_scores import Scores
 from datagen.errors import BadInput
 from datagen.records.versions import program_versions
 
@@ -18,8 +20,9 @@ def log_path(folder: Path) -> Path:
     return folder / NAME
 
 
-def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], summary: dict[str, Any]) -> None:
-    """Append one line: when, trained on which corpus and which `recipe` (its hash), with which options, and the scores.
+def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], models: dict[str, Scores]) -> None:
+    """Append one line: when, trained on which corpus and which `recipe` (its hash), with which options, and the scores
+    of each of the models.
 
     Raises BadInput if the folder cannot be written: a run that leaves no trace is not made.
     """
@@ -30,8 +33,13 @@ def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], 
         "options": options,
         "versions": program_versions(),
         "scores": {
-            name: {key: scores[key] for key in ("faults_balanced_accuracy", "false_alarms", "healthy", "rejected")}
-            for name, scores in summary["models"].items()
+            name: {
+                "faults_balanced_accuracy": asdict(scores.faults_balanced_accuracy),
+                "false_alarms": scores.false_alarms,
+                "healthy": scores.healthy,
+                "rejected": scores.rejected,
+            }
+            for name, scores in models.items()
         },
     }
     write_line(folder, line)

@@ -1,15 +1,15 @@
-"""Scores of a tested corpus as plain numbers, ready for JSON."""
+"""Scores of a tested corpus."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.model_scores import Bounds, Calibration, ConditionScores, Confusion, MinusRule, Scores
 from datagen.benchmark.predictions import record_predictions
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
 from labels.classifier.reliability import calibration_error, equal_priors, reliability
@@ -59,38 +59,42 @@ def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
     return found
 
 
-def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
+def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> Scores:
     truth, scored, owner = tested.truth, tested.truth != UNKNOWN, tested.owner
     faulty, healthy = np.isin(truth, RACES), truth == "none"
     ranked = scored & np.isfinite(said.score)
     alarms = healthy & np.isin(said.location, RACES)
-    found: dict[str, Any] = {
-        "faults_balanced_accuracy": asdict(
-            bootstrap(race_balance, truth[faulty], said.location[faulty], strata=truth[faulty], groups=owner[faulty])
+    learned = said.name != RULE
+    return Scores(
+        faults_balanced_accuracy=bootstrap(
+            race_balance, truth[faulty], said.location[faulty], strata=truth[faulty], groups=owner[faulty]
         ),
-        "location_balanced_accuracy": asdict(
-            bootstrap(
-                balanced_accuracy, truth[scored], said.location[scored], strata=truth[scored], groups=owner[scored]
-            )
+        location_balanced_accuracy=bootstrap(
+            balanced_accuracy, truth[scored], said.location[scored], strata=truth[scored], groups=owner[scored]
         ),
-        "race_accuracy": asdict(bootstrap(accuracy, truth[faulty], said.race[faulty], groups=owner[faulty])),
-        "detection_auc": asdict(area_interval(faulty[ranked], said.score[ranked], groups=owner[ranked])),
-        "healthy": int(healthy.sum()),
-        "false_alarms": int(alarms.sum()),
-        "false_alarm_share": asdict(_alarm_share(alarms[healthy], owner[healthy])),
-        "healthy_bearings": _known_bearings(tested, healthy),
-        "alarming_bearings": _known_bearings(tested, alarms),
-        "healthy_of_unknown_bearing": int((tested.labels["bearing_id"][healthy] == UNKNOWN).sum()),
-        "rejected": int((said.location == REJECTED).sum()),
-        "confusion": {
-            "rows": [*LOCATIONS, UNKNOWN],
-            "columns": [*LOCATIONS, REJECTED],
-            "counts": confusion(truth, said.location, (*LOCATIONS, UNKNOWN), (*LOCATIONS, REJECTED)).tolist(),
-        },
-    }
-    if said.name != RULE:
-        found |= _against_rule(tested, said, rule) | _calibration(tested, said) | _condition(tested, said)
-    return found | {"accuracy_against": _against(tested, said)}
+        race_accuracy=bootstrap(accuracy, truth[faulty], said.race[faulty], groups=owner[faulty]),
+        detection_auc=area_interval(faulty[ranked], said.score[ranked], groups=owner[ranked]),
+        healthy=int(healthy.sum()),
+        false_alarms=int(alarms.sum()),
+        false_alarm_share=_alarm_share(alarms[healthy], owner[healthy]),
+        healthy_bearings=_known_bearings(tested, healthy),
+        alarming_bearings=_known_bearings(tested, alarms),
+        healthy_of_unknown_bearing=int((tested.labels["bearing_id"][healthy] == UNKNOWN).sum()),
+        rejected=int((said.location == REJECTED).sum()),
+        confusion=_confusion(truth, said.location, (*LOCATIONS, UNKNOWN), LOCATIONS),
+        minus_rule=_against_rule(tested, said, rule) if learned else None,
+        calibration=_calibration(tested, said) if learned else None,
+        condition=_condition(tested, said) if learned else None,
+        accuracy_against=_against(tested, said),
+    )
+
+
+def _confusion(
+    truth: NDArray[np.str_], said: NDArray[np.str_], rows: tuple[str, ...], answers: tuple[str, ...]
+) -> Confusion:
+    """Counts of the truth in `rows` against the `answers` and what is rejected."""
+    columns = (*answers, REJECTED)
+    return Confusion(rows, columns, confusion(truth, said, rows, columns).tolist())
 
 
 def _known_bearings(tested: Tested, chosen: NDArray[np.bool_]) -> int:
@@ -107,72 +111,61 @@ def _alarm_share(alarms: NDArray[np.bool_], owner: NDArray[np.int64]) -> Interva
     return exact_interval(share * records, records)
 
 
-def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> dict[str, Any]:
+def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> MinusRule:
     """Paired differences of the model and the rule."""
     truth = tested.truth
     ranked = (truth != UNKNOWN) & np.isfinite(said.score) & np.isfinite(rule.score)
     faulty = np.isin(truth, RACES)
     own, owner = truth[faulty], tested.owner[faulty]
-    differences = {
-        "faults_balanced_accuracy": paired_difference(
+    return MinusRule(
+        faults_balanced_accuracy=paired_difference(
             race_balance, own, said.location[faulty], rule.location[faulty], strata=own, groups=owner
         ),
-        "race_accuracy": paired_difference(accuracy, own, said.race[faulty], rule.race[faulty], groups=owner),
-        "detection_auc": area_interval(
+        race_accuracy=paired_difference(accuracy, own, said.race[faulty], rule.race[faulty], groups=owner),
+        detection_auc=area_interval(
             faulty[ranked], said.score[ranked], rule.score[ranked], groups=tested.owner[ranked]
         ),
-    }
-    return {"minus_rule": {name: asdict(difference) for name, difference in differences.items()}}
+    )
 
 
-def _calibration(tested: Tested, said: Verdicts) -> dict[str, Any]:
-    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned.
+def _calibration(tested: Tested, said: Verdicts) -> Calibration | None:
+    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned; None
+    without both.
 
     Chance adds to the calibration error of every draw, so that the interval of a small error may lie above it.
     """
     known = (tested.truth != UNKNOWN) & np.isfinite(said.probability[:, 0])
     spall, probability = np.isin(tested.truth[known], RACES), 1.0 - said.probability[known, 0]
     if np.unique(spall).size < 2:
-        return {}
+        return None
     error = bootstrap(
         _equal_error, spall, probability, strata=spall, groups=tested.owner[known], draws=CALIBRATION_DRAWS
     )
-    return {
-        "reliability": reliability(spall, probability, equal_priors(spall)),
-        "calibration_error": error.value,
-        "calibration_error_interval": {"low": error.low, "high": error.high},
-    }
+    return Calibration(
+        reliability=reliability(spall, probability, equal_priors(spall)),
+        calibration_error=error.value,
+        calibration_error_interval=Bounds(error.low, error.high),
+    )
 
 
 def _equal_error(spall: NDArray[np.bool_], probability: Array) -> float:
     return calibration_error(spall, probability, equal_priors(spall))
 
 
-def _condition(tested: Tested, said: Verdicts) -> dict[str, Any]:
-    """How well line and extended spalls are told apart, where the sizes of the spalls are known."""
+def _condition(tested: Tested, said: Verdicts) -> ConditionScores | None:
+    """How well line and extended spalls are told apart, where the sizes of the spalls are known; None where none is."""
     known = tested.classes != UNKNOWN
     if np.unique(tested.classes[known]).size < 2:
-        return {}
-    conditions = np.array([name.split()[0] for name in tested.classes])
-    return {
-        "condition_balanced_accuracy": asdict(
-            bootstrap(
-                balanced_accuracy,
-                conditions[known],
-                said.condition[known],
-                strata=conditions[known],
-                groups=tested.owner[known],
-            )
-        ),
-        "condition_confusion": {
-            "rows": list(CONDITIONS),
-            "columns": [*CONDITIONS, REJECTED],
-            "counts": confusion(conditions[known], said.condition[known], CONDITIONS, (*CONDITIONS, REJECTED)).tolist(),
-        },
-    }
+        return None
+    conditions = np.array([name.split()[0] for name in tested.classes])[known]
+    called, owner = said.condition[known], tested.owner[known]
+    return ConditionScores(
+        bootstrap(balanced_accuracy, conditions, called, strata=conditions, groups=owner),
+        _confusion(conditions, called, CONDITIONS, CONDITIONS),
+    )
 
 
-def _against(tested: Tested, said: Verdicts) -> dict[str, Any]:
+def _against(tested: Tested, said: Verdicts) -> dict[str, list[dict[str, float]]]:
     faulty = np.isin(tested.truth, RACES)
     right = (said.location == tested.truth)[faulty]
     tables = {}

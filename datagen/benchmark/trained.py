@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.machines import Learned
+from datagen.benchmark.options import Learning
 from datagen.benchmark.training import Model
 from datagen.corpora.atomic import write_file
 from datagen.errors import BadInput
@@ -20,19 +21,21 @@ FORMAT = "spallgen classifiers 1"
 SAVE, TRAIN = "--save", "--train"
 AGAIN = f"learn again, with {SAVE}"
 MADE_WITH = ("python", "scikit-learn", "numpy", "scipy")
+CODE = {"features": ("labels", "labels/classifier", "labels/features"), "benchmark": ("datagen/benchmark",)}
+"""The packages that make rows and learn from them, by what they are called in the head of a file."""
 LONGEST_HEAD = 10_000
 
 
 @dataclass(frozen=True)
 class Trained:
     """The rule and the models; the `machines` they must not be scored on (None: plain impulse trains have none); the
-    `bandwidth` (Hz) that all records are limited to, None for the usual one; the hash of the `recipe` learned from, ""
-    without; and the `facts` of the report that follow from learning alone."""
+    options of `learning`; the hash of the `recipe` learned from, "" without; and the `facts` of the report that follow
+    from learning alone."""
 
     rule: Rule
     models: list[Model]
     machines: Learned | None
-    bandwidth: float | None
+    learning: Learning
     recipe: str
     facts: dict[str, Any] = field(default_factory=dict)
 
@@ -50,14 +53,14 @@ def save_trained(path: Path, trained: Trained) -> None:
 
 def load_trained(path: Path) -> Trained:
     """What was kept at `path`; raises BadInput unless it was with these versions of Python, of the packages that
-    learning rests on, and of the features. Nothing is unpickled before that is known."""
+    learning rests on, and of the features and the benchmark. Nothing is unpickled before that is known."""
     try:
         with path.open("rb") as file:
             _require_same(path, _head(file.readline(LONGEST_HEAD)))
             trained = pickle.loads(zlib.decompress(file.read()))
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path), TRAIN) from None
-    except (zlib.error, pickle.UnpicklingError, EOFError):
+    except (zlib.error, pickle.UnpicklingError, EOFError, AttributeError, ImportError):
         trained = None
     if not isinstance(trained, Trained):
         raise BadInput("is damaged", str(path), TRAIN, allowed=AGAIN)
@@ -85,4 +88,6 @@ def _head(line: bytes) -> dict[str, Any]:
 
 def _made_with() -> dict[str, str]:
     versions = measured_on(*MADE_WITH[1:])
-    return {name: versions[name] for name in MADE_WITH} | {"features": program_hash("labels")}
+    return {name: versions[name] for name in MADE_WITH} | {
+        name: program_hash(*packages) for name, packages in CODE.items()
+    }

@@ -27,11 +27,17 @@ if TYPE_CHECKING:
     import pandas
 
 SPEED_ERROR = 0.02
+"""Share by which the speed told of a record that is learned from is off at most."""
 LOWEST_BANDWIDTH = 5500.0
+"""Hz; the bandwidth of each row learned from is drawn between this and the record's own."""
 COPIES_DB = (-18.0, 12.0)
+"""dB; lowest and highest ratio of signal over noise in the noisy copies that are learned from."""
 FEWEST_BEARINGS = 4
+"""Virtual bearings; with fewer nothing is learned."""
 ROWS_AT_A_TIME = 2048
+"""Rows that an estimator is asked about at once, so that memory does not grow with the corpus."""
 ROWS_TO_TRY = 8
+"""Rows that a user's estimator is asked about once fitted, so that what it gets wrong is told before scoring."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +50,16 @@ class TrainingSet:
     bearings: NDArray[np.str_]
     records: NDArray[np.int64]
     noisy: NDArray[np.bool_]
+
+    def subset(self, chosen: NDArray[np.bool_]) -> TrainingSet:
+        """The rows (M, F) that are `chosen` (N,), with all that is known of them."""
+        return TrainingSet(
+            self.table[chosen],
+            self.classes[chosen],
+            self.bearings[chosen],
+            self.records[chosen],
+            self.noisy[chosen],
+        )
 
 
 @dataclass(frozen=True)

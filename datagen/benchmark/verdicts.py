@@ -13,7 +13,7 @@ from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.benchmark.votes import averaged, joined
-from labels.classifier.classes import decide, location_probability
+from labels.classifier.classes import CLASSES, HEALTHY, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule
 from labels.features.conditioning import Array
@@ -74,14 +74,14 @@ def judge(
     rows: Rows,
     rule: Rule,
     models: list[Model],
-    doubt: float,
+    reject: float,
     imported: bool,
     raw: Rows | None = None,
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels.
 
     A record is rejected where it cannot be judged or shows no running machine, or where what is said of its location
-    has a probability below `doubt`; the rule rejects only the former. `raw` are windows for the models that take them.
+    has a probability below `reject`; the rule rejects only the former. `raw` are windows for the models that take them.
     """
     records = labels["record"].to_numpy(np.int64)
     reasons = np.array([rows.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
@@ -91,7 +91,7 @@ def judge(
     )
     verdicts = [_of_rule(rule, rows, records, reasons)]
     verdicts += [
-        _of_model(model, raw if model.takes_windows and raw is not None else rows, records, reasons, doubt)
+        _of_model(model, raw if model.takes_windows and raw is not None else rows, records, reasons, reject)
         for model in models
     ]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
@@ -111,14 +111,14 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
 
 
 def _of_model(
-    model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], doubt: float
+    model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], reject: float
 ) -> Verdicts:
     votes, called, alarm = vote(model, rows.table, rows.record, records)
     said = np.char.split(called)
     where = location_probability(votes)
     place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
     missing = np.isnan(alarm)
-    rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < doubt)
+    rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < reject)
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
     location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(missing, REJECTED, np.where(where[:, 1] >= where[:, 2], "outer", "inner"))
@@ -137,7 +137,13 @@ def vote(
     votes = joined(own, owner, records)
     levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
     margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
-    return votes, decide(votes, np.where(margin > 0.0, -1.0, 2.0)).astype(str), probability_of(alarm)
+    return votes, _called(votes, margin > 0.0), probability_of(alarm)
+
+
+def _called(votes: Array, alarming: NDArray[np.bool_]) -> NDArray[np.str_]:
+    """The class (R,) that follows from probabilities (R, 5): the likeliest spall of the records that are `alarming`."""
+    likeliest = np.array(CLASSES[1:])[votes[:, 1:].argmax(axis=1)]
+    return np.where(alarming, likeliest, HEALTHY)
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

@@ -12,6 +12,8 @@ from datagen.commands.program import JsonFile, command, write_json
 
 if TYPE_CHECKING:
     from datagen.benchmark.classify import Benchmark
+    from datagen.benchmark.model_scores import Bounds, Scores
+    from labels.classifier.scores import Interval
 
 Option, Argument = typer.Option, typer.Argument
 Train = Annotated[
@@ -49,11 +51,11 @@ def classify(
     more: More = None,
     learner: Learner = "all",
     estimator: Estimator = None,
-    inputs: Inputs = "features",
+    input: Inputs = "features",
     bandwidth: Bandwidth = None,
     speed_error: SpeedError = 0.02,
     first: First = None,
-    doubt: Reject = 0.0,
+    reject: Reject = 0.0,
     noise_db: NoiseDb = "",
     noise_draws: NoiseDraws = 10,
     learning_curve: Curve = False,
@@ -68,12 +70,17 @@ def classify(
     by its label split, that is by virtual bearing. Every run on imported recordings is logged in their folder, in
     scored_runs.jsonl. A file that --save wrote is a pickle, which can run any program: use your own only.
     """
-    from datagen.benchmark.request import Asked, benchmark_of
+    from datagen.benchmark.model_scores import report
+    from datagen.benchmark.options import Asked, Learning, Scoring
+    from datagen.benchmark.request import benchmark_of
 
-    asked = Asked(learner, estimator, inputs, bandwidth, speed_error, first, doubt, noise_db, noise_draws)
+    learning = Learning(
+        learner=learner, estimator=estimator, input=input, bandwidth=bandwidth, speed_error=speed_error, first=first
+    )
+    asked = Asked(learning, Scoring(reject=reject, noise_db=noise_db, noise_draws=noise_draws))
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
-    write_json(json_file, results)
+    write_json(json_file, report(results))
     _tell(results)
 
 
@@ -82,11 +89,13 @@ def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
 
     results, _ = run(benchmark, print)
     if out is not None:
+        from datagen.benchmark.model_scores import report
         from datagen.benchmark.predictions import prediction_table
         from datagen.charts.files import chart_folder, write_files
         from datagen.drawing.scores import scores_png
 
-        write_files(chart_folder(out), "report", scores_png(results), results, prediction_table(results["tests"]))
+        table = prediction_table(results["tests"])
+        write_files(chart_folder(out), "report", scores_png(results), report(results), table)
     return results
 
 
@@ -106,35 +115,34 @@ def _tell(results: dict[str, Any]) -> None:
                 print(f"  {name:10} {noisy['snr_db']:g} dB: {_line(scores)}")
 
 
-def _line(scores: dict[str, Any]) -> str:
-    keys = (("faults", "faults_balanced_accuracy"), ("race", "race_accuracy"), ("AUC", "detection_auc"))
-    parts = [f"{word} {_interval(scores[key])}" for word, key in keys]
-    share = _bracket(scores["false_alarm_share"])
+def _line(scores: Scores) -> str:
+    parts = [f"{word} {_interval(found)}" for word, found in scores.headline.items()]
+    share = _bracket(scores.false_alarm_share)
     counts = (
-        f"false alarms {scores['false_alarms']}/{scores['healthy']}{share}{_bearings(scores)}",
-        f"rejected {scores['rejected']}",
+        f"false alarms {scores.false_alarms}/{scores.healthy}{share}{_bearings(scores)}",
+        f"rejected {scores.rejected}",
     )
-    if "calibration_error" in scores:
-        around = _bracket(scores["calibration_error_interval"])
-        parts.append(f"calibration error {scores['calibration_error']:.3f}{around}")
+    if scores.calibration:
+        around = _bracket(scores.calibration.calibration_error_interval)
+        parts.append(f"calibration error {scores.calibration.calibration_error:.3f}{around}")
     return ", ".join([*parts, *counts])
 
 
-def _bearings(scores: dict[str, Any]) -> str:
+def _bearings(scores: Scores) -> str:
     """Of how many bearings the false alarms are, and of how many records that is unknown; nothing without healthy."""
-    known, unknown = scores["healthy_bearings"], scores["healthy_of_unknown_bearing"]
-    parts = [f"{scores['alarming_bearings']}/{known} bearings"] if known else []
+    known, unknown = scores.healthy_bearings, scores.healthy_of_unknown_bearing
+    parts = [f"{scores.alarming_bearings}/{known} bearings"] if known else []
     if unknown:
         parts.append(f"{unknown} of unknown bearings" if known else "bearings unknown")
     return f" ({', '.join(parts)})" if parts else ""
 
 
-def _interval(found: dict[str, float]) -> str:
-    if not math.isfinite(found["value"]):
+def _interval(found: Interval) -> str:
+    if not math.isfinite(found.value):
         return "–"
-    return f"{found['value']:.3f}{_bracket(found)}"
+    return f"{found.value:.3f}{_bracket(found)}"
 
 
-def _bracket(found: dict[str, float]) -> str:
+def _bracket(found: Interval | Bounds) -> str:
     """The interval of a score in brackets; nothing where it has none."""
-    return f" [{found['low']:.3f}, {found['high']:.3f}]" if math.isfinite(found["low"]) else ""
+    return f" [{found.low:.3f}, {found.high:.3f}]" if math.isfinite(found.low) else ""

@@ -48,8 +48,9 @@ ZLIB_SHARE = {
 class Identity:
     """What made a corpus, as hashes of 16 hexadecimal digits: a corpus never mixes two identities.
 
-    `model_hash` is of the physics, `program_hash` of everything else that draws, describes and stores. An imported
-    corpus has the hash of its SPEC and of the files that it names as `recipe_hash`, and no `model_hash` ("").
+    `model_hash` is of the physics, `program_hash` of the other packages that draw, describe and store records: of their
+    whole text, comments too. An imported corpus has the hash of its SPEC and of the files that it names as
+    `recipe_hash`, and no `model_hash` ("").
     """
 
     recipe_hash: str

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from datagen.benchmark.model_scores import Confusion, Scores
+
 COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
 WIDTH, ROW, DPI = 20.0, 3.0, 100
 MOST_FEATURES = 15
@@ -51,21 +53,20 @@ def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
     there are no faults."""
     title = f"{Path(test['corpus']).name}: {test['records']} records"
     if not any(test["locations"][race] for race in ("outer", "inner")):
-        alarms = (f"{name}: {said['false_alarms']} of {said['healthy']}" for name, said in test["models"].items())
+        alarms = (f"{name}: {said.false_alarms} of {said.healthy}" for name, said in test["models"].items())
         say(axes, title, "no faults to score\n\nfalse alarms\n" + "\n".join(alarms))
         return
-    keys = {"faults": "faults_balanced_accuracy", "race": "race_accuracy", "AUC": "detection_auc"}
-    models = test["models"]
+    models: dict[str, Scores] = test["models"]
+    words = list(next(iter(models.values())).headline)
     for place, (name, scores) in enumerate(models.items()):
         shift = (place - 0.5 * (len(models) - 1)) * 0.16
-        for spot, key in enumerate(keys.values()):
-            found = scores[key]
-            if np.isfinite(found["value"]):
-                axes.plot([spot + shift] * 2, [found["low"], found["high"]], color=COLOURS[place % 6], linewidth=2)
-                axes.plot(spot + shift, found["value"], "o", color=COLOURS[place % 6], markersize=4)
+        for spot, found in enumerate(scores.headline.values()):
+            if np.isfinite(found.value):
+                axes.plot([spot + shift] * 2, [found.low, found.high], color=COLOURS[place % 6], linewidth=2)
+                axes.plot(spot + shift, found.value, "o", color=COLOURS[place % 6], markersize=4)
         axes.plot([], [], "o-", color=COLOURS[place % 6], label=name)
-    axes.set_xticks(range(len(keys)), list(keys))
-    axes.set_xlim(-0.5, len(keys) - 0.5)
+    axes.set_xticks(range(len(words)), words)
+    axes.set_xlim(-0.5, len(words) - 0.5)
     axes.set_ylim(0.0, 1.03)
     if not test["locations"]["none"]:
         axes.text(2, 0.5, "no healthy\nrecords", ha="center", va="center", color=GREY)
@@ -93,17 +94,17 @@ def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
         row, column = divmod(number, across)
         panel = axes.figure.add_subplot(cells[row, column])
         below = number + across >= len(models)
-        _draw_table(panel, name, scores["confusion"], named_rows=column == 0, named_columns=below)
+        _draw_table(panel, name, scores.confusion, named_rows=column == 0, named_columns=below)
 
 
-def _draw_table(axes: Axes, name: str, table: dict[str, Any], named_rows: bool, named_columns: bool) -> None:
-    counts = np.array(table["counts"])
+def _draw_table(axes: Axes, name: str, table: Confusion, named_rows: bool, named_columns: bool) -> None:
+    counts = np.array(table.counts)
     shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
     axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.3, aspect="auto")
     for row, column in np.ndindex(*counts.shape):
         axes.text(column, row, str(counts[row, column]), ha="center", va="center", color=INK, fontsize=7)
-    axes.set_xticks(range(len(table["columns"])), table["columns"] if named_columns else [])
-    axes.set_yticks(range(len(table["rows"])), table["rows"] if named_rows else [])
+    axes.set_xticks(range(len(table.columns)), table.columns if named_columns else [])
+    axes.set_yticks(range(len(table.rows)), table.rows if named_rows else [])
     axes.tick_params(labelsize=7)
     if named_rows:
         axes.set_ylabel("truth")
@@ -112,14 +113,14 @@ def _draw_table(axes: Axes, name: str, table: dict[str, Any], named_rows: bool, 
 
 def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
     """Share of spalls against the probability predicted."""
-    told = any("reliability" in scores for scores in test["models"].values())
+    told = any(scores.calibration for scores in test["models"].values())
     if not (told and test["locations"]["none"]):
         say(axes, "reliability", "needs healthy records and\nfaults of known size")
         return
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
     for place, (name, scores) in enumerate(test["models"].items()):
-        if "reliability" in scores:
-            curve = scores["reliability"]
+        if scores.calibration:
+            curve = scores.calibration.reliability
             axes.plot(curve["predicted"], curve["observed"], "o-", color=COLOURS[place % 6], markersize=3, label=name)
     axes.legend(loc="upper left")
     axes.set_xlabel("predicted probability of a spall")
@@ -130,11 +131,11 @@ def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
 def draw_against(axes: Axes, test: dict[str, Any], quantity: str) -> None:
     """Accuracy over fault records against one of AGAINST, in bins of equally many records."""
     models = test["models"]
-    if not any(quantity in scores["accuracy_against"] for scores in models.values()):
+    if not any(quantity in scores.accuracy_against for scores in models.values()):
         say(axes, "accuracy over faults", f"{AGAINST[quantity]}:\nunknown, or the same in all")
         return
     for place, scores in enumerate(models.values()):
-        table = scores["accuracy_against"].get(quantity, [])
+        table = scores.accuracy_against.get(quantity, [])
         at, value = [point["at"] for point in table], np.array([point["accuracy"] for point in table])
         axes.plot(at, value, "o-", color=COLOURS[place % 6], markersize=3)
         axes.fill_between(

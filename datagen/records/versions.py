@@ -12,18 +12,30 @@ from pathlib import Path
 
 CPU_INFO = Path("/proc/cpuinfo")
 PACKAGES = ("spallgen", "numpy", "scipy", "numba", "xarray", "netCDF4")
+CORPUS_CODE = (
+    "labels",
+    "labels/features",
+    "datagen",
+    "datagen/corpora",
+    "datagen/recipes",
+    "datagen/recordings",
+    "datagen/recordings/formats",
+    "datagen/records",
+    "datagen/runs",
+    "datagen/scenarios",
+)
+"""The packages, each without those inside it, that draw, describe and store records, simulated or imported. A test
+follows the imports and asserts that none is missing; what draws pictures of records or judges them is not of these."""
 MACHINE_FACTS = ("machine", "processor", "cores", "physics")
 
 
 @cache
 def program_hash(*packages: str) -> str:
-    """Hash of the text of every Python file of the `packages`, `labels` and `datagen` if none is named: 16 hexadecimal
-    digits."""
+    """Hash of the text of every Python file of the `packages`, each without those inside it, CORPUS_CODE if none is
+    named: 16 hexadecimal digits."""
     root = Path(__file__).parents[2]
     digest = hashlib.sha256()
-    for path in sorted(
-        path for package in packages or ("labels", "datagen") for path in (root / package).rglob("*.py")
-    ):
+    for path in sorted(path for package in packages or CORPUS_CODE for path in (root / package).glob("*.py")):
         digest.update(path.relative_to(root).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassifierMixin
+from sklearn.exceptions import ConvergenceWarning
 
 from labels.classifier.log_odds import probability_of
 from labels.features.conditioning import Array
@@ -26,7 +28,7 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
         self.signs = signs
 
     def fit(self, X: Array, y: NDArray[Any]) -> SignedLogistic:
-        """Learn from rows (N, F) and their two classes (N,)."""
+        """Learn from rows (N, F) and their two classes (N,); warns where the fit ended before it had converged."""
         from scipy.optimize import minimize
 
         table = np.column_stack([np.asarray(X, dtype=np.float64), np.ones(len(X))])
@@ -46,6 +48,8 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
         found = minimize(
             loss, np.zeros(table.shape[1]), jac=True, bounds=bounds, method="L-BFGS-B", options={"maxiter": MOST_STEPS}
         )
+        if not found.success:
+            warnings.warn(f"the fit did not converge: {found.message}", ConvergenceWarning, stacklevel=2)
         self.coef_, self.intercept_ = found.x[:-1], float(found.x[-1])
         return self
 

@@ -14,12 +14,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from datagen.benchmark.model_scores import Confusion, Scores
 from datagen.corpora.shard import finished_shards
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.scenario import Scenario
+from labels.classifier.scores import Interval
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable
 from physics.outcome import Outcome, SimulationFailed
@@ -96,6 +98,16 @@ def load_script() -> Callable[[str], ModuleType]:
         return module
 
     return load
+
+
+@pytest.fixture(scope="session")
+def made_scores() -> Callable[..., Scores]:
+    """A function that gives the Scores of a model that was asked of nothing, but for the fields given."""
+    none = Interval(math.nan, math.nan, math.nan)
+    nothing = Scores(
+        none, none, none, none, 0, 0, none, 0, 0, 0, 0, Confusion(("none",), ("none",), [[1]]), None, None, None, {}
+    )
+    return lambda **fields: replace(nothing, **fields)
 
 
 Contents = Callable[[Path], dict[int, str]]

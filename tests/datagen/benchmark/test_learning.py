@@ -25,6 +25,14 @@ def made_up(bearings, classes=CLASSES):
     return TrainingSet(table, own, np.char.add("b", (records // 2).astype(str)), records, noisy)
 
 
+def test_a_subset_keeps_what_is_known_of_each_row():
+    whole = made_up(6)
+    part = whole.subset(np.arange(len(whole.table)) % 5 == 2)
+    assert len(part.table) == 7
+    for name in ("table", "classes", "bearings", "records", "noisy"):
+        np.testing.assert_array_equal(getattr(part, name), getattr(whole, name)[2::5])
+
+
 def test_points_are_of_different_shares_and_records_without_noise():
     points = learning_curve(made_up(60), "logistic")["logistic"]
     assert [point["bearings"] for point in points] == [10, 11, 22, 45]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 import shutil
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -82,6 +83,30 @@ def test_the_same_is_said_by_what_was_kept(learned, divided, tmp_path):
     assert after["training_records"] == before["training_records"]
 
 
+def test_a_run_is_logged_with_the_options_that_it_was_learned_with_and_scored_with(learned, divided, tmp_path):
+    recorded = tmp_path / "recorded"
+    shutil.copytree(divided, recorded)
+    manifest = json.loads((recorded / "manifest.json").read_text())
+    (recorded / "manifest.json").write_text(json.dumps(manifest | {"origin": "imported"}))
+    done = run("--train", learned[0], "--test", recorded, "--reject", 0.25, "--json", tmp_path / "results.json")
+    assert done.exit_code == 0, done.output
+    began, ended = (json.loads(line) for line in (recorded / "scored_runs.jsonl").read_text().splitlines())
+    used = {"learner": "logistic", "bandwidth": 3000.0, "reject": 0.25}
+    for options in (began["began"], ended["options"], json.loads((tmp_path / "results.json").read_text())["options"]):
+        assert {name: options[name] for name in used} == used
+        assert list(options) == [
+            "learner",
+            "estimator",
+            "input",
+            "bandwidth",
+            "speed_error",
+            "first",
+            "reject",
+            "noise_db",
+            "noise_draws",
+        ]
+
+
 def test_what_was_learned_from_is_not_scored(learned, divided, tmp_path):
     model, _ = learned
     undivided = tmp_path / "undivided"
@@ -154,7 +179,10 @@ class Bomb:
         (lambda head, body: b"\x80\x04 nothing of ours", "holds no learned classifiers"),
         (lambda head, body: b"[1, 2]\n" + body, "holds no learned classifiers"),
         (lambda head, body: head.replace(b'"features": "', b'"features": "0') + body, "was learned with features 0"),
+        (lambda head, body: head.replace(b'"benchmark": "', b'"benchmark": "0') + body, "was learned with benchmark 0"),
         (lambda head, body: head.replace(b'"numpy": "', b'"numpy": "0.') + body, "was learned with numpy 0."),
+        (lambda head, body: head + zlib.compress(pickle.dumps(Path()).replace(b"pathlib", b"pathlab")), "is damaged"),
+        (lambda head, body: head + zlib.compress(pickle.dumps(Path()).replace(b"Posix", b"Waxen")), "is damaged"),
         (lambda head, body: head + body[:-100], "is damaged"),
         (lambda head, body: head + body[: len(body) // 2] + b"\0" + body[len(body) // 2 + 1 :], "is damaged"),
         (
@@ -162,7 +190,19 @@ class Bomb:
             "was learned with python",
         ),
     ],
-    ids=["empty", "binary", "list", "other features", "other numpy", "cut", "flipped", "another pickle"],
+    ids=[
+        "empty",
+        "binary",
+        "list",
+        "other features",
+        "other benchmark",
+        "other numpy",
+        "a module gone",
+        "a class renamed",
+        "cut",
+        "flipped",
+        "another pickle",
+    ],
 )
 def test_a_file_that_would_not_say_the_same_is_refused(learned, change, told, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -1,6 +1,6 @@
 """What is said of records, and how draws of noise are pooled."""
 
-from dataclasses import replace
+from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
@@ -67,12 +67,9 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
     one = judged(locations, probability)
     once, pooled = (summarise(replace(found), False)["models"]["said"] for found in (one, pooled_draws([one] * 10)))
     for name in ("faults_balanced_accuracy", "race_accuracy"):
-        assert [pooled[name][end] for end in ("value", "low", "high")] == pytest.approx(
-            [once[name][end] for end in ("value", "low", "high")]
-        )
-        assert [pooled["minus_rule"][name][end] for end in ("low", "high")] == pytest.approx(
-            [once["minus_rule"][name][end] for end in ("low", "high")]
-        )
+        assert astuple(getattr(pooled, name)) == pytest.approx(astuple(getattr(once, name)))
+        differences = [astuple(getattr(scores.minus_rule, name))[1:] for scores in (pooled, once)]
+        assert differences[0] == pytest.approx(differences[1])
 
 
 def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
@@ -81,7 +78,7 @@ def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
     spall = np.where(np.arange(100) < 10, 0.1, 0.9)
     spall[[0, *range(10, 19)]] = 0.9, *[0.1] * 9
     found = summarise(judged(locations, np.column_stack([1 - spall, spall, *np.zeros((3, 100))])), False)
-    assert found["models"]["said"]["calibration_error"] == pytest.approx(
+    assert found["models"]["said"].calibration.calibration_error == pytest.approx(
         0.0, abs=1e-5
     )  # votes keep 1e-6 for every class
 
@@ -92,11 +89,12 @@ def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interv
     labels.loc[20:, "condition"] = "unknown"
     model = Model("said", Said(np.column_stack([1 - spall, np.zeros((40, 1)), spall, np.zeros((40, 2))])), 0.5)
     said = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
-    assert said["reliability"]["observed"] == [0.0, 1.0]
-    assert said["calibration_error"] == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
+    found = said.calibration
+    assert found.reliability["observed"] == [0.0, 1.0]
+    assert found.calibration_error == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
     # Every draw is the same: what 0 of 20 in either half leaves room for.
-    assert 0.0 < said["calibration_error_interval"]["low"] < 0.25 < said["calibration_error_interval"]["high"] < 1.0
-    assert "condition_balanced_accuracy" not in said
+    assert 0.0 < found.calibration_error_interval.low < 0.25 < found.calibration_error_interval.high < 1.0
+    assert said.condition is None
 
 
 def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_drawn():
@@ -104,9 +102,9 @@ def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_draw
     one = judged(["none"] * 10 + ["outer"] * 2, np.column_stack([1 - spall, spall, *np.zeros((3, 12))]))
     once, pooled = (summarise(found, False)["models"]["said"] for found in (one, pooled_draws([one] * 4)))
     share = binomtest(1, 10).proportion_ci()
-    assert (once["false_alarms"], pooled["false_alarms"]) == (1, 4)
+    assert (once.false_alarms, pooled.false_alarms) == (1, 4)
     for found in (once, pooled):
-        assert list(found["false_alarm_share"].values()) == pytest.approx([0.1, share.low, share.high], rel=1e-9)
+        assert list(astuple(found.false_alarm_share)) == pytest.approx([0.1, share.low, share.high], rel=1e-9)
 
 
 def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
@@ -159,13 +157,13 @@ def test_nothing_is_said_of_a_record_without_features():
 def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_no_calibration():
     models = summarise(with_unjudged_records()[0], False)["models"]
     for scores in models.values():
-        assert scores["race_accuracy"]["value"] == pytest.approx(0.6)
-        assert scores["faults_balanced_accuracy"]["value"] == pytest.approx(0.6)
-        assert scores["detection_auc"]["value"] == 1.0  # all that has a score is told apart
-    assert models["said"]["calibration_error"] == pytest.approx(0.2, abs=1e-5)  # 0.2 of none and 0.8 of all
-    assert sum(models["said"]["reliability"]["records"]) == 18
-    assert models["said"]["minus_rule"]["detection_auc"]["value"] == 0.0
-    assert models["said"]["minus_rule"]["race_accuracy"]["value"] == 0.0
+        assert scores.race_accuracy.value == pytest.approx(0.6)
+        assert scores.faults_balanced_accuracy.value == pytest.approx(0.6)
+        assert scores.detection_auc.value == 1.0  # all that has a score is told apart
+    assert models["said"].calibration.calibration_error == pytest.approx(0.2, abs=1e-5)  # 0.2 of none and 0.8 of all
+    assert sum(models["said"].calibration.reliability["records"]) == 18
+    assert models["said"].minus_rule.detection_auc.value == 0.0
+    assert models["said"].minus_rule.race_accuracy.value == 0.0
 
 
 def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
@@ -173,9 +171,18 @@ def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     rows = replace(rows, table=rows.table[:0], record=rows.record[:0], rejected=dict.fromkeys(range(3), "too short"))
     tested = judge(Path("made-up"), labels, rows, RULE, [Model("said", Said([]), 0.5)], 0.0, True)
     said = summarise(tested, False)["models"]["said"]
-    assert said["race_accuracy"]["value"] == 0.0
-    assert np.isnan(said["detection_auc"]["value"])
-    assert "calibration_error" not in said
+    assert said.race_accuracy.value == 0.0
+    assert np.isnan(said.detection_auc.value)
+    assert said.calibration is None
+
+
+def test_a_class_is_called_where_the_rows_pass_their_alarm_and_healthy_else():
+    # The likeliest class of all is healthy in each; what counts is the alarm, and then the likeliest spall.
+    said = Said([[0.52, 0.1, 0.38, 0.0, 0.0], [0.6, 0.3, 0.1, 0.0, 0.0]])
+    table, records = np.zeros((2, len(FEATURE_NAMES))), np.arange(3)
+    _, called, alarm = vote(Model("said", said, 0.45), table, records[:2], records)
+    assert called.tolist() == ["line inner", "healthy", "healthy"]  # the last has no rows
+    assert np.isnan(alarm).tolist() == [False, False, True]
 
 
 def test_the_rows_of_a_record_agree_on_its_alarm():
@@ -200,8 +207,8 @@ def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
     spall = np.array([0.9, 0.9, 0.1, 0.1, 0.9, 0.9])
     model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 6))])), 0.5)
     found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
-    assert (found["healthy"], found["false_alarms"]) == (5, 3)
-    assert (found["healthy_bearings"], found["alarming_bearings"]) == (3, 2)
+    assert (found.healthy, found.false_alarms) == (5, 3)
+    assert (found.healthy_bearings, found.alarming_bearings) == (3, 2)
 
 
 @pytest.mark.parametrize(
@@ -220,7 +227,7 @@ def test_unknown_bearings_are_not_counted_as_one(bearings, counts, words):
     tested = judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)
     found = summarise(tested, False)["models"]["said"]
     names = ("healthy_bearings", "alarming_bearings", "healthy_of_unknown_bearing")
-    assert tuple(found[name] for name in names) == counts
+    assert tuple(getattr(found, name) for name in names) == counts
     assert f"{words}, rejected 0" in _line(found)
 
 
@@ -228,8 +235,8 @@ def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
     outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.95, 0.05, 0.0, 0.0, 0.0]
     locations = ["none", "none", "ball", "unknown", "outer"]
     found = summarise(judged(locations, [outer, healthy, outer, outer, outer]), False)["models"]["said"]
-    assert (found["healthy"], found["false_alarms"]) == (2, 1)
-    assert found["confusion"]["counts"][-1] == [0, 2, 0, 0]  # beside them, called outer
+    assert (found.healthy, found.false_alarms) == (2, 1)
+    assert found.confusion.counts[-1] == [0, 2, 0, 0]  # beside them, called outer
 
 
 def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():

@@ -1,26 +1,28 @@
 """The sheet of a benchmark says in words what a corpus leaves nothing to draw of."""
 
+from dataclasses import replace
+
 import pytest
 
 from datagen.drawing.scores import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
 from datagen.drawing.style import house_style, plt
+from labels.classifier.scores import Interval
 
-NONE = {"value": float("nan"), "low": float("nan"), "high": float("nan")}
-HALF = {"value": 0.5, "low": 0.4, "high": 0.6}
+HALF = Interval(0.5, 0.4, 0.6)
 
 
-def summary_of(none, outer):
-    """The summary of a corpus of so many healthy records and outer faults, with one model."""
-    found = HALF if outer else NONE
-    scores = {
-        "faults_balanced_accuracy": found,
-        "race_accuracy": found,
-        "detection_auc": HALF if none and outer else NONE,
-        "healthy": none,
-        "false_alarms": min(none, 2),
-        "confusion": {"rows": ["none"], "columns": ["none"], "counts": [[1]]},
-        "accuracy_against": {},
-    }
+@pytest.fixture
+def summary_of(made_scores):
+    """Function (healthy records, outer faults) → the summary of a corpus of so many, with one model."""
+    return lambda none, outer: summary(made_scores, none, outer)
+
+
+def summary(made_scores, none, outer):
+    scores = made_scores(healthy=none, false_alarms=min(none, 2))
+    if outer:
+        scores = replace(scores, faults_balanced_accuracy=HALF, race_accuracy=HALF)
+    if none and outer:
+        scores = replace(scores, detection_auc=HALF)
     locations = {"none": none, "outer": outer, "inner": 0}
     return {"corpus": "out/made", "records": none + outer, "locations": locations, "models": {"rule": scores}}
 
@@ -40,28 +42,28 @@ def words():
     return written
 
 
-def test_a_corpus_without_faults_shows_its_false_alarms(words):
+def test_a_corpus_without_faults_shows_its_false_alarms(words, summary_of):
     said = words(draw_scores, summary_of(96, 0))
     assert "no faults to score" in said
     assert "rule: 2 of 96" in said
 
 
-def test_a_corpus_without_healthy_records_says_that_it_has_none(words):
+def test_a_corpus_without_healthy_records_says_that_it_has_none(words, summary_of):
     assert "no healthy" in words(draw_scores, summary_of(0, 10))
     assert words(draw_scores, summary_of(5, 10)) == ""
 
 
-def test_what_cannot_be_drawn_is_explained(words):
+def test_what_cannot_be_drawn_is_explained(words, summary_of):
     assert "needs healthy records" in words(draw_reliability, summary_of(96, 0))
     assert "unknown, or the same in all" in words(draw_against, summary_of(96, 0), "snr_db")
 
 
-def test_every_model_has_its_table_of_confusion():
+def test_every_model_has_its_table_of_confusion(summary_of):
     test = summary_of(5, 10)
     (scores,) = test["models"].values()
     counts = {"rule": 7, "forest": 8, "logistic": 9}
     test["models"] = {
-        name: scores | {"confusion": scores["confusion"] | {"counts": [[count]]}} for name, count in counts.items()
+        name: replace(scores, confusion=replace(scores.confusion, counts=[[count]])) for name, count in counts.items()
     }
     with house_style():
         figure, axes = plt.subplots()
@@ -71,6 +73,6 @@ def test_every_model_has_its_table_of_confusion():
     assert drawn == {"said by rule": "7", "said by forest": "8", "said by logistic": "9"}
 
 
-def test_the_sheet_of_a_corpus_without_faults_is_a_picture():
+def test_the_sheet_of_a_corpus_without_faults_is_a_picture(summary_of):
     results = {"tests": [summary_of(96, 0)], "importances": {}}
     assert scores_png(results).startswith(b"\x89PNG")

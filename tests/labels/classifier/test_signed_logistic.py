@@ -1,7 +1,10 @@
 """Logistic regression with signs, against scikit-learn's where no sign is asked for."""
 
+import warnings
+
 import numpy as np
 import pytest
+from sklearn.exceptions import ConvergenceWarning
 from sklearn.linear_model import LogisticRegression
 
 from labels.classifier.signed_logistic import SignedLogistic
@@ -38,3 +41,12 @@ def test_a_coefficient_keeps_its_sign_and_others_are_free(table):
 def test_probabilities_stay_probabilities_however_far_the_row(table):
     far = SignedLogistic().fit(*table).predict_proba(np.array([[1e6, 0.0, 0.0], [-1e6, 0.0, 0.0]]))
     np.testing.assert_allclose(far, [[0.0, 1.0], [1.0, 0.0]], atol=1e-9)
+
+
+def test_a_fit_that_is_stopped_at_its_step_limit_warns_and_a_finished_one_does_not(table, monkeypatch):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        SignedLogistic(0.05, (1, -1, 0)).fit(*table)
+    monkeypatch.setattr("labels.classifier.signed_logistic.MOST_STEPS", 1)
+    with pytest.warns(ConvergenceWarning, match="did not converge: .*LIMIT"):
+        SignedLogistic(0.05, (1, -1, 0)).fit(*table)

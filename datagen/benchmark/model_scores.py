@@ -1,0 +1,101 @@
+"""The scores of one model on one set of records, and how a report holds them."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from labels.classifier.scores import Interval
+
+GROUPS = ("calibration", "condition")
+
+
+@dataclass(frozen=True)
+class Confusion:
+    """Counts (R, C) of records by what they are, the `rows`, and what is said of them, the `columns`."""
+
+    rows: tuple[str, ...]
+    columns: tuple[str, ...]
+    counts: list[list[int]]
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """The interval of a score that stands beside it."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Reliability of the probability of a spall by `labels.classifier.reliability`, and its error with an interval."""
+
+    reliability: dict[str, list[float]]
+    calibration_error: float
+    calibration_error_interval: Bounds
+
+
+@dataclass(frozen=True)
+class ConditionScores:
+    """How well healthy records, line and extended spalls are told apart."""
+
+    condition_balanced_accuracy: Interval
+    condition_confusion: Confusion
+
+
+@dataclass(frozen=True)
+class MinusRule:
+    """Paired differences of a model and the rule on the same records."""
+
+    faults_balanced_accuracy: Interval
+    race_accuracy: Interval
+    detection_auc: Interval
+
+
+@dataclass(frozen=True)
+class Scores:
+    """What one model scores on one set; None where something does not apply, as calibration to the rule.
+
+    Numbers are of records or, where they say so, of bearings. `accuracy_against` has the accuracy over faults by
+    quantity, in bins of it.
+    """
+
+    faults_balanced_accuracy: Interval
+    location_balanced_accuracy: Interval
+    race_accuracy: Interval
+    detection_auc: Interval
+    healthy: int
+    false_alarms: int
+    false_alarm_share: Interval
+    healthy_bearings: int
+    alarming_bearings: int
+    healthy_of_unknown_bearing: int
+    rejected: int
+    confusion: Confusion
+    minus_rule: MinusRule | None
+    calibration: Calibration | None
+    condition: ConditionScores | None
+    accuracy_against: dict[str, list[dict[str, float]]]
+
+    @property
+    def headline(self) -> dict[str, Interval]:
+        """The three scores that are told first, by a short word."""
+        return {"faults": self.faults_balanced_accuracy, "race": self.race_accuracy, "AUC": self.detection_auc}
+
+    def to_dict(self) -> dict[str, Any]:
+        """As a report holds them: what does not apply is left out, and parts of a group stand like scores alone."""
+        found: dict[str, Any] = {}
+        for name, value in asdict(self).items():
+            if value is not None:
+                found |= value if name in GROUPS else {name: value}
+        return found
+
+
+def report(results: Any) -> Any:
+    """The results of `classify` with every Scores in them as plain numbers, for the JSON writer."""
+    if isinstance(results, Scores):
+        return results.to_dict()
+    if isinstance(results, dict):
+        return {name: report(value) for name, value in results.items()}
+    return [report(value) for value in results] if isinstance(results, list) else results

@@ -1,0 +1,59 @@
+"""The options of `classify`, as they are logged with every run."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from datagen.benchmark.training import SPEED_ERROR
+
+FEATURES, WINDOWS = "features", "windows"
+
+
+@dataclass(frozen=True)
+class Learning:
+    """What is learned and how: kept with what was learned, since it holds whenever that is used again.
+
+    `learner` is one of ours or "all"; `estimator` names the user's own, None for ours; `input` is what that is given;
+    `bandwidth` (Hz) limits all records, None: as usual; `speed_error` is the share by which speeds told in training may
+    be off; `first` is how many records are learned from, None: all.
+    """
+
+    learner: str = "all"
+    estimator: str | None = None
+    input: str = FEATURES
+    bandwidth: float | None = None
+    speed_error: float = SPEED_ERROR
+    first: int | None = None
+
+    @property
+    def takes_windows(self) -> bool:
+        """True if the estimator is given raw windows."""
+        return self.input == WINDOWS
+
+
+@dataclass(frozen=True)
+class Scoring:
+    """How it is scored: below which probability what is said is a `reject`; at which ratios (dB, as text with commas)
+    recordings are scored with noise too, in how many draws."""
+
+    reject: float = 0.0
+    noise_db: str = ""
+    noise_draws: int = 10
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        """Signal over noise, dB, of the noise to add; ValueError for text that holds something else than numbers."""
+        return tuple(float(part) for part in self.noise_db.split(",") if part.strip())
+
+
+@dataclass(frozen=True)
+class Asked:
+    """All options of a run."""
+
+    learning: Learning = field(default_factory=Learning)
+    scoring: Scoring = field(default_factory=Scoring)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Every option by its name on the command line."""
+        return asdict(self.learning) | asdict(self.scoring)

@@ -88,6 +88,8 @@ SEVEN = (4.0 * 100.0 + 3.0) / 7.0
         ("entry_after_all", math.log(100.0)),
         ("exit_before_all", math.log(100.0)),
         ("exit_after_all", 0.0),
+        ("exit_before_low", math.log(45.0 / 36.0)),  # of the 36 samples up to the core the furthest lies in the rumble
+        ("entry_after_high", math.log(1035.0 / 36.0)),
         ("entry_just_before_all", 0.0),  # 2 to 6 samples off
         ("entry_just_after_low", math.log(10.0)),
         ("exit_just_before_high", math.log(1000.0)),

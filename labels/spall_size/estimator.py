@@ -28,7 +28,12 @@ BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from 
 
 @dataclass(frozen=True)
 class SizeEstimator:
-    """Estimates sizes with what `calibration` learned from simulated machines."""
+    """Estimates sizes with what `calibration` learned from simulated machines.
+
+    The shipped one was fitted to records at 65 536 Hz alone, and much of what it looks at is counted in samples or in
+    shares of the sampling rate. At 48 and 51.2 kHz it fares about as well, at 25.6 kHz and below clearly worse
+    (docs/size.md); bringing such records to 65 536 Hz first does not help.
+    """
 
     calibration: Calibration
 

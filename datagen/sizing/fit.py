@@ -14,6 +14,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.corpora.manifest import read_manifest
+from datagen.records.versions import measured_on, program_hash
 from datagen.sizing.committee import FOLDS, Committee
 from datagen.sizing.cross_fit import CrossFit
 from datagen.sizing.training_rows import Trial, trials
@@ -32,6 +34,7 @@ LARGEST_ERROR = 1.0
 GROSS, GROSS_WEIGHT = 0.5, 0.2  # where the pair was mistaken there is little to learn of how far off a right one lies
 KEPT_SHARE = 0.06  # of the pairs that are not the events
 WRONG_BELOW = 0.05
+LEARNED_WITH = ("numpy", "scipy", "scikit-learn")
 PAIRS = Committee(
     1, {"max_iter": 220, "learning_rate": 0.09, "max_leaf_nodes": 24, "min_samples_leaf": 40, "max_bins": 63}
 )
@@ -194,9 +197,22 @@ def main(corpora: list[str], file: str, workers: int = 2) -> None:
     made = [trial for own in by_corpus for trial in own]
     typical = np.arange(len(made)) < len(by_corpus[0])
     print(f"{len(made)} trials of {len({(trial.bearing_id, trial.record) for trial in made})} records")
-    calibration = fit_calibration(made, typical)
+    calibration = replace(fit_calibration(made, typical), origin=_origin(corpora, made))
     np.savez_compressed(file, **calibration.to_arrays())  # type: ignore[arg-type]
     print(f"{file}: {Path(file).stat().st_size} bytes")
+
+
+def _origin(corpora: list[str], made: list[Trial]) -> str:
+    """In words, what was fitted to: corpora and the hashes of their recipes, records, sampling rates, programs."""
+    manifests = [read_manifest(Path(corpus)) for corpus in corpora]
+    names = ", ".join(f"{one.name} (recipe {one.identity.recipe_hash})" for one in manifests)
+    rates = ", ".join(f"{rate:g}" for rate in sorted({trial.evidence.rate for trial in made}))
+    programs = measured_on(*LEARNED_WITH)
+    versions = ", ".join(f"{name} {programs[name]}" for name in ("python", *LEARNED_WITH))
+    return (
+        f"Fitted by datagen.sizing.fit to {len({(trial.bearing_id, trial.record) for trial in made})} records at "
+        f"{rates} Hz, the training and validation splits of {names}; features {program_hash('labels')}, {versions}."
+    )
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_reco
 from labels.spall_size.estimator import ONSET
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
+from labels.spall_size.pairs import LONGEST_LAG
 from labels.spall_size.situation import Situation
 
 Array = NDArray[np.float64]
@@ -115,7 +116,7 @@ def trial(sized: SizedRecord, evidence: Evidence, heard: Heard) -> Trial:
     truth = None if sized.truth is None else sized.truth.within(*_stretch(sized, heard))
     true_lag = truth.lag * sized.rate if truth is not None else math.nan
     if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LAG:
-        turns = math.floor(true_lag / (0.97 * evidence.mean.period))
+        turns = math.floor(true_lag / (LONGEST_LAG * evidence.mean.period))
         lag = max(true_lag - turns * evidence.mean.period, 1.0)
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)

@@ -14,14 +14,24 @@ from labels.spall_size.pass_track import CELLS, PassTrack
 Array = NDArray[np.float64]
 
 SEARCH_SHARE = 0.02
+"""Periods by which an anchor may be moved either way."""
 FEWEST_SEARCHED = 4
+"""Samples by which an anchor may be moved either way at least."""
 CORE_SHARE = 0.012
+"""Periods on either side of an anchor that are matched with the mean of all passes."""
 SMALLEST_CORE = 8
+"""Samples on either side of an anchor that are matched at least."""
 ROUNDS = 4
+"""How often the mean of all passes is made anew and every pass matched with it."""
 BLUR = 1.0
+"""Standard deviation, in samples, of the blur of the magnitude that is matched."""
 PRIOR_WIDTH = 0.6
+"""Shift, as a share of the largest one, that costs a match twice PRIOR_WEIGHT; others cost in proportion to their
+square."""
 PRIOR_WEIGHT = 0.25
-LEAST_WEIGHT = 0.02  # a pass of less weight is not heard
+"""Half of what that shift costs, in standard deviations of the pass's match."""
+LEAST_WEIGHT = 0.02
+"""A pass of less weight is not heard."""
 
 
 @dataclass(frozen=True)

@@ -3,23 +3,47 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.spall_size.table import (
+    LEADING_COLUMNS,
+    LEADING_COLUMNS_WITH_LOAD,
+    PAIR_COLUMNS,
+    ROW_COLUMNS,
+    ROW_COLUMNS_WITH_LOAD,
+)
 from labels.spall_size.trees import Trees
 
 Array = NDArray[np.float64]
 Arrays = dict[str, NDArray[Any]]
 SMALLEST_SPREAD = 0.01
+"""Typical error (logarithm) that is added to what the trees say, so that no interval vanishes."""
+FITTED_ON: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"pair_score": PAIR_COLUMNS, "blind.rank": LEADING_COLUMNS, "with_load.rank": LEADING_COLUMNS_WITH_LOAD}
+    | {f"blind.{model}": ROW_COLUMNS for model in ("lag", "arc", "doubt")}
+    | {f"with_load.{model}": ROW_COLUMNS_WITH_LOAD for model in ("lag", "arc", "doubt")}
+)
+"""The columns that each model looks at, by the name under which its arrays are kept."""
+
+
+class MisfitCalibration(ValueError):
+    """A calibration that was fitted to other columns than are computed now, or does not say to which."""
 
 
 @dataclass(frozen=True)
 class Guess:
-    """A logarithmic correction and its typical error, each a sum of trees; 90 % of all errors lie within `reach` times
-    the typical one."""
+    """A logarithmic correction and its typical error, each a sum of trees; `reach`: within so many times the typical
+    one lay 90 % of the errors by which it was set.
+
+    These are errors of machines that the trees had not seen, in records as stored (neither cut short nor with other
+    noise) of the first corpus of the fit alone, and only where a size was told.
+    """
 
     centre: Trees
     spread: Trees
@@ -28,7 +52,8 @@ class Guess:
     def correction(self, row: Array) -> tuple[float, float]:
         """Factor that corrects the quantity which one `row` (F,) describes, and the factor of its 90 % interval.
 
-        In 90 % of the training cases the truth lay between the corrected quantity divided by the second and times it.
+        In 90 % of the cases by which `reach` was set the truth lay between the corrected quantity divided by the second
+        and times it.
         """
         centre = float(self.centre.predict(row[None])[0])
         spread = max(float(self.spread.predict(row[None])[0]), 0.0) + SMALLEST_SPREAD
@@ -74,19 +99,39 @@ class Judgement:
 @dataclass(frozen=True)
 class Calibration:
     """`pair_score` of a pair of candidates (0 to 1), by which the leading pairs are chosen; how those are judged
-    `blind`, and `with_load` and Hertz factor."""
+    `blind`, and `with_load` and Hertz factor; `origin` says in words from what it was fitted, empty if that is not
+    told."""
 
     pair_score: Trees
     blind: Judgement
     with_load: Judgement
+    origin: str = ""
 
     def to_arrays(self) -> Arrays:
-        """Everything as named arrays, for a file."""
+        """Everything as named arrays, for a file, with the names of the columns that each model was fitted on."""
         judged = self.blind.to_arrays("blind") | self.with_load.to_arrays("with_load")
-        return self.pair_score.to_arrays("pair_score") | judged
+        columns = {f"{model}.columns": np.array(names) for model, names in FITTED_ON.items()}
+        return self.pair_score.to_arrays("pair_score") | judged | columns | {"origin": np.array(self.origin)}
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Calibration:
-        """The calibration that gave these arrays; KeyError if one is missing."""
-        judged = (Judgement.from_arrays(arrays, name) for name in ("blind", "with_load"))
-        return cls(Trees.from_arrays(arrays, "pair_score"), *judged)
+        """The calibration that gave these arrays.
+
+        Raises MisfitCalibration if a model was fitted on other columns than FITTED_ON, or if that is not said, and
+        KeyError if an array is missing.
+        """
+        for model, names in FITTED_ON.items():
+            _require_columns(model, arrays.get(f"{model}.columns"), names)
+        blind, with_load = (Judgement.from_arrays(arrays, name) for name in ("blind", "with_load"))
+        return cls(Trees.from_arrays(arrays, "pair_score"), blind, with_load, str(arrays["origin"]))
+
+
+def _require_columns(model: str, fitted: NDArray[Any] | None, names: tuple[str, ...]) -> None:
+    """Raise MisfitCalibration unless `model` was `fitted` on columns of these `names`, in their order."""
+    if fitted is None:
+        raise MisfitCalibration(f"the calibration does not say on which columns {model} was fitted")
+    if fitted.shape != (len(names),):
+        raise MisfitCalibration(f"{model} was fitted on {fitted.size} columns, and there are {len(names)} now")
+    for place, (old, new) in enumerate(zip(fitted.tolist(), names, strict=True)):
+        if old != new:
+            raise MisfitCalibration(f'column {place} of {model} was "{old}" when it was fitted, and is "{new}" now')

@@ -9,21 +9,39 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
-from labels.spall_size.mean_pass import MeanPass
+from labels.spall_size.mean_pass import Channel, MeanPass
 
 Array = NDArray[np.float64]
 Ranked = list[tuple[float, float]]
 
+SEARCHED = (Channel.ALL, Channel.LOW, Channel.HIGH)
+"""Channels whose peaks are candidates; edges are looked for in the first alone."""
 BLURS = (0.7, 2.0, 5.0)
+"""Standard deviations of the blurs under which peaks and edges are looked for, samples."""
 PERIOD_BLUR = 0.006
+"""That of one more blur, periods."""
+LEAST_PERIOD_BLUR = 0.5
+"""Least value of that one, samples."""
 MOST = 18
+"""Candidates that are kept at most."""
 CLOSEST = 1.6
+"""Least distance between two candidates, samples."""
 LEAST_PROMINENCE = 0.08
+"""Log energy by which a peak must stand above what surrounds it."""
 LEAST_STEP = 0.3
-DEPTH = 8.0  # what lies further below the largest energy (logarithm) does not vary
+"""Log energy over twice the blur by which an edge must be steeper than what surrounds it."""
+DEPTH = 8.0
+"""What lies further below the largest energy (logarithm) does not vary."""
 MOST_PROMINENT = 4.0
+"""Prominence beyond which a candidate ranks no higher, log energy."""
 EDGE_SHARE = 0.7
+"""What the prominence of an edge counts beside that of a peak."""
 LEVEL_SHARE = 0.15
+"""What the log energy at a candidate counts beside its prominence."""
+EDGE_SHIFT = 0.5
+"""Samples from an edge to where the peak of a short event would lie, without blur."""
+EDGE_SHIFT_OF_BLUR = 0.7
+"""How much further that is, as a share of the blur."""
 
 
 def candidate_places(mean: MeanPass) -> Array:
@@ -35,12 +53,12 @@ def candidate_places(mean: MeanPass) -> Array:
     half = 0.5 * mean.period
     near = (mean.offset >= -half) & (mean.offset < half)
     found: Ranked = []
-    for channel in (0, 1, 3):
+    for channel in SEARCHED:
         energy = mean.energy[channel]
         level = np.log(energy / max(float(energy[near].max()), 1e-300) + math.exp(-DEPTH))
-        for blur in (*BLURS, max(PERIOD_BLUR * mean.period, 0.5)):
+        for blur in (*BLURS, max(PERIOD_BLUR * mean.period, LEAST_PERIOD_BLUR)):
             found += _peaks(level, blur, mean.offset)
-            if channel == 0:
+            if channel is SEARCHED[0]:
                 found += _edges(level, blur, mean.offset)
     chosen: list[float] = []
     for _, place in sorted(found, reverse=True):
@@ -65,7 +83,7 @@ def _peaks(level: Array, blur: float, offset: NDArray[np.int64]) -> Ranked:
 def _edges(level: Array, blur: float, offset: NDArray[np.int64]) -> Ranked:
     """Rank and place of each steepest rise and fall of the blurred `level` (S,)."""
     smooth, slope = gaussian_filter1d(level, blur), 2.0 * blur * gaussian_filter1d(level, blur, order=1)
-    away = 0.5 + 0.7 * blur
+    away = EDGE_SHIFT + EDGE_SHIFT_OF_BLUR * blur
     edges: Ranked = []
     for steepness, shift in ((slope, away), (-slope, -away)):
         peaks, found = find_peaks(steepness, prominence=LEAST_STEP)

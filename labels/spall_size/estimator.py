@@ -17,15 +17,23 @@ from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS
 
 Array = NDArray[np.float64]
 
-LOAD_AXIS = -1  # y, or the only axis of a recording
-ONSET = 1.8  # samples from an event to the peak of its prewhitened energy
+LOAD_AXIS = -1
+"""Axis of a signal that is looked at: y, or the only one of a recording."""
+ONSET = 1.8
+"""Samples from an event to the peak of its prewhitened energy."""
 LONGEST_EXTENT = math.pi
+"""Arc of a spall that is told at most, rad: half the race."""
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
 
 
 @dataclass(frozen=True)
 class SizeEstimator:
-    """Estimates sizes with what `calibration` learned from simulated machines."""
+    """Estimates sizes with what `calibration` learned from simulated machines.
+
+    The shipped one was fitted to records at 65 536 Hz alone, and much of what it looks at is counted in samples or in
+    shares of the sampling rate. At 48 and 51.2 kHz it fares about as well, at 25.6 kHz and below clearly worse
+    (docs/size.md); bringing such records to 65 536 Hz first does not help.
+    """
 
     calibration: Calibration
 

@@ -1,23 +1,30 @@
-"""How a mean pass looks round each candidate, whatever its partner: steps of energy, sway and sign of the waveform."""
+"""Columns of how a mean pass looks round each event, whatever its partner: steps of energy, sway, sign of the wave."""
 
 from __future__ import annotations
 
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from labels.spall_size.mean_pass import MeanPass
-from labels.spall_size.running_energy import RunningEnergy
+from labels.spall_size.mean_pass import Channel, MeanPass
+from labels.spall_size.pairs import EVENTS, Array, PairView
+from labels.spall_size.running_energy import ENERGY_FLOOR, RunningEnergy
 
-Array = NDArray[np.float64]
-
-REACHES = (1.5, 3.0, 6.0, 12.0, 24.0, 48.0, 96.0)  # samples
-PERIOD_REACHES = (0.03, 0.1, 0.25)  # periods
+REACHES = (1.5, 3.0, 6.0, 12.0, 24.0, 48.0, 96.0)
+"""Samples from a candidate at which windows end; the first is half the width of its core."""
+PERIOD_REACHES = (0.03, 0.1, 0.25)
+"""Periods from a candidate at which wider windows end."""
 LOW_REACHES = (3.0, 12.0, 48.0)
+"""Samples from a candidate to which the windows reach whose levels make the steps of the low band."""
+LOW_NEAREST = 1.0
+"""Samples from a candidate at which these windows begin."""
 SWAY_BLURS = (2.0, 6.0, 20.0)
+"""Standard deviations of the blur under which the sway is read, samples."""
+SLOPE_REACH = 4.0
+"""Samples that, added to the blur, make the length over which a slope of the sway is counted."""
 WAVE = 3
+"""Samples on either side of a candidate among which the extreme of the waveform is looked for."""
 SHAPES = (
     "core",
     *(f"{side}_{reach:g}" for side in ("before", "after") for reach in REACHES[1:]),
@@ -26,43 +33,61 @@ SHAPES = (
     *(f"sway_{what}_{blur:g}" for blur in SWAY_BLURS for what in ("slope", "level")),
     "wave_sign",
 )
+NAMES = tuple(f"{event}_{shape}" for event in EVENTS for shape in SHAPES)
 
 
-def event_shapes(mean: MeanPass, places: Array, summed: RunningEnergy) -> Array:
-    """One row a candidate (C, len(SHAPES)).
+def measure(view: PairView) -> dict[str, Array]:
+    """Columns (P,) by NAMES: the shapes of the candidates that are either event of a pair."""
+    shapes = event_shapes(view.mean, view.places, view.summed)
+    return {
+        f"{event}_{shape}": column[own]
+        for event, own in zip(EVENTS, (view.first, view.last), strict=True)
+        for shape, column in shapes.items()
+    }
+
+
+def event_shapes(mean: MeanPass, places: Array, summed: RunningEnergy) -> dict[str, Array]:
+    """Columns (C,) by SHAPES, of the candidates at `places` (C,).
 
     Core level over the largest of the pass; levels in windows further and further off over that of the core; steps of
-    the low band; slope and level of the sway; the signed extreme of the prewhitened waveform over its energy.
+    the low band, all logarithms; slope and level of the sway, standard deviations; the signed extreme of the
+    prewhitened waveform over its RMS.
     """
-    largest = float(np.log(mean.energy[0].max() + 1e-9))
-    core = summed.level(places - REACHES[0], places + REACHES[0])[0]
-    columns = [core - largest]
-    for reaches in (REACHES, tuple(share * mean.period for share in PERIOD_REACHES)):
-        for side in (-1.0, 1.0):
-            columns += [_beside(summed, places, side, near, far)[0] - core for near, far in pairwise(reaches)]
+    largest = float(np.log(mean.energy[Channel.ALL].max() + ENERGY_FLOOR))
+    core = summed.level(places - REACHES[0], places + REACHES[0])[Channel.ALL]
+    found = {"core": core - largest}
+    for reaches, unit, words in ((REACHES, 1.0, ""), (PERIOD_REACHES, mean.period, "_periods")):
+        for near, far in pairwise(reaches):
+            before, after = _beside(summed, places, near * unit, far * unit)
+            found |= {
+                f"before_{far:g}{words}": before[Channel.ALL] - core,
+                f"after_{far:g}{words}": after[Channel.ALL] - core,
+            }
     for reach in LOW_REACHES:
-        columns.append((_beside(summed, places, 1.0, 1.0, reach) - _beside(summed, places, -1.0, 1.0, reach))[1])
-    columns += _sway_columns(mean, places)
-    return np.column_stack([*columns, _wave_sign(mean, places)])
+        before, after = _beside(summed, places, LOW_NEAREST, reach)
+        found[f"low_step_{reach:g}"] = after[Channel.LOW] - before[Channel.LOW]
+    return found | _sways(mean, places) | {"wave_sign": _wave_sign(mean, places)}
 
 
-def _beside(summed: RunningEnergy, places: Array, side: float, near: float, far: float) -> Array:
-    first, last = (places - far, places - near) if side < 0.0 else (places + near, places + far)
-    return summed.level(first, last)
+def _beside(summed: RunningEnergy, places: Array, near: float, far: float) -> tuple[Array, Array]:
+    """Log energies (4, C) between `near` and `far` samples before the places, and behind them."""
+    return summed.level(places - far, places - near), summed.level(places + near, places + far)
 
 
-def _sway_columns(mean: MeanPass, places: Array) -> list[Array]:
-    columns = []
+def _sways(mean: MeanPass, places: Array) -> dict[str, Array]:
+    found: dict[str, Array] = {}
     for blur in SWAY_BLURS:
         smooth = gaussian_filter1d(mean.sway, blur)
-        for curve, scale in ((np.gradient(smooth), blur + 4.0), (smooth, 1.0)):
-            columns.append(scale * np.interp(places, mean.offset, curve))
-    return columns
+        found |= {
+            f"sway_slope_{blur:g}": (blur + SLOPE_REACH) * np.interp(places, mean.offset, np.gradient(smooth)),
+            f"sway_level_{blur:g}": np.interp(places, mean.offset, smooth),
+        }
+    return found
 
 
 def _wave_sign(mean: MeanPass, places: Array) -> Array:
     centre = np.round(places).astype(np.int64) - mean.offset[0]
     near = np.clip(centre[:, None] + np.arange(-WAVE, WAVE + 1), 0, mean.waveform.size - 1)
-    wave, energy = mean.waveform[near], mean.energy[0][near].mean(axis=1)
+    wave, energy = mean.waveform[near], mean.energy[Channel.ALL][near].mean(axis=1)
     extreme = np.take_along_axis(wave, np.abs(wave).argmax(axis=1)[:, None], axis=1)[:, 0]
-    return np.asarray(extreme / np.sqrt(energy + 1e-9))
+    return np.asarray(extreme / np.sqrt(energy + ENERGY_FLOOR))

@@ -12,9 +12,10 @@ from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
 from labels.spall_size.mean_pass import MeanPass, mean_pass
 from labels.spall_size.noise_floor import log_noise_share
-from labels.spall_size.pair_features import Pairs, RecordFacts, candidate_pairs
+from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
 from labels.spall_size.pass_track import PassTrack, track_passes
 from labels.spall_size.prewhitening import prewhitened
+from labels.spall_size.table import pair_rows
 
 Array = NDArray[np.float64]
 
@@ -61,7 +62,8 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
         _predictability(signal),
         log_noise_share(signal),
     )
-    pairs = candidate_pairs(mean, places, facts)
+    view = all_pairs(mean, places, facts)
+    pairs = Pairs(view.entry, view.exit, view.lag, pair_rows(view))
     return Evidence(race, rate, float(np.std(signal)), found_free.unit, found[race], alignment, mean, pairs)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,18 +14,36 @@ from labels.spall_size.alignment import Alignment
 
 Array = NDArray[np.float64]
 
-# Edges as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold the entry.
 BAND_EDGES = (0.03, 0.12)
-CHANNELS = ("all", "low", "middle", "high")
+"""Edges of the bands as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold
+the entry."""
+REACH = 1.1
+"""Periods before and after the anchor that a mean pass holds."""
 SWAY_BLUR = 4.0
+"""Standard deviation of the blur of the sway, samples."""
 GIVE_POINTS = 4096
+"""Points of one period from which the displacement is made."""
+
+
+class Channel(IntEnum):
+    """Which row of `energy`: the whole prewhitened signal, or one of its bands; `word` names it in columns."""
+
+    ALL = 0
+    LOW = 1
+    MIDDLE = 2
+    HIGH = 3
+
+    @property
+    def word(self) -> str:
+        """The name in small letters."""
+        return self.name.lower()
 
 
 @dataclass(frozen=True)
 class MeanPass:
     """Weighted means over the passes at `offset` (S,) samples from the anchor, from −1.1 to 1.1 periods.
 
-    `energy` (4, S): of the prewhitened signal, whole and in three bands, each over its own median in the record;
+    `energy` (4, S), a row a Channel: of the prewhitened signal, each over its own median in the record;
     `waveform` (S,): the prewhitened signal itself; `sway` (S,): the signal before it was prewhitened, blurred by four
     samples, in units of `sway_unit`; `give` (S,): the displacement that goes with the sway, in units of `give_unit`;
     both units are standard deviations, the latter in the signal's unit times samples². `passes`: how many passes there
@@ -44,7 +63,7 @@ class MeanPass:
 
 def mean_pass(signal: Array, whitened: Array, alignment: Alignment, period: float) -> MeanPass:
     """The mean pass of `signal` (T,) and of `whitened` (T,), the same prewhitened; `period` in samples."""
-    reach = int(np.ceil(1.1 * period))
+    reach = int(np.ceil(REACH * period))
     offset = np.arange(-reach, reach + 1)
     anchor = np.round(alignment.place).astype(np.int64)
     place = anchor[:, None] + offset

@@ -11,14 +11,17 @@ from scipy.ndimage import uniform_filter1d
 Array = NDArray[np.float64]
 
 SEGMENT = 1024
-SMOOTHED = 9  # bins
+"""Samples of each of the stretches whose spectra are averaged."""
+SMOOTHED = 9
+"""Bins of that spectrum over which it is smoothed."""
 CLEANEST = 1e-9
+"""Share of noise below which none is told."""
 
 
 def log_noise_share(signal: Array) -> float:
     """Logarithm of the share of white noise in the variance of `signal` (T,), were its quietest band noise alone.
 
-    Not below that of 1e-9, nor in a record shorter than 1024 samples, which counts as clean.
+    Not below that of CLEANEST, nor in a record shorter than 1024 samples, which counts as clean.
     """
     windows = signal[: signal.size // SEGMENT * SEGMENT].reshape(-1, SEGMENT)
     if windows.size == 0:

@@ -14,13 +14,21 @@ from physics._jit import njit
 Array = NDArray[np.float64]
 
 CELLS = 256
+"""Cells into which a period is cut."""
 FIRST_TOLERANCE = 0.05
+"""Share by which a step of the first path may differ from the stated period."""
 TOLERANCE = 0.04
+"""Share by which a step of a later path may differ from the mean step of the path before."""
 FIRST_DEVIATION = 0.02
+"""Standard deviation of the steps of the first path, in periods."""
 DEVIATION = 0.009
+"""Standard deviation of the steps of a later path, in periods: the scatter that a slipping cage has."""
 ROUNDS = 3
+"""How often the pattern is learned from a path and a new path laid by it."""
 BLUR = 1.5
+"""Standard deviation of the blur of the log energy along which the first path is laid, cells."""
 FEWEST_PASSES = 4
+"""A record must be long enough for one pass more than this."""
 
 
 @dataclass(frozen=True)

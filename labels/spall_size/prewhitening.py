@@ -11,10 +11,15 @@ from scipy.linalg import solve, solve_toeplitz
 Array = NDArray[np.float64]
 
 ORDER = 30
+"""Samples of the past from which a sample is predicted."""
 REWEIGHTINGS = 2
+"""How often the predictor is fitted anew with weights from its residual."""
 FLOOR_SHARE = 0.02
+"""Share of the residual's mean power that is added to each of its squares before they become weights."""
 RIDGE = 1e-9
+"""Share of a sample's power that is added to it alone, so that the predictor is defined whatever the signal."""
 BLOCK = 1 << 12
+"""Samples whose products are summed at a time, to bound the memory."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,11 @@ from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 Array = NDArray[np.float64]
 
 LONGEST_SHARE = 0.95
+"""Periods: longer lags are not looked for."""
 SHORTEST_SAMPLES = 3
+"""Samples: shorter lags are not looked for."""
+MARKED = 0.5
+"""Share of the highest peak's prominence from which on a peak counts."""
 
 
 def envelope_lag(signal: Array, rate: float, longest: float) -> float:
@@ -33,7 +37,7 @@ def envelope_lag(signal: Array, rate: float, longest: float) -> float:
     peaks, prominence = peaks[kept], found["prominences"][kept]
     if peaks.size == 0:
         return math.nan
-    return float(peaks[prominence >= 0.5 * prominence.max()][0] / rate)
+    return float(peaks[prominence >= MARKED * prominence.max()][0] / rate)
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.mean_pass import CHANNELS, MeanPass
+from labels.spall_size.mean_pass import Channel, MeanPass
 
 Array = NDArray[np.float64]
+
+ENERGY_FLOOR = 1e-9
+"""Energy added before a logarithm is taken, in medians of the record, so that nothing has a logarithm too."""
+LEAST_WIDTH = 1e-9
+"""Width of a stretch that counts at least, samples."""
 
 
 class RunningEnergy:
@@ -18,17 +23,17 @@ class RunningEnergy:
         self.last = float(mean.offset[-1])
         self.period = mean.period
         summed = np.cumsum(mean.energy, axis=1, dtype=np.float64)
-        self.running = np.concatenate([np.zeros((len(CHANNELS), 1)), summed], axis=1)
+        self.running = np.concatenate([np.zeros((len(Channel), 1)), summed], axis=1)
         self.grid = np.arange(self.running.shape[1])
 
     def level(self, start: Array, stop: Array) -> Array:
-        """Log mean energy (4, P) between the offsets `start` and `stop` (P,)."""
+        """Log mean energy (4, P), a row a Channel, between the offsets `start` and `stop` (P,)."""
         shift = np.where(start < self.first, self.period, 0.0) - np.where(stop > self.last, self.period, 0.0)
         left, right = start + shift - self.first, stop + shift - self.first + 1.0
-        width = np.maximum(right - left, 1e-9)
+        width = np.maximum(right - left, LEAST_WIDTH)
         return np.stack(
             [
-                np.log((np.interp(right, self.grid, row) - np.interp(left, self.grid, row)) / width + 1e-9)
+                np.log((np.interp(right, self.grid, row) - np.interp(left, self.grid, row)) / width + ENERGY_FLOOR)
                 for row in self.running
             ]
         )

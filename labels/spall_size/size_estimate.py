@@ -13,7 +13,10 @@ Array = NDArray[np.float64]
 Interval = tuple[float, float]
 UNKNOWN: Interval = (math.nan, math.nan)
 NO_TIMES = np.zeros((0, 2))
-FEWEST_PASSES, FEWEST_SAMPLES_A_PASS = 6, 16  # TOO_SHORT and TOO_COARSE say these in words
+FEWEST_PASSES = 6
+"""Ball passes that a record must hold; TOO_SHORT says this in words."""
+FEWEST_SAMPLES_A_PASS = 16
+"""Samples that a ball pass must last; TOO_COARSE says this in words."""
 
 
 class SizeOutcome(Enum):
@@ -31,11 +34,12 @@ class SizeEstimate:
     """Size of the spall of one record.
 
     `lag` between the events in s, `lag_arc` the arc of the race that a ball covers in it, `extent` of the spall (rad)
-    and `extent_mm` along its race, each with an interval that held the truth in 90 % of the training records that were
-    told a size; of those that were not it says nothing. `candidates` (rad): the extents that give the same timing,
-    `extent` the first, the others whole ball spacings longer. `event_times` (K, 2), s: both events of each pass that
-    was heard. `trust` is 1 less the relative error to be expected of the lag, between 0 and 1. Without an estimate the
-    numbers are NaN and `reason` says why.
+    and `extent_mm` along its race, each with an interval that held the truth in 90 % of the records of the size ladder
+    (its training and validation splits, as stored, of machines that the trees judging them had not seen) that were
+    told a size; of other records it says nothing. `candidates` (rad): the extents that give the same timing, `extent`
+    the first, the others whole ball spacings longer. `event_times` (K, 2), s: both events of each pass that was heard.
+    `trust` is 1 less the relative error to be expected of the lag, between 0 and 1. Without an estimate the numbers are
+    NaN and `reason` says why.
     """
 
     outcome: SizeOutcome

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from labels.spall_size.trees import Trees
+
 RATE = 65536.0
 
 
@@ -41,5 +43,17 @@ def pulse_train():
         signal = lfilter([1.0], [1.0, -2.0 * pole.real, abs(pole) ** 2], excitation)
         signal = signal + noise * signal.std() * generator.standard_normal(count)
         return PulseTrain(signal, entry, entry + lag, period)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def saying():
+    """A maker of trees that say the same of every row."""
+
+    def make(value: float) -> Trees:
+        leaf, nowhere = np.full(1, -1, np.int16), np.zeros(1, np.int32)
+        nothing = np.zeros(1, np.float32)
+        return Trees(leaf, nothing, nowhere, nowhere, nothing, nowhere, value)
 
     return make

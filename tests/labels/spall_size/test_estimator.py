@@ -1,27 +1,87 @@
 """What the estimator tells of the pair of events that it found."""
 
 import math
-from types import SimpleNamespace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from labels.spall_size.estimator import _told
+from labels.spall_size.alignment import Alignment
+from labels.spall_size.calibration import SMALLEST_SPREAD, Calibration, Guess, Judgement
+from labels.spall_size.estimator import ONSET, SizeEstimator
+from labels.spall_size.evidence import Evidence
+from labels.spall_size.mean_pass import MeanPass
+from labels.spall_size.pairs import Pairs
+from labels.spall_size.pass_track import PassTrack
 from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeOutcome
+from labels.spall_size.table import PAIR_COLUMNS
 
 GEARBOX = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
+RATE, PERIOD = 1000.0, 100.0
 
 
-def test_no_lag_is_longer_than_a_pass_and_no_spall_than_half_the_race():
+@pytest.fixture
+def judging(saying):
+    """A maker of estimators that expect the same doubt and correct by the same factors whatever they see; every lag
+    gets an interval of a factor of 1.5."""
+
+    def make(doubt, lag_factor, arc_factor):
+        spread = saying(math.log(1.5) - SMALLEST_SPREAD)
+        lag, arc = (Guess(saying(math.log(factor)), spread, 1.0) for factor in (lag_factor, arc_factor))
+        judgement = Judgement(saying(0.5), lag, arc, saying(doubt), 0.4)
+        return SizeEstimator(Calibration(saying(0.5), judgement, judgement))
+
+    return make
+
+
+def one_pair(entry, lag):
+    """Evidence of a single pair of events on an even mean pass, heard in two of three passes."""
+    offset = np.arange(-110, 111)
+    flat = np.zeros(offset.size)
+    mean = MeanPass(offset, np.ones((4, offset.size)), flat, flat, 1.0, flat, 1.0, 3.0, PERIOD)
+    pairs = Pairs(np.array([entry]), np.array([entry + lag]), np.array([lag]), np.zeros((1, len(PAIR_COLUMNS))))
     place = np.array([200.0, 300.0, 400.0])
-    evidence: Any = SimpleNamespace(race="outer", rate=1000.0, mean=SimpleNamespace(period=100.0))
-    evidence.alignment = SimpleNamespace(place=place, weight=np.ones(3))
-    measured: Any = SimpleNamespace(lag=95.0, lag_arc=3.0, entry=0.0, exit=95.0, row=np.zeros(1))
-    longer: Any = SimpleNamespace(correction=lambda row: (1.2, 1.5))
-    judgement: Any = SimpleNamespace(lag=longer, arc=longer)
-    told = _told(evidence, measured, judgement, GEARBOX, 0.5)
-    assert told.lag == pytest.approx(0.1)
+    track = PassTrack(place / RATE, PERIOD / RATE, np.zeros(256), 1.0)
+    return Evidence("outer", RATE, 1.0, 1.0, track, Alignment(place, np.array([1.0, 0.0, 0.5])), mean, pairs)
+
+
+def test_no_lag_is_longer_than_a_pass_and_no_spall_than_half_the_race(judging):
+    told = judging(0.1, 1.2, 10.0).judge(one_pair(0.0, 95.0), GEARBOX)
+    assert told.outcome is SizeOutcome.ESTIMATED
+    assert told.lag == pytest.approx(0.1)  # 95 samples times 1.2 are more than a pass of 100
     assert told.lag_interval == pytest.approx((0.1 / 1.5, 0.15))
     assert told.extent == pytest.approx(math.pi)
     assert told.candidates == pytest.approx((math.pi,))
+
+
+def test_lag_and_arc_are_corrected_each_by_its_own_factor(judging):
+    told = judging(0.1, 1.1, 1.5).judge(one_pair(0.0, 20.0), GEARBOX)
+    assert told.lag == pytest.approx(0.022)
+    assert told.lag_arc == pytest.approx(math.radians(0.22 * 30.0))
+    assert told.extent == pytest.approx(math.radians(0.2 * 30.0 * 1.5))
+    assert told.extent_interval == pytest.approx((told.extent / 1.5, told.extent * 1.5))
+    assert told.trust == pytest.approx(0.9)
+    assert told.candidates[:2] == pytest.approx((told.extent, told.extent + math.radians(30.0)))
+
+
+@pytest.mark.parametrize(("entry", "first"), [(0.0, 0.0), (-20.0, -22.0)])
+def test_the_event_that_is_the_anchor_stays_where_it_was_found(judging, entry, first):
+    told = judging(0.1, 1.1, 1.0).judge(one_pair(entry, 20.0), GEARBOX)
+    heard = np.array([200.0, 400.0])  # a pass without weight is not heard
+    assert told.event_times[:, 0] == pytest.approx((heard + first - ONSET) / RATE)
+    assert told.event_times[:, 1] - told.event_times[:, 0] == pytest.approx(0.022)
+
+
+def test_above_the_most_doubt_nothing_is_told(judging):
+    told = judging(0.41, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX)
+    assert told.outcome is SizeOutcome.NO_EVENT_PAIR
+    assert (told.trust, math.isnan(told.extent)) == (pytest.approx(0.59), True)
+
+
+def test_load_and_hertz_factor_ask_for_their_own_judgement(judging, saying):
+    made = judging(0.1, 1.0, 1.0)
+    blind = replace(made.calibration.blind, doubt=saying(0.9))
+    estimator = SizeEstimator(replace(made.calibration, blind=blind))
+    assert not estimator.judge(one_pair(0.0, 20.0), GEARBOX).found
+    assert estimator.judge(one_pair(0.0, 20.0), replace(GEARBOX, load=100.0, load_deflection=1e10)).found

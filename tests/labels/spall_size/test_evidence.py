@@ -8,13 +8,13 @@ from scipy.signal import lfilter
 
 from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
-from labels.spall_size.event_shapes import SHAPES, event_shapes
+from labels.spall_size.event_shapes import event_shapes
 from labels.spall_size.evidence import _predictability, gather_evidence
 from labels.spall_size.mean_pass import MeanPass, mean_pass
-from labels.spall_size.pair_features import NAMES
 from labels.spall_size.pass_track import CELLS, PassTrack, track_passes
 from labels.spall_size.prewhitening import prewhitened
 from labels.spall_size.running_energy import RunningEnergy
+from labels.spall_size.table import PAIR_COLUMNS
 
 RATE = 65536.0
 PERIOD = 0.011
@@ -77,7 +77,7 @@ def test_the_lag_of_two_pulses_is_among_the_candidates_without_bias(pulse_train,
 def test_every_pair_has_every_feature_and_all_are_finite(pulse_train):
     train = pulse_train(LAG, PERIOD, noise=0.3)
     pairs = gather_evidence(train.signal, RATE, {"outer": PERIOD}).pairs
-    assert pairs.features.shape == (pairs.lag.size, len(NAMES))
+    assert pairs.features.shape == (pairs.lag.size, len(PAIR_COLUMNS))
     assert np.isfinite(pairs.features).all()
     assert np.all((pairs.lag > 0.0) & (pairs.lag < 0.97 * PERIOD * 1.02 * RATE))
 
@@ -114,8 +114,8 @@ def test_both_ends_of_a_rumble_are_candidates():
 
 def test_levels_beside_a_candidate_tell_on_which_side_it_is_quiet():
     mean = mean_of_steps(-60, 20)
-    start, end = (dict(zip(SHAPES, row, strict=True)) for row in event_shapes(mean, np.array([-60.0, 20.0]),
-                                                                             RunningEnergy(mean)))  # fmt: skip
+    shapes = event_shapes(mean, np.array([-60.0, 20.0]), RunningEnergy(mean))
+    start, end = ({name: column[k] for name, column in shapes.items()} for k in range(2))
     # A factor of a hundred is 4.6; the core holds 2.5 of 4 samples of the rumble, so it lies 0.3 to 0.5 below it.
     assert start["before_12"] == pytest.approx(-math.log(100.0), abs=0.6)
     assert start["after_12"] == pytest.approx(0.0, abs=0.6)
@@ -132,7 +132,7 @@ def test_a_signal_upside_down_turns_sway_and_displacement_and_nothing_else(pulse
     assert np.allclose(one.mean.sway, -other.mean.sway, atol=1e-9)
     assert np.allclose(one.mean.give, -other.mean.give, atol=1e-9)
     turned = ("sway", "give", "wave_sign")
-    same = [k for k, name in enumerate(NAMES) if not any(word in name for word in turned)]
+    same = [k for k, name in enumerate(PAIR_COLUMNS) if not any(word in name for word in turned)]
     assert np.allclose(one.pairs.features[:, same], other.pairs.features[:, same], atol=1e-6)
 
 

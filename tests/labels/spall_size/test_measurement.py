@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from labels.spall_size.measurement import DISTINCT, LEADING, leading_order
-from labels.spall_size.pair_features import Pairs
+from labels.spall_size.choice import LEADING
+from labels.spall_size.measurement import DISTINCT, leading_order
+from labels.spall_size.pairs import Pairs
 
 
 def _pairs(lag):

@@ -1,0 +1,54 @@
+"""Columns of how the pair that is taken for the events stands among the leading ones."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.pair_rivals import NEAR, SAME
+
+Array = NDArray[np.float64]
+
+LEADING = 16
+"""Pairs that lead at most."""
+LEAST_RANK = 1e-6
+"""Rank that counts at least where lags are weighted by it."""
+NO_RIVAL = -1.0
+"""Rank that stands where every leading pair says the same."""
+NAMES = (
+    "rank",
+    "rival_rank",
+    "rival_apart",
+    "ranked_near_apart",
+    "ranked_near_spread",
+    *(f"rank_{k + 1}" for k in range(LEADING)),
+    *(f"apart_{k + 1}" for k in range(LEADING)),
+)
+
+
+def measure(lag: Array, rank: Array) -> dict[str, float]:
+    """Values by NAMES of the pair of the best `rank` (L,) among those of the `lag` (L,).
+
+    Its rank; rank and lag of the best one that says something else; mean and spread of the lags that may mean the same
+    events, by rank; ranks and lags from the best rank down to the last, then zeros. Lags are logarithms over its own.
+    """
+    best = int(np.argmax(rank))
+    apart = np.log(lag / lag[best])
+    weight = np.maximum(rank, LEAST_RANK) ** 2 * (np.abs(apart) < NEAR)
+    middle = float((weight * apart).sum() / weight.sum())
+    others = np.where(np.abs(apart) > SAME, rank, NO_RIVAL)
+    rival = int(np.argmax(others))
+    found = {
+        "rank": float(rank[best]),
+        "rival_rank": float(others[rival]),
+        "rival_apart": float(apart[rival]),
+        "ranked_near_apart": middle,
+        "ranked_near_spread": math.sqrt(float((weight * (apart - middle) ** 2).sum() / weight.sum())),
+    }
+    order = np.argsort(-rank, kind="stable")
+    for name, values in (("rank", rank), ("apart", apart)):
+        padded = np.pad(values[order], (0, LEADING - order.size))
+        found |= {f"{name}_{k + 1}": float(value) for k, value in enumerate(padded)}
+    return found

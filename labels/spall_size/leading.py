@@ -1,0 +1,54 @@
+"""What the columns of leading pairs are computed from: the evidence of the record, and which of its pairs lead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.situation import Situation
+
+if TYPE_CHECKING:  # the evidence holds columns of pairs, whose table knows of these too
+    from labels.spall_size.evidence import Evidence
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LeadingView:
+    """The `evidence` of a record, the `score` (P,) of all its pairs, what is known of its `situation`, and which pairs
+    lead, `order` (L,), the best first."""
+
+    evidence: Evidence
+    score: Array
+    situation: Situation
+    order: NDArray[np.int64]
+
+    @cached_property
+    def entry(self) -> Array:
+        """Places (L,) of the first events, samples from the anchor."""
+        return self.evidence.pairs.entry[self.order]
+
+    @cached_property
+    def exit(self) -> Array:
+        """Places (L,) of the last events, samples from the anchor."""
+        return self.evidence.pairs.exit[self.order]
+
+    @cached_property
+    def lag(self) -> Array:
+        """Time (L,) between both events, samples."""
+        return self.evidence.pairs.lag[self.order]
+
+    @cached_property
+    def lag_arc(self) -> Array:
+        """Arc (L,) of the race that a ball covers in the lag, rad."""
+        # The tracked period stands for one ball spacing, whatever the stated speed and the slip were.
+        return self.lag / self.evidence.mean.period * self.situation.bearing().spacing
+
+    @cached_property
+    def features(self) -> Array:
+        """What is known (L, F) of these among all pairs, `table.PAIR_COLUMNS`."""
+        return self.evidence.pairs.features[self.order].astype(np.float64)

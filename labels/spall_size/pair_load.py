@@ -1,0 +1,71 @@
+"""Columns of what load and Hertz factor let expect of a leading pair."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from labels.spall_size.leading import Array, LeadingView
+from labels.spall_size.mean_pass import Channel
+from labels.spall_size.static_release import release_arc, static_compression
+
+LEAST_PRESSED = 1e-9
+"""Compression over the ball's radius that counts at least."""
+LEAST_COMPRESSION = 1e-9
+"""Compression that counts at least, m."""
+LEAST_ARC = 1e-9
+"""Release arc that counts at least, rad."""
+LEAST_VIBRATION = 1e-12
+"""Acceleration that counts at least, in the unit of the signal."""
+LEAST_GIVE = 1e-15
+"""Displacement that counts at least, in the unit of the signal times s²."""
+NAMES = (
+    "pressed",
+    "release",
+    "released",
+    "deviation_over_load",
+    "sway_over_load",
+    "entry_jump_over_load",
+    "exit_jump_over_load",
+    "largest_jump_over_load",
+    "give_over_pressed",
+)
+
+
+def measure(view: LeadingView, features: dict[str, Array]) -> dict[str, Array]:
+    """Columns (L,) by NAMES, for a situation whose load is known, with the columns `features` of all pairs by name.
+
+    Static compression over the ball's radius; twice the static release arc over the lag's; the same as log(1 + …);
+    vibration, sway and the jumps at entry, at exit and at their largest over the load; displacement over compression;
+    all logarithms.
+    """
+    told, mean, bearing, load = view.evidence, view.evidence.mean, view.situation.bearing(), view.situation.load or 0.0
+    pressed = static_compression(bearing, load) / bearing.ball_radius
+    arc = 2.0 * release_arc(bearing, told.race, load)
+    give = mean.give_unit / told.rate**2
+    largest = math.log(float(mean.energy[Channel.ALL].max()))
+    shared = {
+        "pressed": math.log(max(pressed, LEAST_PRESSED)),
+        "deviation_over_load": _over_load(told.deviation, load),
+        "sway_over_load": _over_load(mean.sway_unit, load),
+        "largest_jump_over_load": _over_load(told.unit * math.exp(0.5 * largest), load),
+        "give_over_pressed": math.log(max(give, LEAST_GIVE) / max(pressed * bearing.ball_radius, LEAST_COMPRESSION)),
+    }
+    jumps = {
+        f"{event}_jump_over_load": [
+            _over_load(told.unit * math.exp(0.5 * float(level)), load) for level in features[f"{event}_core_all"]
+        ]
+        for event in ("entry", "exit")
+    }
+    arcs = [float(own) for own in view.lag_arc]
+    own = {
+        "release": [math.log(max(arc, LEAST_ARC) / lag_arc) for lag_arc in arcs],
+        "released": [math.log1p(arc / lag_arc) for lag_arc in arcs],
+    }
+    found = {name: np.full(view.order.size, value) for name, value in shared.items()}
+    return found | {name: np.array(values) for name, values in (own | jumps).items()}
+
+
+def _over_load(size: float, load: float) -> float:
+    return math.log(max(size, LEAST_VIBRATION) / load)

@@ -1,0 +1,48 @@
+"""Columns of how the score of a leading pair stands to those of the others."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.leading import Array, LeadingView
+from labels.spall_size.pairs import Pairs
+
+SAME = 0.03
+"""Logarithm of the ratio of two lags up to which they say the same."""
+NEAR = 0.3
+"""Logarithm of the ratio of two lags up to which they may mean the same events."""
+RIVALS = 3
+"""How many of the pairs that say something else are told of."""
+NAMES = (
+    "own_score",
+    *(f"rival_{k + 1}_{what}" for k in range(RIVALS) for what in ("score", "apart")),
+    "near_apart",
+    "behind_first",
+    "place",
+)
+
+
+def measure(view: LeadingView) -> dict[str, Array]:
+    """Columns (L,) by NAMES: the pair's own score; scores of the best pairs of other lags and how far these lags lie
+    from its own, logarithms, zeros where there are none; how far those lie that may mean the same events, on average;
+    how far its score lies from that of the first, 0 or below; and its place among the leading, from 0."""
+    best = np.argsort(-view.score)
+    against = [_against(view.evidence.pairs, view.score, best, int(own)) for own in view.order]
+    return {name: np.array([one[name] for one in against]) for name in against[0]} | {
+        "behind_first": view.score[view.order] - view.score[view.order[0]],
+        "place": np.arange(view.order.size, dtype=np.float64),
+    }
+
+
+def _against(pairs: Pairs, score: Array, best: NDArray[np.int64], own: int) -> dict[str, float]:
+    """What NAMES tells of the pair `own` beside all others, which are in `best` (P,) in the order of their `score`."""
+    apart = np.log(pairs.lag / pairs.lag[own])
+    rivals = best[np.abs(apart[best]) > SAME][:RIVALS]
+    found = {"own_score": float(score[own])}
+    for k in range(RIVALS):
+        there = k < rivals.size
+        found[f"rival_{k + 1}_score"] = float(score[rivals[k]]) if there else 0.0
+        found[f"rival_{k + 1}_apart"] = float(apart[rivals[k]]) if there else 0.0
+    weight = np.maximum(score, 0.0) ** 2 * (np.abs(apart) < NEAR)
+    return found | {"near_apart": float((weight * apart).sum() / max(weight.sum(), 1e-12))}

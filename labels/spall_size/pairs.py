@@ -1,0 +1,95 @@
+"""Ordered pairs of candidates, each taken for entry and exit event of one ball."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.mean_pass import MeanPass
+from labels.spall_size.running_energy import RunningEnergy
+
+Array = NDArray[np.float64]
+
+EVENTS = ("entry", "exit")
+LONGEST_LAG = 0.97
+"""Periods: the lag of two events of one ball is below it, so that no event is paired with itself one pass later."""
+CORE_SHARE = 0.05
+"""Half the width of the window that is the core of an event, as a share of the lag."""
+SMALLEST_CORE = 1.0
+"""Least half width of a core, samples."""
+
+
+@dataclass(frozen=True)
+class RecordFacts:
+    """What pairs of one record share: `score` of the pass track, `inner` race or not, `peakedness` log mean over
+    median energy of the prewhitened signal, `predictability` log variance of the signal over that of its differences,
+    `noise` log share of white noise in it."""
+
+    score: float
+    inner: bool
+    peakedness: float
+    predictability: float
+    noise: float
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """Ordered pairs of candidates: places `entry`, `exit` (P,) in samples from the anchor, `lag` (P,) in samples,
+    between 0 and one period, and `features` (P, F), the columns `table.PAIR_COLUMNS`."""
+
+    entry: Array
+    exit: Array
+    lag: Array
+    features: Array
+
+
+@dataclass(frozen=True)
+class PairView:
+    """What the columns of pairs are computed from: the `mean` pass, its `summed` energy, the `facts` of the record, the
+    `places` (C,) of its candidates in samples from the anchor, and which of them are `first` and `last` (P,) of each
+    pair, whose `lag` (P,) is in samples."""
+
+    mean: MeanPass
+    summed: RunningEnergy
+    facts: RecordFacts
+    places: Array
+    first: NDArray[np.int64]
+    last: NDArray[np.int64]
+    lag: Array
+
+    @cached_property
+    def entry(self) -> Array:
+        """Places (P,) of the first events, samples from the anchor."""
+        return self.places[self.first]
+
+    @cached_property
+    def exit(self) -> Array:
+        """Places (P,) of the last events, samples from the anchor."""
+        return self.places[self.last]
+
+    @property
+    def events(self) -> dict[str, Array]:
+        """Places (P,) of either event by its name in EVENTS."""
+        return {"entry": self.entry, "exit": self.exit}
+
+    @cached_property
+    def core(self) -> Array:
+        """Half the width (P,) of the core of an event, samples."""
+        return np.maximum(SMALLEST_CORE, CORE_SHARE * self.lag)
+
+    @cached_property
+    def cores(self) -> dict[str, Array]:
+        """Log energy (4, P) in the core of either event, a row a channel."""
+        return {event: self.summed.level(place - self.core, place + self.core) for event, place in self.events.items()}
+
+
+def all_pairs(mean: MeanPass, places: Array, facts: RecordFacts) -> PairView:
+    """All ordered pairs of different candidates `places` (C,) whose lag is below LONGEST_LAG."""
+    first, last = (index.ravel() for index in np.meshgrid(np.arange(places.size), np.arange(places.size)))
+    lag = places[last] - places[first]
+    lag = np.where(lag < 0.0, lag + mean.period, lag)
+    kept = (first != last) & (lag < LONGEST_LAG * mean.period)
+    return PairView(mean, RunningEnergy(mean), facts, places, first[kept], last[kept], lag[kept])

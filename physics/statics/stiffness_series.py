@@ -44,7 +44,8 @@ MISS_NEAR, MISS_MIDDLE, MISS_FAR = 6.0 / 256.0, -9.0 / 256.0, 3.0 / 256.0
 # Columns of a series: the shaft's place (m), stiffness (N/m), and a number that changes when something happens.
 PLACE_X, PLACE_Y, XX, YY, XY, MARK = range(6)
 COLUMNS = 6
-# What an edge that was crossed adds to the mark of the pressed balls: no sum or difference of a few powers of two.
+# What an edge that was crossed adds to the mark of the pressed balls. No multiple of it up to the 200 000th is what one
+# or two balls change there.
 CROSSING_MARK = 100003.0
 
 

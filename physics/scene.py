@@ -23,6 +23,10 @@ class Scene:
     `contact_law` is "paper" (F = K δⁿ + c_d δ̇ while δ > 0, may pull) or "no_tension" (the same, never below zero).
     `second_cage` is the path of row 2 if the rows have separate cages; None means one staggered cage.
     All spalls lie on one race.
+
+    The balls turn as the cage says and the inner race as `operation` says. Nothing makes the two agree: a cage may be
+    braked, dragged or held for a study, so whoever changes the shaft's speed gives a new `cage` as well. `validity`
+    tells where they differ from pure rolling.
     """
 
     rig: Rig

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from physics.cage import CagePath
-from physics.checks import InvalidParameter, require
+from physics.checks import InvalidParameter, require, require_one_of
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.rig import Rig
@@ -39,11 +39,7 @@ class Scene:
 
     def __post_init__(self) -> None:
         bearing = self.rig.bearing
-        require(
-            self.contact_law in CONTACT_LAWS,
-            f'contact_law = "{self.contact_law}"; allowed: {", ".join(CONTACT_LAWS)}',
-            "contact_law",
-        )
+        require_one_of("contact_law", self.contact_law, CONTACT_LAWS)
         if len({spall.race for spall in self.spalls}) > 1:
             raise InvalidParameter("spalls on both races; all spalls of a scene must be on one race", "race")
         for spall in self.spalls:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from physics.paths.profile import build_path, race_depth
+from physics.paths.profile import build_path, is_rough, race_depth
 from physics.paths.spall_surface import roughness_curve, window
 from physics.spall import Spall
 
@@ -93,6 +93,15 @@ def test_a_lip_beside_a_measured_spall_lifts_the_ball_before_it_gets_there(gearb
     assert np.max(np.abs(depth[[0, -1]])) < 1e-18
     assert np.max(np.abs(np.diff(depth))) < 0.1e-6  # no jump at the edges of the spall
     assert min(first, last) < -half
+
+
+@pytest.mark.parametrize(("turns", "expected"), [(1, False), (3, False), (8, False), (9, True), (60, True)])
+def test_a_table_is_rough_if_it_goes_up_and_down_all_along(gearbox, turns, expected):
+    angle = np.linspace(-0.15, 0.15, turns + 2)
+    depth = np.where(np.arange(turns + 2) % 2 == 1, 6e-6, 1e-6)
+    fine = np.linspace(-0.15, 0.15, 400)  # many points alone make no roughness
+    spall = table("outer", fine, np.interp(fine, angle, depth).tolist(), 0.3)
+    assert is_rough(spall, gearbox.bearing) is expected
 
 
 def rough(race="outer", profile="tukey", seed=1, deviation=1e-6, count=41):

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
@@ -14,10 +15,6 @@ from physics.spall import Spall
 
 RATE = 65536.0
 MORE_SUBSTEPS = 16
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def changed(scene, *, bearing=None, operation=None, spall=None, **fields):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from measures import hanging
 
 from physics.imperfections import Imperfections, Waviness
 from physics.paths.depth_path import hermite_cubics
@@ -27,12 +28,6 @@ def gap(race="outer", extent=EXTENT, depth=DEEP, **other):
 
 def tukey(race="outer", **changes):
     return dataclasses.replace(Spall(race, 1, BOTTOM, EXTENT, 12e-6, 0.010, 0.004), **changes)
-
-
-def hanging(race, bearing, psi):
-    """Drop at ψ (rad) from a sharp edge, m: Rb − √(Rb² − R² sin²ψ) ∓ R (1 − cos ψ), − outer race, + inner race."""
-    r, ball = bearing.raceway_radius(race), bearing.ball_radius
-    return ball - np.sqrt(ball**2 - r**2 * np.sin(psi) ** 2) + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
 
 
 def rounded_ramp(distance, taper):
@@ -66,7 +61,7 @@ def test_a_ball_sinks_into_a_deep_gap_as_far_as_the_independent_implementation_s
 def test_the_path_over_a_deep_gap_is_the_closed_form(gearbox, race):
     arcs = inside(gap(race))
     path = build_path(gap(race), gearbox.bearing)
-    exact = hanging(race, gearbox.bearing, EXTENT / 2 - np.abs(arcs))
+    exact = hanging(race, gearbox.bearing.raceway_radius(race), gearbox.bearing.ball_radius, EXTENT / 2 - np.abs(arcs))
     assert np.max(np.abs(path.depth(arcs) - exact)) < PICOMETRE
 
 

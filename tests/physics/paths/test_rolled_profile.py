@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import hanging
 from scipy.interpolate import CubicSpline
 
 from physics.paths.profile import build_path, is_rough, race_depth
@@ -23,12 +24,6 @@ def gap(race="outer", extent=EXTENT, depth=1e-3, **other):
 
 def tukey(race="outer", **changes):
     return dataclasses.replace(Spall(race, 1, BOTTOM, EXTENT, 12e-6, 0.010, 0.004), **changes)
-
-
-def hanging(race, bearing, psi):
-    """Drop at ψ (rad) from a sharp edge, m: Rb − √(Rb² − R² sin²ψ) ∓ R (1 − cos ψ), − outer race, + inner race."""
-    r, ball = bearing.raceway_radius(race), bearing.ball_radius
-    return ball - np.sqrt(ball**2 - r**2 * np.sin(psi) ** 2) + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
 
 
 def inside(spall, count=1001):
@@ -77,7 +72,8 @@ def test_a_pit_narrower_than_the_ball_can_feel_is_felt_as_a_narrow_gap(gearbox, 
     spall = table(race, [-0.001, -0.00099, 0.00099, 0.001], [0.0, 20e-6, 20e-6, 0.0])
     path = build_path(spall, gearbox.bearing)
     assert path.bridged
-    assert path.largest_depth == pytest.approx(float(hanging(race, gearbox.bearing, 0.001)), rel=0.05)  # sloping walls
+    sharp = hanging(race, gearbox.bearing.raceway_radius(race), gearbox.bearing.ball_radius, 0.001)
+    assert path.largest_depth == pytest.approx(float(sharp), rel=0.05)  # sloping walls
     assert path.largest_depth < 0.01 * 20e-6
 
 

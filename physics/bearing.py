@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from physics.checks import require, require_between, require_count, require_finite, require_positive
+from physics.checks import require, require_between, require_count, require_finite, require_one_of, require_positive
 
+RACES = ("outer", "inner")
 DEFAULT_CONFORMITY = 0.52
 SMALLEST_CONFORMITY = 0.501
 
@@ -75,7 +76,7 @@ class Bearing:
         shift = self.ball_diameter * math.cos(self.contact_angle)
         if race == "outer":
             return (self.pitch_diameter + shift) / 2.0
-        require(race == "inner", f'race = "{race}"; allowed: outer, inner', "race")
+        require_one_of("race", race, RACES)
         return (self.pitch_diameter - shift) / 2.0
 
     @property
@@ -109,7 +110,7 @@ class Bearing:
 
     def conformity(self, race: str) -> float:
         """Groove radius over ball diameter, dimensionless: `race` is "outer" or "inner"."""
-        require(race in ("outer", "inner"), f'race = "{race}"; allowed: outer, inner', "race")
+        require_one_of("race", race, RACES)
         return self.outer_conformity if race == "outer" else self.inner_conformity
 
     @property

@@ -1,8 +1,12 @@
-"""One way to refuse a number: a ValueError that names the field, the value and what is allowed."""
+"""One way to refuse a value: a ValueError that names the field, the value and what is allowed.
+
+`field` is the name of the attribute or argument, by which callers know it; `what`, if given, is what sentences call it.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from numbers import Integral
 
 
@@ -20,41 +24,49 @@ def require(condition: bool, message: str, field: str = "") -> None:
         raise InvalidParameter(message, field)
 
 
-def require_between(field: str, value: float, low: float, high: float, unit: str = "") -> None:
+def require_between(field: str, value: float, low: float, high: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and low ≤ value ≤ high."""
     suffix = f" {unit}" if unit else ""
     require(
         math.isfinite(value) and low <= value <= high,
-        f"{field} = {value!r}{suffix}; allowed: {low:g} to {high:g}{suffix}",
+        f"{what or field} = {value!r}{suffix}; allowed: {low:g} to {high:g}{suffix}",
         field,
     )
 
 
-def require_finite(field: str, value: float, unit: str = "") -> None:
+def require_finite(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite."""
     suffix = f" {unit}" if unit else ""
-    require(math.isfinite(value), f"{field} = {value!r}{suffix}; it must be finite", field)
+    require(math.isfinite(value), f"{what or field} = {value!r}{suffix}; it must be finite", field)
 
 
-def require_count(field: str, value: int, low: int, high: int) -> None:
+def require_count(field: str, value: int, low: int, high: int, what: str = "") -> None:
     """Raise InvalidParameter unless `value` is a whole number and low ≤ value ≤ high."""
     whole = isinstance(value, Integral) and not isinstance(value, bool)
-    require(whole and low <= value <= high, f"{field} = {value!r}; allowed: whole numbers {low} to {high}", field)
+    message = f"{what or field} = {value!r}; allowed: whole numbers {low} to {high}"
+    require(whole and low <= value <= high, message, field)
 
 
-def require_positive(field: str, value: float, unit: str = "") -> None:
+def require_one_of(field: str, value: str, allowed: Collection[str]) -> None:
+    """Raise InvalidParameter unless `value` is one of the words `allowed`."""
+    if value not in allowed:
+        raise InvalidParameter(f'{field} = "{value}"; allowed: {", ".join(allowed)}', field)
+
+
+def require_positive(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and above zero."""
     suffix = f" {unit}" if unit else ""
-    require(math.isfinite(value) and value > 0.0, f"{field} = {value!r}{suffix}; it must be above 0", field)
+    require(math.isfinite(value) and value > 0.0, f"{what or field} = {value!r}{suffix}; it must be above 0", field)
 
 
-def require_not_negative(field: str, value: float, unit: str = "") -> None:
+def require_not_negative(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and zero or above."""
     suffix = f" {unit}" if unit else ""
-    require(math.isfinite(value) and value >= 0.0, f"{field} = {value!r}{suffix}; it must not be below 0", field)
+    message = f"{what or field} = {value!r}{suffix}; it must not be below 0"
+    require(math.isfinite(value) and value >= 0.0, message, field)
 
 
-def require_below_nyquist(field: str, frequency: float, rate: float) -> None:
+def require_below_nyquist(field: str, frequency: float, rate: float, what: str = "") -> None:
     """Raise InvalidParameter unless `frequency` (Hz) lies below half the `rate` (Hz)."""
     require_positive("rate", rate, "Hz")
-    require_between(field, frequency, 0.0, math.nextafter(rate / 2.0, 0.0), "Hz")
+    require_between(field, frequency, 0.0, math.nextafter(rate / 2.0, 0.0), "Hz", what)

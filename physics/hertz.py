@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
-from physics.bearing import DEFAULT_CONFORMITY, SMALLEST_CONFORMITY, Bearing
-from physics.checks import require, require_between, require_positive
+from physics.bearing import DEFAULT_CONFORMITY, RACES, SMALLEST_CONFORMITY, Bearing
+from physics.checks import require_between, require_one_of, require_positive
 
 YOUNG_MODULUS = 206e9
 POISSON_RATIO = 0.3
@@ -98,7 +98,7 @@ def race_contact(
 ) -> PointContact:
     """The contact of a steel ball (m, m, rad) with the groove of one race; `conformity` is groove radius over ball
     diameter."""
-    require(race in ("outer", "inner"), f'race = "{race}"; allowed: outer, inner', "race")
+    require_one_of("race", race, RACES)
     require_between("conformity", conformity, SMALLEST_CONFORMITY, 1e3)
     towards = math.cos(contact_angle)
     race_radius = (pitch_diameter + (1.0 if race == "outer" else -1.0) * ball_diameter * towards) / 2.0

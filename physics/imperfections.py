@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physics.checks import require, require_between, require_count, require_finite, require_positive
+from physics.bearing import RACES
+from physics.checks import require_between, require_count, require_finite, require_one_of, require_positive
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class Waviness:
     phase: float = 0.0
 
     def __post_init__(self) -> None:
-        require(self.race in ("outer", "inner"), f'race = "{self.race}"; allowed: outer, inner', "race")
+        require_one_of("race", self.race, RACES)
         require_count("order", self.order, 1, 2000)
         require_positive("amplitude", self.amplitude, "m")
         require_finite("phase", self.phase, "rad")

@@ -13,7 +13,7 @@ import numpy as np
 
 from physics.cage import CagePath, draw_slip_knots
 from physics.catalog import rig
-from physics.checks import require
+from physics.checks import require_one_of
 from physics.hertz import contact_width
 from physics.operation import Operation
 from physics.paths.roughness import draw_roughness
@@ -43,7 +43,7 @@ def reference_scene(
 
     With a `slip_seed` the cage slips by 1 %, with one ball pass of correlation time.
     """
-    require(name in REFERENCE_SCENES, f'name = "{name}"; allowed: {", ".join(REFERENCE_SCENES)}', "name")
+    require_one_of("name", name, REFERENCE_SCENES)
     machine = rig(RIGS[name[:1]])
     spalls = _spalls(machine, name[1:], roughness_seed)
     speed = machine.rated_speed * speed_factor

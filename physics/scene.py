@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from physics.cage import CagePath
-from physics.checks import InvalidParameter, require
+from physics.checks import InvalidParameter, require, require_one_of
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.rig import Rig
@@ -23,6 +23,10 @@ class Scene:
     `contact_law` is "paper" (F = K δⁿ + c_d δ̇ while δ > 0, may pull) or "no_tension" (the same, never below zero).
     `second_cage` is the path of row 2 if the rows have separate cages; None means one staggered cage.
     All spalls lie on one race.
+
+    The balls turn as the cage says and the inner race as `operation` says. Nothing makes the two agree: a cage may be
+    braked, dragged or held for a study, so whoever changes the shaft's speed gives a new `cage` as well. `validity`
+    tells where they differ from pure rolling.
     """
 
     rig: Rig
@@ -35,11 +39,7 @@ class Scene:
 
     def __post_init__(self) -> None:
         bearing = self.rig.bearing
-        require(
-            self.contact_law in CONTACT_LAWS,
-            f'contact_law = "{self.contact_law}"; allowed: {", ".join(CONTACT_LAWS)}',
-            "contact_law",
-        )
+        require_one_of("contact_law", self.contact_law, CONTACT_LAWS)
         if len({spall.race for spall in self.spalls}) > 1:
             raise InvalidParameter("spalls on both races; all spalls of a scene must be on one race", "race")
         for spall in self.spalls:

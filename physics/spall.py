@@ -6,8 +6,15 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
-from physics.bearing import Bearing
-from physics.checks import require, require_between, require_finite, require_not_negative, require_positive
+from physics.bearing import RACES, Bearing
+from physics.checks import (
+    require,
+    require_between,
+    require_finite,
+    require_not_negative,
+    require_one_of,
+    require_positive,
+)
 
 PROFILES = ("tukey", "ball_path", "table")
 
@@ -41,9 +48,9 @@ class Spall:
     table_depth: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        require(self.race in ("outer", "inner"), f'race = "{self.race}"; allowed: outer, inner', "race")
+        require_one_of("race", self.race, RACES)
         require(self.row in (1, 2), f"row = {self.row!r}; allowed: 1, 2", "row")
-        require(self.profile in PROFILES, f'profile = "{self.profile}"; allowed: {", ".join(PROFILES)}', "profile")
+        require_one_of("profile", self.profile, PROFILES)
         require_finite("angle", self.angle, "rad")
         require_positive("extent", self.extent, "rad")
         require_between("extent", self.extent, 0.0, math.pi, "rad")
@@ -65,10 +72,13 @@ class Spall:
         if not values:
             return
         require(
-            len(values) >= 4 and all(map(math.isfinite, values)),
-            f"roughness_values must be at least 4 finite numbers (m); there are {len(values)}",
+            len(values) >= 4,
+            f"roughness_values must be at least 4 numbers (m); there are {len(values)}",
             "roughness_values",
         )
+        for place, value in enumerate(values, start=1):
+            if not math.isfinite(value):
+                require_finite("roughness_values", value, "m", what=f"number {place} of {len(values)} roughness_values")
         require(
             values[0] == 0.0 and values[-1] == 0.0,
             f"roughness_values begin with {values[0]!r} and end with {values[-1]!r} m; they must begin and end with 0",

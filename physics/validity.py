@@ -16,12 +16,14 @@ from physics.spall import Spall
 STEEL_DENSITY = 7850.0  # kg/m³, assumed for every rolling element
 NEGLIGIBLE_SHARE = 0.2  # the paper's own fan rig reaches 0.19 over the sharp exit that its response needs
 LIMITING_SPEED_FACTOR = 5e5  # rpm · mm, shaft speed times pitch diameter: usual limit of greased bearings
+SAME_SPEED = 1e-6  # a nominal cage speed rounded to seven digits is still that of pure rolling
 PATH_SAMPLES, SAMPLES_PER_KNOT = 4001, 8
 
 
 def assess(scene: Scene) -> tuple[str, ...]:
     """Sentences with numbers on where `scene` leaves the range of the model; empty where it holds."""
-    notes = (_centrifugal(scene), _ball_inertia(scene), _speed(scene), _load(scene), _contact_angle(scene))
+    forces, run = (_centrifugal(scene), _ball_inertia(scene)), (_speed(scene), _cage_speed(scene), _load(scene))
+    notes = (*forces, *run, _contact_angle(scene))
     return tuple(note for note in notes if note)
 
 
@@ -34,9 +36,9 @@ def element_mass(bearing: Bearing) -> float:
 
 
 def centrifugal_force(scene: Scene) -> float:
-    """Centrifugal force of one ball on its circle at the nominal cage speed, N."""
+    """Centrifugal force of one ball on its circle at the nominal speed of the faster cage, N."""
     bearing = scene.rig.bearing
-    cage = bearing.cage_speed(scene.operation.shaft_speed)
+    cage = max(path.nominal_speed for path in scene.cages)
     return element_mass(bearing) * bearing.pitch_diameter / 2.0 * cage**2
 
 
@@ -48,8 +50,7 @@ def inertia_force(scene: Scene, spall: Spall) -> float:
     """
     bearing = scene.rig.bearing
     drop, arc = _steepest_drop(spall, bearing)
-    cage = bearing.cage_speed(scene.operation.shaft_speed)
-    relative = cage if spall.race == "outer" else scene.operation.shaft_speed - cage
+    relative = scene.cage_of(spall.row).nominal_speed - scene.race_speed(spall.race)
     return element_mass(bearing) * 2.0 * drop * (relative / arc) ** 2
 
 
@@ -114,6 +115,17 @@ def _speed(scene: Scene) -> str:
     return (
         f"Shaft speed times pitch diameter is {factor:.3g} rpm mm, above the {LIMITING_SPEED_FACTOR:.3g} rpm mm usual "
         f"for greased bearings ({rpm:.4g} rpm)."
+    )
+
+
+def _cage_speed(scene: Scene) -> str:
+    rolling = scene.rig.bearing.cage_speed(scene.operation.shaft_speed)
+    cage = max((path.nominal_speed for path in scene.cages), key=lambda speed: abs(speed - rolling))
+    if abs(cage - rolling) <= SAME_SPEED * rolling:
+        return ""
+    return (
+        f"The cage turns at a nominal {cage:.4g} rad/s, but without slip the shaft would turn it at {rolling:.4g} "
+        "rad/s: ball-pass frequencies told from the shaft are not those of the balls."
     )
 
 

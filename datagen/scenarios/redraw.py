@@ -14,6 +14,14 @@ if TYPE_CHECKING:
     from datagen.recipes.recipe import Part, Recipe
 
 MOST_ATTEMPTS = 200
+# Parameters of the physics whose keys in recipes begin with another word.
+KEYS = {
+    "amplitudes": "amplitude",
+    "bits": "recorder_bits",
+    "cutoff": "mounting_cutoff",
+    "full_scale": "recorder_range",
+    "shaft_speed": "speed",
+}
 
 
 @dataclass(frozen=True)
@@ -57,7 +65,8 @@ def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw]) -> Ba
     counts = Counter(redraw.field or "other" for redraw in redraws)
     refused = ", ".join(f"{field} {count} times" for field, count in counts.most_common())
     place = ("part", recipe.part.index(part))
-    line = line_of_setting(text_of(recipe.source), place, redraws[-1].field)
+    refused_last = redraws[-1].field
+    line = line_of_setting(text_of(recipe.source), place, KEYS.get(refused_last, refused_last))
     return BadInput(
         f'part "{part.name}", {what}: {len(redraws)} draws in a row were impossible (refused: {refused}); '
         f"the last: {redraws[-1].reason}",

@@ -34,12 +34,12 @@ class GearMesh:
 
     def __post_init__(self) -> None:
         require_count("teeth", self.teeth, 1, MOST_TEETH)
-        require_count("other teeth", self.other_teeth, 0, MOST_TEETH)
+        require_count("other_teeth", self.other_teeth, 0, MOST_TEETH, what="other teeth")
         require_count("sidebands", self.sidebands, 0, MOST_SIDEBANDS)
         require_between("modulation", self.modulation, 0.0, 1.0)
-        require_between("other modulation", self.other_modulation, 0.0, 1.0)
+        require_between("other_modulation", self.other_modulation, 0.0, 1.0, what="other modulation")
         for amplitude in self.amplitudes:
-            require_not_negative("mesh amplitude", amplitude, "m/s²")
+            require_not_negative("amplitudes", amplitude, "m/s²", what="mesh amplitude")
 
 
 def gear_mesh(generator: np.random.Generator, layer: GearMesh, shaft_speed: float, samples: int, rate: float) -> Array:

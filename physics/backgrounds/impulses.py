@@ -23,9 +23,9 @@ class Resonance:
     damping: float
 
     def __post_init__(self) -> None:
-        require_positive("impulse resonance", self.frequency, "Hz")
-        require_between("impulse damping", self.damping, 0.0, 0.7)
-        require_positive("impulse damping", self.damping)
+        require_positive("frequency", self.frequency, "Hz", what="impulse resonance")
+        require_between("damping", self.damping, 0.0, 0.7, what="impulse damping")
+        require_positive("damping", self.damping, what="impulse damping")
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ class Impulses:
     resonances: tuple[Resonance, ...]
 
     def __post_init__(self) -> None:
-        require_between("impulses per second", self.per_second, 0.0, MOST_PER_SECOND)
-        require_not_negative("impulse amplitude", self.amplitude, "m/s²")
-        require_between("impulse spread", self.spread, 0.0, 5.0)
+        require_between("per_second", self.per_second, 0.0, MOST_PER_SECOND, what="impulses per second")
+        require_not_negative("amplitude", self.amplitude, "m/s²", what="impulse amplitude")
+        require_between("spread", self.spread, 0.0, 5.0, what="impulse spread")
         require(bool(self.resonances), "impulses have no resonance to ring", "resonances")
 
 
@@ -73,7 +73,7 @@ def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int
     """Decaying sines (T, 2) that start at `instant` (N,) s with `strength` (N, 2), exact at the samples."""
     from scipy.signal import lfilter
 
-    require_below_nyquist("impulse resonance", resonance.frequency, rate)
+    require_below_nyquist("frequency", resonance.frequency, rate, what="impulse resonance")
     turn = 2.0 * math.pi * resonance.frequency / rate
     decay = math.exp(-resonance.damping * turn)
     first = np.ceil(instant * rate).astype(np.int64)

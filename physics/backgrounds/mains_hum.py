@@ -21,9 +21,9 @@ class MainsHum:
     amplitudes: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        require_positive("mains frequency", self.frequency, "Hz")
+        require_positive("frequency", self.frequency, "Hz", what="mains frequency")
         for amplitude in self.amplitudes:
-            require_not_negative("hum amplitude", amplitude, "m/s²")
+            require_not_negative("amplitudes", amplitude, "m/s²", what="hum amplitude")
 
 
 def mains_hum(generator: np.random.Generator, layer: MainsHum, samples: int, rate: float) -> Array:

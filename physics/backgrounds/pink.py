@@ -24,9 +24,9 @@ class PinkNoise:
     slope: float = 1.0
 
     def __post_init__(self) -> None:
-        require_not_negative("pink rms", self.rms, "m/s²")
-        require_positive("pink lowest frequency", self.lowest, "Hz")
-        require_between("pink slope", self.slope, 0.0, STEEPEST)
+        require_not_negative("rms", self.rms, "m/s²", what="pink rms")
+        require_positive("lowest", self.lowest, "Hz", what="pink lowest frequency")
+        require_between("slope", self.slope, 0.0, STEEPEST, what="pink slope")
 
 
 def pink_noise(generator: np.random.Generator, noise: PinkNoise, samples: int, rate: float) -> Array:
@@ -36,7 +36,7 @@ def pink_noise(generator: np.random.Generator, noise: PinkNoise, samples: int, r
     density × rate / 2: the density belongs to the machine, whatever the length of the record. InvalidParameter if the
     lowest frequency does not lie below half the `rate` (Hz).
     """
-    require_below_nyquist("pink lowest frequency", noise.lowest, rate)
+    require_below_nyquist("lowest", noise.lowest, rate, what="pink lowest frequency")
     white = np.fft.rfft(generator.standard_normal((samples, 2)), axis=0)
     frequency = np.asarray(np.fft.rfftfreq(samples, 1.0 / rate), dtype=np.float64)
     weight = np.sqrt(pink_density(noise, frequency, rate) * rate / 2.0)

@@ -22,9 +22,9 @@ class ShaftHarmonics:
     first_order: int = 1
 
     def __post_init__(self) -> None:
-        require_count("first order", self.first_order, 1, 1000)
+        require_count("first_order", self.first_order, 1, 1000, what="first order")
         for amplitude in self.amplitudes:
-            require_not_negative("shaft harmonic amplitude", amplitude, "m/s²")
+            require_not_negative("amplitudes", amplitude, "m/s²", what="shaft harmonic amplitude")
 
 
 def shaft_harmonics(

@@ -15,5 +15,5 @@ def white_noise(generator: np.random.Generator, rms: float, samples: int) -> Arr
 
     Draws `samples` × 2 standard normal numbers.
     """
-    require_not_negative("white rms", rms, "m/s²")
+    require_not_negative("rms", rms, "m/s²", what="white rms")
     return rms * generator.standard_normal((samples, 2))

@@ -13,8 +13,9 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts
 
 Array = NDArray[np.float64]
 
-# Sums of different powers of two up to this one are whole numbers that a float holds.
-LARGEST_WEIGHT = 2.0**51
+# A mark is a polynomial in this number (a multiplier of D. Knuth's generators) with coefficients of 0 and 1, cut to as
+# many bits as a float holds with room for more. The number's powers up to the 2^50th differ in these bits.
+MARK_BASE, MARK_BITS = 6364136223846793005, (1 << 52) - 1
 
 
 @njit_inline
@@ -41,13 +42,15 @@ def count_changes(contacts: Contacts) -> int:
 
 @njit_inline
 def mark_of(balls: Array, quantity: int) -> float:
-    """A number that tells apart which balls have this `quantity` above zero, for sets of up to 52 columns."""
-    mark, weight = 0.0, 1.0
+    """A whole number below 2^52 that tells apart which balls have this `quantity` above zero.
+
+    Two sets that differ in one or two balls never have the same one, others by a chance of 1 in 2^52.
+    """
+    mark = 0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            mark += weight if balls[cage, quantity, j] > 0.0 else 0.0
-            weight = 2.0 * weight if weight < LARGEST_WEIGHT else 1.0
-    return mark
+            mark = mark * MARK_BASE + (1 if balls[cage, quantity, j] > 0.0 else 0)
+    return float(mark & MARK_BITS)
 
 
 @njit_inline

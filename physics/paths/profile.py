@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from physics.bearing import Bearing
 from physics.paths.depth_path import DepthPath, hermite_path
 from physics.paths.rolling import Branches, branches, deep_gap_drop, hanging_reach, rolled_path
-from physics.paths.spall_surface import gap_surface, reaches_floor, roughness_curve, table_surface, window, window_slope
+from physics.paths.spall_surface import (
+    gap_surface,
+    reaches_floor,
+    roughness_curve,
+    table_surface,
+    turning_points,
+    window,
+    window_slope,
+)
 from physics.scene import Scene
 from physics.spall import Spall
 
@@ -22,6 +30,8 @@ CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4
 # Steps of a rolled path (m), and how many of them make a cell.
 ROLLED_STEP, CELL_STEPS = 2e-6, 2
+# A measured table is rough if it turns from falling to rising or back more often than this.
+MOST_TURNS = 8
 # A record asks for the path of each of its spalls about eight times.
 PATHS_KEPT = 64
 
@@ -41,7 +51,8 @@ def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
 
 
 def is_rough(spall: Spall, bearing: Bearing) -> bool:
-    """Whether the path of the ball's centre over `spall` goes up and down all along."""
+    """Whether `spall` goes up and down all along: it has roughness, or a table that turns more often than a few pits
+    and lips do."""
     return bool(build_path(spall, bearing).relief[0] > 0.0)
 
 
@@ -112,8 +123,8 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     surface = table_surface(spall) if spall.profile == "table" else gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    half, step, rough = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
-    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, rough)
+    half, step, bumpy = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
+    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, bumpy)
     smooth = branches(rolled)
     width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
@@ -124,7 +135,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         lambda arc: _on_branches(smooth, arc)[0],
         lambda arc: _on_branches(smooth, arc)[1],
         bridged=not reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
-        rough=rough or spall.profile == "table",
+        rough=bumpy or turning_points(np.array(spall.table_depth)) > MOST_TURNS,
     )
 
 

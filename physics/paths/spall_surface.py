@@ -70,6 +70,12 @@ def table_surface(spall: Spall) -> Curve:
     return lambda arc: np.interp(arc, angle, depth, left=0.0, right=0.0)
 
 
+def turning_points(depth: Array) -> int:
+    """How often the depths (N,) turn from falling to rising or back."""
+    moves = np.diff(depth)
+    return int(np.count_nonzero(np.diff(np.sign(moves[moves != 0.0]))))
+
+
 def reaches_floor(spall: Spall, arcs: Array, gap: Array) -> bool:
     """Whether the `gap` (N,), m, below the ball closes on the floor: between the tapers, or deep in a table."""
     if spall.profile == "table":

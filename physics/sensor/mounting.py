@@ -22,8 +22,8 @@ class Mounting:
     order: int = 6
 
     def __post_init__(self) -> None:
-        require_positive("mounting cutoff", self.cutoff, "Hz")
-        require_count("mounting order", self.order, 1, HIGHEST_ORDER)
+        require_positive("cutoff", self.cutoff, "Hz", what="mounting cutoff")
+        require_count("order", self.order, 1, HIGHEST_ORDER, what="mounting order")
 
 
 def mounted(mounting: Mounting, signal: Array, rate: float) -> Array:
@@ -35,6 +35,6 @@ def mounted(mounting: Mounting, signal: Array, rate: float) -> Array:
     """
     from scipy.signal import butter, sosfilt
 
-    require_below_nyquist("mounting cutoff", mounting.cutoff, rate)
+    require_below_nyquist("cutoff", mounting.cutoff, rate, what="mounting cutoff")
     sections = butter(mounting.order, mounting.cutoff, fs=rate, output="sos")
     return np.asarray(sosfilt(sections, signal, axis=0))

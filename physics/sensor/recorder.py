@@ -20,8 +20,8 @@ class Recorder:
     bits: int = 16
 
     def __post_init__(self) -> None:
-        require_positive("recorder range", self.full_scale, "m/s²")
-        require_count("recorder bits", self.bits, 2, 32)
+        require_positive("full_scale", self.full_scale, "m/s²", what="recorder range")
+        require_count("bits", self.bits, 2, 32, what="recorder bits")
 
     @property
     def step(self) -> float:

@@ -12,6 +12,7 @@ from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import FORCE, Contacts, of_ball
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
+from physics.statics.load_distribution import require_carried
 from physics.statics.stiffness import expected, rest_at
 
 Array = NDArray[np.float64]
@@ -21,23 +22,31 @@ TOLERANCE = 1e-9
 
 
 def ball_load(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Array:
-    """Normal load (K,), N, of `ball` (K,), from 1, of `row` at each of the increasing times (K,), s."""
+    """Normal load (K,), N, of `ball` (K,), from 1, of `row` at each of the increasing times (K,), s.
+
+    Raises SimulationFailed where no position carries the load on the shaft.
+    """
     bearing, (rows, balls) = scene.rig.bearing, ball_numbers(scene)
     column = np.zeros((bearing.rows, bearing.balls), dtype=np.int64)
     real = np.flatnonzero(balls >= 0)
     column[rows[real], balls[real]] = real
     load, place = np.zeros(time.size), np.zeros((time.size, 2))
     columns = column[row - 1, ball - 1]
-    _follow(assemble(scene), motion_model(scene), np.ascontiguousarray(time), columns, place, load)
+    lost = _follow(assemble(scene), motion_model(scene), np.ascontiguousarray(time), columns, place, load)
+    require_carried(scene, time, lost)
     return load / math.cos(bearing.contact_angle)
 
 
 @njit_lean
 def _follow(
     contacts: Contacts, motion: MotionModel, time: Array, ball: NDArray[np.int64], place: Array, load: Array
-) -> None:
-    """Fill `load` (K,), N in radial direction, along the way of the shaft, `place` (K, 2), m."""
+) -> int:
+    """Fill `load` (K,), N in radial direction, along the way of the shaft, `place` (K, 2), m; the first instant at
+    which no position carries the load, or K."""
+    lost = time.size
     for k in range(time.size):
         x, y = expected(place, k, 1)
-        place[k, 0], place[k, 1], _ = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
+        place[k, 0], place[k, 1], _, carried = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
         load[k] = of_ball(contacts.balls, FORCE, ball[k])
+        lost = lost if carried else min(lost, k)
+    return lost

@@ -97,6 +97,13 @@ def carried(scene: Scene, time: Array) -> Equilibrium:
     return rest
 
 
+def require_carried(scene: Scene, time: Array, lost: int) -> None:
+    """Raise SimulationFailed if at one of the times (T,), s, the one with the index `lost`, no position carries the
+    load; T and more stand for none."""
+    if lost < time.size:
+        refuse(scene, float(time[lost]))
+
+
 def refuse(scene: Scene, time: float) -> NoReturn:
     """Raise SimulationFailed: no position carries the load at `time` (s)."""
     load = math.hypot(*load_vector(scene, np.array([time]))[0])

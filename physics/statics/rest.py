@@ -124,6 +124,7 @@ def solve_at(contacts: Contacts, load_x: float, load_y: float, dx: float, dy: fl
         if stuck or math.hypot(dx, dy) > LARGEST_MOVE:
             break
     status = _status(hold, law, load, load_x - hold.force_x, load_y - hold.force_y)
+    status = NO_EQUILIBRIUM if math.hypot(dx, dy) > LARGEST_MOVE else status
     if status in (NO_EQUILIBRIUM, NOT_LOADED):
         dx, dy = 0.0, 0.0
         hold = elastic(contacts, dx, dy)

@@ -10,7 +10,8 @@ from physics.assembly import assemble
 from physics.contact.forces import Contacts, move_to, set_time
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.scene import Scene
-from physics.statics.rest import Hold, elastic, solve_at
+from physics.statics.load_distribution import require_carried
+from physics.statics.rest import LARGEST_MOVE, NO_EQUILIBRIUM, Hold, elastic, solve_at
 
 Array = NDArray[np.float64]
 
@@ -27,31 +28,39 @@ REGULAR = 1e-6
 def stiffness_trace(scene: Scene, time: Array, tolerance: float = EXACT) -> Array:
     """Stiffness (T, 3): kxx, kyy, kxy in N/m at the times (T,), s, each at its instant's load and angles.
 
-    Zero where no ball is loaded. The `stiffness` of `equilibrium`, in half the time where many instants follow closely.
-    `tolerance` is the share of the load that may be left unbalanced.
+    Zero where there is no load and no ball is pressed. The `stiffness` of `equilibrium`, in half the time where many
+    instants follow closely. `tolerance` is the share of the load that may be left unbalanced. Raises SimulationFailed
+    where no position carries the load.
     """
     time = np.ascontiguousarray(time, dtype=np.float64)
     stiffness, place = np.zeros((time.size, 3)), np.zeros((time.size, 2))
-    _follow(assemble(scene), motion_model(scene), time, tolerance, place, stiffness)
+    require_carried(scene, time, _follow(assemble(scene), motion_model(scene), time, tolerance, place, stiffness))
     return stiffness
 
 
 @njit_lean
 def _follow(
     contacts: Contacts, motion: MotionModel, time: Array, tolerance: float, place: Array, stiffness: Array
-) -> None:
-    """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m."""
+) -> int:
+    """Fill `stiffness` (T, 3) along the way of the shaft, `place` (T, 2), m; the first instant lost, see `rest_at`, or
+    T."""
+    lost = time.size
     for k in range(time.size):
         x, y = expected(place, k, 1)
-        place[k, 0], place[k, 1], hold = rest_at(contacts, motion, time[k], x, y, tolerance)
+        place[k, 0], place[k, 1], hold, carried = rest_at(contacts, motion, time[k], x, y, tolerance)
         stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
+        lost = lost if carried else min(lost, k)
+    return lost
 
 
 @njit_inline
 def rest_at(
     contacts: Contacts, motion: MotionModel, time: float, x: float, y: float, tolerance: float
-) -> tuple[float, float, Hold]:
-    """Where the shaft rests (m, m) at `time` (s), looked for from the place (x, y) expected, and what holds there."""
+) -> tuple[float, float, Hold, bool]:
+    """Where the shaft rests (m, m) at `time` (s), looked for from the place (x, y) expected, and what holds there.
+
+    Last whether a position carries the load; where none does, the instant is lost and the rest is told of the centre.
+    """
     move_to(contacts, time)
     load_x, load_y = outer_load(motion, time)
     return _settle(contacts, load_x, load_y, x, y, tolerance)
@@ -60,8 +69,8 @@ def rest_at(
 @njit_inline
 def _settle(
     contacts: Contacts, load_x: float, load_y: float, x: float, y: float, tolerance: float
-) -> tuple[float, float, Hold]:
-    """Where the shaft rests (m, m) under the load (N, N), looked for from the place expected, and what holds there.
+) -> tuple[float, float, Hold, bool]:
+    """What `rest_at` tells, of the load (N, N).
 
     Where it is nearly there, few steps of Newton's method from there are its place, until less than `tolerance` of the
     load is unbalanced.
@@ -71,16 +80,16 @@ def _settle(
     for _ in range(MOST_STEPS):
         gx, gy = load_x - hold.force_x, load_y - hold.force_y
         missing = gx * gx + gy * gy
-        if missing <= tolerance**2 * load and load > 0.0:
-            return x, y, hold
+        if missing <= tolerance**2 * load and load > 0.0 and x * x + y * y <= LARGEST_MOVE**2:
+            return x, y, hold, True
         determinant = hold.xx * hold.yy - hold.xy * hold.xy
         if not (missing <= NEAR**2 * load and determinant > REGULAR * (hold.xx + hold.yy) ** 2):
             break
         x += (hold.yy * gx - hold.xy * gy) / determinant
         y += (hold.xx * gy - hold.xy * gx) / determinant
         hold = elastic(contacts, x, y)
-    x, y, hold, _ = solve_at(contacts, load_x, load_y, x, y)
-    return x, y, hold
+    x, y, hold, status = solve_at(contacts, load_x, load_y, x, y)
+    return x, y, hold, status != NO_EQUILIBRIUM
 
 
 @njit_lean

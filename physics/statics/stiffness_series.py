@@ -23,6 +23,7 @@ from physics.motion import MotionModel, motion_model
 from physics.paths.depth_path import BREAK, span_of
 from physics.paths.profile import is_rough
 from physics.scene import Scene
+from physics.statics.load_distribution import require_carried
 from physics.statics.stiffness import expected, rest_at, stiffness_trace
 
 Array = NDArray[np.float64]
@@ -44,7 +45,8 @@ MISS_NEAR, MISS_MIDDLE, MISS_FAR = 6.0 / 256.0, -9.0 / 256.0, 3.0 / 256.0
 # Columns of a series: the shaft's place (m), stiffness (N/m), and a number that changes when something happens.
 PLACE_X, PLACE_Y, XX, YY, XY, MARK = range(6)
 COLUMNS = 6
-# What an edge that was crossed adds to the mark of the pressed balls: no sum or difference of a few powers of two.
+# What an edge that was crossed adds to the mark of the pressed balls. No multiple of it up to the 200 000th is what one
+# or two balls change there.
 CROSSING_MARK = 100003.0
 
 
@@ -58,7 +60,10 @@ class StiffnessSeries(NamedTuple):
 
 
 def stiffness_series(scene: Scene, step: float, count: int) -> StiffnessSeries:
-    """The stiffness at the `count` instants k · `step` (s), each at its instant's load and angles."""
+    """The stiffness at the `count` instants k · `step` (s), each at its instant's load and angles.
+
+    Raises SimulationFailed where no position of the shaft carries the load.
+    """
     stride = coarsest_stride(scene, step)
     nodes = -(-(count - 1) // stride) * stride + 1
     time: Array = np.arange(nodes, dtype=np.float64) * step
@@ -66,7 +71,8 @@ def stiffness_series(scene: Scene, step: float, count: int) -> StiffnessSeries:
         solved = stiffness_trace(scene, time, TOLERANCE)
         return StiffnessSeries(solved, TOLERANCE if solved.any() else 0.0, 1.0)
     series, missed = np.zeros((nodes, COLUMNS)), np.zeros(4)
-    _fill(assemble(scene), motion_model(scene), time, stride, series, missed)
+    # The instants behind the last one asked for serve interpolation only.
+    require_carried(scene, time[:count], _fill(assemble(scene), motion_model(scene), time, stride, series, missed))
     mean = series[:count, YY].mean()
     error = math.hypot(ERROR_FACTOR * math.sqrt(missed[:3].max() / nodes) / mean, TOLERANCE) if mean > 0.0 else 0.0
     return StiffnessSeries(series[:count, XX : XY + 1], error, 1.0 - missed[3] / nodes)
@@ -87,30 +93,36 @@ def coarsest_stride(scene: Scene, step: float) -> int:
 
 
 @njit_lean
-def _fill(contacts: Contacts, motion: MotionModel, time: Array, stride: int, series: Array, missed: Array) -> None:
-    """Fill `series` (T, 6), T − 1 a multiple of `stride`; add to `missed` (4,) squared differences and their number."""
+def _fill(contacts: Contacts, motion: MotionModel, time: Array, stride: int, series: Array, missed: Array) -> int:
+    """Fill `series` (T, 6), T − 1 a multiple of `stride`; add to `missed` (4,) squared differences and their number.
+
+    Returns the first of the instants solved at which no position carries the load, or T.
+    """
+    lost = time.size
     for k in range(0, time.size, stride):
         x, y = expected(series, k, stride)
-        _solve(contacts, motion, time, series, k, x, y)
+        lost = lost if _solve(contacts, motion, time, series, k, x, y) else min(lost, k)
     half = stride // 2
     while half > 0:
         for k in range(half, time.size, 2 * half):
             if k < 5 * half or k + 5 * half >= time.size:
                 x = 0.5 * (series[k - half, PLACE_X] + series[k + half, PLACE_X])
                 y = 0.5 * (series[k - half, PLACE_Y] + series[k + half, PLACE_Y])
-                _solve(contacts, motion, time, series, k, x, y)
+                lost = lost if _solve(contacts, motion, time, series, k, x, y) else min(lost, k)
             elif not _interpolate(series, k, half, missed):
                 x, y = _between(series, k, half, PLACE_X), _between(series, k, half, PLACE_Y)
-                _solve(contacts, motion, time, series, k, x, y)
+                lost = lost if _solve(contacts, motion, time, series, k, x, y) else min(lost, k)
         half //= 2
+    return lost
 
 
 @njit_inner
-def _solve(contacts: Contacts, motion: MotionModel, time: Array, series: Array, k: int, x: float, y: float) -> None:
-    """Row `k` of the series, looked for from the place (x, y), m."""
-    series[k, PLACE_X], series[k, PLACE_Y], hold = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
+def _solve(contacts: Contacts, motion: MotionModel, time: Array, series: Array, k: int, x: float, y: float) -> bool:
+    """Row `k` of the series, looked for from the place (x, y), m; whether a position carries the load there."""
+    series[k, PLACE_X], series[k, PLACE_Y], hold, carried = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
     series[k, XX], series[k, YY], series[k, XY] = hold.xx, hold.yy, hold.xy
     series[k, MARK] = _mark(contacts, time[k])
+    return carried
 
 
 @njit_inner

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 from scipy.integrate import simpson
 
 from physics.cage import CagePath
@@ -15,10 +16,6 @@ from physics.simulate import simulate
 
 RATE = 65536.0
 FINE_RATE = 2.0**20
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def ball_directions(scene, time):

@@ -37,17 +37,6 @@ def test_the_natural_frequencies_are_those_of_the_independent_implementation(aut
     assert np.all(np.abs(frequency - expected["value"]) <= expected["tolerance"])  # the digits given
 
 
-@pytest.mark.parametrize(("name", "angle", "label"), [("gearbox", 0.0, "0"), ("gearbox", 7.5, "7_5_deg")])
-def test_the_stiffness_behind_these_modes_is_that_of_the_independent_implementation(
-    authority, request, name, angle, label
-):
-    expected = authority("independent_model")["statics"]
-    stiffness, _ = healthy_matrices(request.getfixturevalue(name), math.radians(angle))
-    for component, value in (("kxx", stiffness[0, 0]), ("kyy", stiffness[1, 1])):
-        check = expected[f"{name}_{component}_at_{label}_MN_per_m"]
-        assert value * 1e-6 == pytest.approx(check["value"], abs=check["tolerance"])  # the digits given
-
-
 @pytest.mark.parametrize("name", ["gearbox", "fan"])
 def test_the_package_s_statics_give_the_same_matrices_as_a_general_root_finder(request, name):
     rig = request.getfixturevalue(name)

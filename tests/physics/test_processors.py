@@ -45,7 +45,9 @@ def digest(target, cache):
 
 @pytest.mark.slow
 def test_kernels_for_old_and_new_processors_give_the_same_bits(tmp_path):
-    targets = supported() or ["generic"]
+    targets = supported()
+    if len(targets) < 2:
+        pytest.skip("this machine runs code for one of these processors at most, so there is nothing to compare")
     digests = {target: digest(target, tmp_path / target) for target in targets}
     assert len(set(digests.values())) == 1, digests
     assert all(len(found) == 64 for found in digests.values())

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 
 from physics.imperfections import Imperfections, Waviness
 from physics.simulate import simulate
@@ -13,10 +14,6 @@ RATE = 65536.0
 SCORED_FROM = round(0.1 * RATE)
 SCENES = [machine + kind for machine in "GF" for kind in ("0", "1", "1s", "1p", "2", "2r")]
 WINDOW = 0.03
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,6 @@ import pytest
 
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.trace import ContactChanges, Trace
 
 RATE = 65536.0
 LINE = Spall("outer", 1, 4.712388980384690, 0.035, 12e-6, 0.005, 0.005)
@@ -27,16 +26,6 @@ def test_a_trace_holds_one_row_a_sample(trace):
     assert trace.state.shape == (count, 12)
     assert trace.contact_force.shape == (count, 2, 12)
     assert trace.rate == RATE
-
-
-def test_states_and_forces_are_absent_unless_asked_for():
-    none = np.zeros(0)
-    nobody = np.zeros(0, dtype=np.int16)
-    changes = ContactChanges(none, nobody, nobody, np.zeros(0, dtype=bool), np.ones((1, 8), dtype=bool))
-    bare = Trace(RATE, none, np.zeros((0, 2)), changes, "model", "method", 1 / RATE, 0.0, 0.0)
-    assert bare.state is None
-    assert bare.contact_force is None
-    assert bare.unlocated_changes == 0
 
 
 def test_a_trace_cannot_be_changed_by_assignment(trace):

@@ -44,6 +44,29 @@ def test_the_centrifugal_force_of_a_gearbox_ball_is_9_millinewton(gearbox):
     assert centrifugal_force(scene_of(gearbox)) == pytest.approx(1.4836e-3 * 19.375e-3 * 17.951**2, rel=2e-4)  # digits
 
 
+def test_the_balls_turn_as_fast_as_their_cage_says_and_not_as_the_shaft_does(gearbox):
+    scene, quick = scene_of(gearbox, (line(2.0),)), CagePath(3.0 * 17.951, 0.5)
+    for dragged in (dataclasses.replace(scene, cage=quick), dataclasses.replace(scene, second_cage=quick)):
+        assert centrifugal_force(dragged) == pytest.approx(9.0 * centrifugal_force(scene), rel=2e-4)  # digits
+    dragged = dataclasses.replace(scene, cage=quick)
+    outer, inner = scene.spalls[0], dataclasses.replace(scene.spalls[0], race="inner")
+    assert inertia_force(dragged, outer) == pytest.approx(9.0 * inertia_force(scene, outer), rel=2e-4)
+    ratio = (3.0 * 17.951 - 43.982) / (43.982 - 17.951)  # against the shaft
+    assert inertia_force(dragged, inner) == pytest.approx(ratio**2 * inertia_force(scene, inner), rel=1e-3)
+
+
+@pytest.mark.parametrize("cage", ["cage", "second_cage"])
+def test_a_cage_that_does_not_fit_the_shaft_is_told(gearbox, cage):
+    scene = scene_of(gearbox)
+    faster = dataclasses.replace(scene, operation=Operation(2.0 * gearbox.rated_speed, gearbox.rated_load))
+    told = "The cage turns at a nominal 17.95 rad/s, but without slip the shaft would turn it at 35.9 rad/s"
+    assert [note.split(":")[0] for note in assess(faster)] == [told]
+    slow = dataclasses.replace(scene, **{cage: CagePath(9.0, 0.5)})
+    assert any("The cage turns at a nominal 9 rad/s" in note for note in assess(slow))
+    slipping = dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, mean_slip=0.1))
+    assert assess(slipping) == ()
+
+
 def test_the_inertia_over_a_taper_is_twice_mass_times_drop_over_time_squared(fan):
     spall = line(2.6)
     # 0.3° at the cage speed of 34.44 rad/s takes 0.1520 ms; 12 µm in that time is 1038 m/s²; the ball weighs 2.104 g.

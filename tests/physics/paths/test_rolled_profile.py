@@ -5,9 +5,10 @@ import math
 
 import numpy as np
 import pytest
+from measures import hanging
 from scipy.interpolate import CubicSpline
 
-from physics.paths.profile import build_path, race_depth
+from physics.paths.profile import build_path, is_rough, race_depth
 from physics.paths.spall_surface import roughness_curve, window
 from physics.spall import Spall
 
@@ -23,12 +24,6 @@ def gap(race="outer", extent=EXTENT, depth=1e-3, **other):
 
 def tukey(race="outer", **changes):
     return dataclasses.replace(Spall(race, 1, BOTTOM, EXTENT, 12e-6, 0.010, 0.004), **changes)
-
-
-def hanging(race, bearing, psi):
-    """Drop at ψ (rad) from a sharp edge, m: Rb − √(Rb² − R² sin²ψ) ∓ R (1 − cos ψ), − outer race, + inner race."""
-    r, ball = bearing.raceway_radius(race), bearing.ball_radius
-    return ball - np.sqrt(ball**2 - r**2 * np.sin(psi) ** 2) + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
 
 
 def inside(spall, count=1001):
@@ -77,7 +72,8 @@ def test_a_pit_narrower_than_the_ball_can_feel_is_felt_as_a_narrow_gap(gearbox, 
     spall = table(race, [-0.001, -0.00099, 0.00099, 0.001], [0.0, 20e-6, 20e-6, 0.0])
     path = build_path(spall, gearbox.bearing)
     assert path.bridged
-    assert path.largest_depth == pytest.approx(float(hanging(race, gearbox.bearing, 0.001)), rel=0.05)  # sloping walls
+    sharp = hanging(race, gearbox.bearing.raceway_radius(race), gearbox.bearing.ball_radius, 0.001)
+    assert path.largest_depth == pytest.approx(float(sharp), rel=0.05)  # sloping walls
     assert path.largest_depth < 0.01 * 20e-6
 
 
@@ -93,6 +89,15 @@ def test_a_lip_beside_a_measured_spall_lifts_the_ball_before_it_gets_there(gearb
     assert np.max(np.abs(depth[[0, -1]])) < 1e-18
     assert np.max(np.abs(np.diff(depth))) < 0.1e-6  # no jump at the edges of the spall
     assert min(first, last) < -half
+
+
+@pytest.mark.parametrize(("turns", "expected"), [(1, False), (3, False), (8, False), (9, True), (60, True)])
+def test_a_table_is_rough_if_it_goes_up_and_down_all_along(gearbox, turns, expected):
+    angle = np.linspace(-0.15, 0.15, turns + 2)
+    depth = np.where(np.arange(turns + 2) % 2 == 1, 6e-6, 1e-6)
+    fine = np.linspace(-0.15, 0.15, 400)  # many points alone make no roughness
+    spall = table("outer", fine, np.interp(fine, angle, depth).tolist(), 0.3)
+    assert is_rough(spall, gearbox.bearing) is expected
 
 
 def rough(race="outer", profile="tukey", seed=1, deviation=1e-6, count=41):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from measures import hanging
 
 from physics.paths.rolling import branches, deep_gap_drop, hanging_reach, rolled_path
 
@@ -23,13 +24,6 @@ def roll(surface, race, half=HALF, step=STEP, rough=False):
 
 def gap(depth):
     return lambda arc: np.full_like(arc, depth)
-
-
-def hanging(race, psi):
-    """Drop at ψ (rad) from a sharp edge, m: Rb − √(Rb² − R² sin²ψ) ∓ R (1 − cos ψ), − outer race, + inner race."""
-    r = RACE[race]
-    sag = BALL - np.sqrt(BALL**2 - r**2 * np.sin(psi) ** 2)
-    return sag + (-1 if race == "outer" else 1) * r * (1 - np.cos(psi))
 
 
 def closest(surface, race, arcs, drop, half=HALF):
@@ -60,13 +54,13 @@ def bumpy(seed, height, waves=8):
 @RACES
 def test_a_deep_gap_is_crossed_on_the_closed_form_of_its_two_edges(race):
     arcs, drop = roll(gap(1e-3), race)
-    assert np.max(np.abs(drop - hanging(race, HALF - np.abs(arcs)))) < ROUNDING
+    assert np.max(np.abs(drop - hanging(race, RACE[race], BALL, HALF - np.abs(arcs)))) < ROUNDING
 
 
 @RACES
 def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
     arcs, drop = roll(gap(4e-6), race)
-    expected = np.minimum(hanging(race, HALF - np.abs(arcs)), 4e-6)
+    expected = np.minimum(hanging(race, RACE[race], BALL, HALF - np.abs(arcs)), 4e-6)
     assert np.max(np.abs(drop - expected)) < ROUNDING
     assert np.count_nonzero(np.abs(drop - 4e-6) < ROUNDING) > 0.2 * arcs.size
 
@@ -81,7 +75,7 @@ def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slop
     _, slope = deep_gap_drop(race, RACE[race], BALL)
     here, steep = np.flatnonzero(found.arc == found.edges[1]), float(slope(np.array(HALF)))
     assert found.slope[here] == pytest.approx([steep, -steep], rel=1e-6)
-    assert found.drop[here] == pytest.approx(float(hanging(race, HALF)), abs=1e-13)
+    assert found.drop[here] == pytest.approx(float(hanging(race, RACE[race], BALL, HALF)), abs=1e-13)
 
 
 @RACES
@@ -111,13 +105,14 @@ def test_the_closed_form_s_slope_is_its_derivative(race):
 @settings(max_examples=50, deadline=None, derandomize=True)
 def test_the_reach_of_a_hanging_ball_inverts_the_closed_form(race, depth):
     reach = hanging_reach(race, RACE[race], BALL, depth)
-    assert float(hanging(race, reach)) == pytest.approx(depth, rel=1e-6, abs=1e-15)  # cancellation in Rb − √(…)
+    dropped = float(hanging(race, RACE[race], BALL, reach))
+    assert dropped == pytest.approx(depth, rel=1e-6, abs=1e-15)  # cancellation in Rb − √(…)
 
 
 @RACES
 def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
     furthest = math.asin(BALL / RACE[race])
-    deepest = float(hanging(race, furthest - 1e-12))
+    deepest = float(hanging(race, RACE[race], BALL, furthest - 1e-12))
     assert hanging_reach(race, RACE[race], BALL, 1.5 * deepest) == pytest.approx(furthest, rel=1e-6)  # a square root
     assert hanging_reach(race, RACE[race], BALL, 0.0) == 0.0
 
@@ -250,7 +245,7 @@ def test_a_ball_climbs_a_proud_plateau_on_its_very_corner(race):
 def test_both_edges_stay_exact_when_a_bump_stands_proud(race):
     arcs, drop = roll(ridge, race)
     beside_exit = (arcs > HALF - 5e-3) & (arcs < HALF)
-    expected = hanging(race, HALF - arcs[beside_exit])
+    expected = hanging(race, RACE[race], BALL, HALF - arcs[beside_exit])
     assert np.max(np.abs(drop[beside_exit] - expected)) < ROUNDING
 
 

@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
@@ -10,10 +11,6 @@ from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
 
 RATE = 65536.0
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def harmonic_motion(frequency, rate, samples):

@@ -9,8 +9,12 @@ from at_rest import LINE, SOLVED, START, angles
 from scipy.optimize import brentq
 
 from physics.imperfections import Imperfections
-from physics.outcome import StaticOutcome
-from physics.statics.load_distribution import OUTCOMES, equilibrium, load_vector
+from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.statics.ball_load import ball_load
+from physics.statics.load_distribution import OUTCOMES, carried, equilibrium, load_vector
+from physics.statics.rest import NO_EQUILIBRIUM
+from physics.statics.stiffness import stiffness_trace
+from physics.statics.stiffness_series import stiffness_series
 
 
 def loads_of(scene, time=START):
@@ -159,6 +163,38 @@ def test_the_damping_is_that_of_the_loaded_balls(gearbox, build_scene):
     phi = angles(scene, START)[rest.ball_load > 0.0]
     expected = 100.0 * np.array([np.sum(np.cos(phi) ** 2), np.sum(np.sin(phi) ** 2), np.sum(np.cos(phi) * np.sin(phi))])
     assert rest.damping[0] == pytest.approx(expected, rel=1e-12)
+
+
+QUASI_STATIC = {
+    "trace": stiffness_trace,
+    "series": lambda scene, time: stiffness_series(scene, time[1], time.size),
+    "load of a ball": lambda scene, time: ball_load(scene, time, 1, np.ones(time.size, dtype=np.int64)),
+    "equilibrium": carried,
+}
+
+
+@pytest.mark.parametrize("step", [1 / 65536, 1 / 200])  # at which the series is sparse, and at which it is not
+@pytest.mark.parametrize("preload", [0.0, 15e-6])
+@pytest.mark.parametrize("name", QUASI_STATIC)
+def test_where_no_position_carries_the_load_there_is_no_answer(gearbox, build_scene, name, preload, step):
+    soft = {"load_deflection": 1e5, "clearance": -preload}
+    crushed = build_scene(gearbox, bearing=soft, operation={"load": 1e7})
+    with pytest.raises(
+        SimulationFailed, match=r"at t = 0 s no position of the shaft carries .* of 1e\+07 N"
+    ) as failure:
+        QUASI_STATIC[name](crushed, np.arange(200) * step)
+    assert failure.value.outcome is Outcome.NO_START
+
+
+@pytest.mark.parametrize("name", QUASI_STATIC)
+def test_the_first_instant_is_told_at_which_a_growing_load_is_not_carried(gearbox, build_scene, name):
+    swinging = {"load": 1e4, "load_fluctuation": 1.0, "fluctuation_phase": math.pi}
+    scene = build_scene(gearbox, bearing={"load_deflection": 1e5}, operation=swinging)
+    time = np.arange(5000) / 65536.0  # half a turn, in which the load grows from 0 to 20 kN
+    lost = np.flatnonzero(equilibrium(scene, time).status == NO_EQUILIBRIUM)
+    assert time[lost[0]] == pytest.approx(0.0267, abs=1e-4)  # where the shaft would have moved by 50 mm
+    with pytest.raises(SimulationFailed, match=r"^at t = 0\.026[67]\d* s no position"):
+        QUASI_STATIC[name](scene, time)
 
 
 def test_every_status_names_one_outcome():

@@ -19,6 +19,16 @@ WORST = 2e-3  # over kyy, one instant beside a corner of the form √t
 LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
 EXTENDED = Spall("outer", 1, BOTTOM, math.radians(40.0), 4e-6, math.radians(1.0), math.radians(1.0))
 BUMPS = (0.0, *np.random.default_rng(3).normal(0.0, 3e-7, 60).tolist(), 0.0)
+ACROSS = np.linspace(-0.5, 0.5, 201)
+DIP = dataclasses.replace(
+    EXTENDED,
+    depth=0.0,
+    entry_taper=0.0,
+    exit_taper=0.0,
+    profile="table",
+    table_angle=tuple((EXTENDED.extent * ACROSS).tolist()),
+    table_depth=(0.0, *(3e-6 * (1.0 + np.cos(2.0 * np.pi * ACROSS[1:-1]))).tolist(), 0.0),
+)
 SPALLS = {
     "healthy": (),
     "line": (LINE,),
@@ -28,6 +38,7 @@ SPALLS = {
     "sharp": (dataclasses.replace(LINE, entry_taper=0.0, exit_taper=0.0),),
     "ball path": (dataclasses.replace(LINE, profile="ball_path", entry_taper=0.0, exit_taper=0.0),),
     "rough line": (dataclasses.replace(LINE, extent=math.radians(6.0), roughness_values=BUMPS),),
+    "measured dip": (DIP,),
     "short": (dataclasses.replace(LINE, extent=math.radians(0.1), entry_taper=0.0, exit_taper=0.0),),
 }
 SCENES = {
@@ -55,7 +66,7 @@ def test_the_series_is_the_trace_solved_at_every_instant(gearbox, build_scene, s
     assert estimate <= 1e-4  # what the stored trace may miss
 
 
-@pytest.mark.parametrize("spalls", ["healthy", "line", "extended"])
+@pytest.mark.parametrize("spalls", ["healthy", "line", "extended", "measured dip"])
 def test_most_instants_between_the_events_are_not_solved(gearbox, build_scene, spalls):
     assert stiffness_series(build_scene(gearbox, *SPALLS[spalls]), 1.0 / RATE, SAMPLES).solved < 0.25
 

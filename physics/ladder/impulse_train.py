@@ -148,9 +148,9 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
         changes=_changes(scene, edges),
         model=IMPULSE_TRAIN.name,
         method="modes",
-        step=1.0 / rate,
+        step=math.nan,
         error_estimate=math.nan,
-        tension_share=0.0,
+        tension_share=math.nan,
     )
 
 

@@ -27,6 +27,18 @@ class ContactChanges:
 
 
 @dataclass(frozen=True)
+class Kept:
+    """What else a trace keeps besides acceleration and contact changes."""
+
+    state: bool = False
+    force: bool = False
+    outer: bool = False
+
+
+ACCELERATION_ALONE = Kept()
+
+
+@dataclass(frozen=True)
 class Trace:
     """The response of a Scene sampled at `rate` (Hz).
 

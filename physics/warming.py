@@ -36,6 +36,7 @@ from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import carried
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
+from physics.trace import ACCELERATION_ALONE
 
 RATE, SAMPLES = 65536.0, 128
 MARCHING = "from physics.warming import compile_march; compile_march()"
@@ -68,7 +69,7 @@ def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory,
     contacts, flow = assemble(scene), linear_flow(motion_model(scene), (1e8, 1e8), (1.0, 1.0))
     grid = Stride(1, 1.0 / RATE, len(STRIDES), 1.0, 1.0, 1.0, 1.0, 1.0)
     memory = memory_for(flow, np.zeros(AMPLITUDES), empty_tables(), contacts.balls.shape)
-    return contacts, flow, grid, memory, empty_output(contacts, 1, 1, False, False, False)
+    return contacts, flow, grid, memory, empty_output(contacts, 1, 1, ACCELERATION_ALONE)
 
 
 @contextmanager

@@ -11,12 +11,11 @@ from physics.integrators.output import STEPS, Grid, Output
 from physics.response.attempts import made_sure, to_accuracy
 from physics.response.goal import AIM, COARSE, Goal, GoOn, apart, fewest_touching, rms, shown, steady
 from physics.response.march import trace_of
-from physics.response.modal_case import Kept, March, case_of
+from physics.response.modal_case import March, case_of
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
-from physics.trace import Trace
+from physics.trace import ACCELERATION_ALONE, Kept, Trace
 
-ACCELERATION_ALONE = Kept()
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from physics.integrators.modal.memory import STRIDES, Stride
 from physics.integrators.output import LOGGED, Output
-from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March
+from physics.response.modal_case import USUAL_PUSHES, Case, March
+from physics.trace import Kept
 
 Array = NDArray[np.float64]
 GoOn = Callable[[March, Stride], Output]

@@ -23,6 +23,7 @@ from physics.paths.kinks import known_kinks
 from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, refuse
+from physics.trace import ACCELERATION_ALONE, Kept
 
 Array = NDArray[np.float64]
 
@@ -30,15 +31,6 @@ Array = NDArray[np.float64]
 USUAL_PUSHES = 0.3
 MEAN_STIFFNESS_TIMES = 64
 SMALLEST_STIFFNESS = 1e3
-
-
-@dataclass(frozen=True)
-class Kept:
-    """What else a trace keeps besides acceleration and contact changes."""
-
-    state: bool = False
-    force: bool = False
-    outer: bool = False
 
 
 @dataclass(frozen=True)
@@ -110,15 +102,12 @@ class March:
 
     case: Case
     samples: int
-    kept: Kept = Kept()
+    kept: Kept = ACCELERATION_ALONE
     output: Output = field(init=False)
     _memory: Memory | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
-        kept = self.kept
-        self.output = empty_output(
-            self.case.contacts, self.samples, FIRST_CHANGE_LOG, kept.state, kept.force, kept.outer
-        )
+        self.output = empty_output(self.case.contacts, self.samples, FIRST_CHANGE_LOG, self.kept)
 
     def go_on(self, grid: Stride) -> Output:
         """The output, filled up to the samples of `grid`.

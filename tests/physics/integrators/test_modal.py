@@ -67,6 +67,7 @@ from physics.response.march import empty_output
 from physics.response.modal_case import March, case_of, mean_flow, resting
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
+from physics.trace import ACCELERATION_ALONE
 
 RATE = 65536.0
 STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)
@@ -247,7 +248,7 @@ def marched(scene, samples, interval):
     flow = mean_flow(motion, resting(scene))
     grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
     start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
-    output = empty_output(contacts, samples, 64, False, False, False)
+    output = empty_output(contacts, samples, 64, ACCELERATION_ALONE)
     memory = memory_for(flow, start, tables_for(flow, interval), contacts.balls.shape)
     begin(contacts, flow, grid, memory, output)
     assert march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output) == DONE

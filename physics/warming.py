@@ -24,8 +24,8 @@ from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
 from physics.motion import motion_model
 from physics.operation import Operation
-from physics.paths.kinks import known_kinks
 from physics.paths.profile import race_depth
+from physics.response.kinks import known_kinks
 from physics.response.march import empty_output
 from physics.response.resampling import decimate, read_at
 from physics.scene import Scene

@@ -25,7 +25,7 @@ from physics.integrators.output import (
 from physics.integrators.propagator import power_series
 from physics.motion import motion_model, resonator_acceleration
 from physics.outcome import Outcome, SimulationFailed
-from physics.paths.kinks import known_kinks
+from physics.response.kinks import known_kinks
 from physics.scene import Scene
 from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
@@ -68,7 +68,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
 
 def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:
     """Trace of `scene` by the slow reference method, at the instants k / rate, from the state `start` (12,)."""
-    from physics.integrators.reference import integrate_reference
+    from physics.integrators.reference.integrate import integrate_reference
 
     motion = motion_model(scene)
     time = np.arange(samples) / rate

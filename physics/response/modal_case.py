@@ -19,7 +19,7 @@ from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Outpu
 from physics.integrators.stops import Stops
 from physics.motion import MotionModel, motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
-from physics.paths.kinks import known_kinks
+from physics.response.kinks import known_kinks
 from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, refuse

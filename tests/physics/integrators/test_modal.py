@@ -61,8 +61,8 @@ from physics.integrators.modal.weights import (
 from physics.integrators.output import DONE, LOGGED
 from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed
-from physics.paths.kinks import known_kinks
 from physics.paths.profile import build_path
+from physics.response.kinks import known_kinks
 from physics.response.march import empty_output
 from physics.response.modal_case import March, case_of, mean_flow, resting
 from physics.simulate import simulate

@@ -2,7 +2,7 @@
 
 DOP853 and RK45 with SciPy's tables and step control, and the classical Runge-Kutta method with fixed steps, on the
 equations written ball by ball and on this package's contact kernel. They are here to be measured beside the methods of
-this folder, not to be used.
+the folder above, not to be used.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from physics.assembly import assemble
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
-from physics.integrators.ball_by_ball import ball_by_ball_slopes
 from physics.integrators.march import press_state
-from physics.integrators.reference_equations import Equations, write_equations
+from physics.integrators.reference.equations import Equations, write_equations
+from physics.integrators.rivals.ball_by_ball import ball_by_ball_slopes
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 

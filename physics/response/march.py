@@ -57,13 +57,18 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
         output = empty_output(contacts, grid.samples, capacity, kept)
         status = MARCHES[method](contacts, motion, series, grid, stops, start, output)
         capacity *= 8
-    if status == NOT_FINITE:
-        raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps of {grid.step:.3g} s")
-    if status == OUT_OF_STEPS:
-        raise SimulationFailed(
-            Outcome.TOO_MANY_STEPS, f"the method {method} used up its steps within {scene.duration:g} s"
-        )
+    require_done(
+        status, f"of {grid.step:.3g} s", f"the method {method} used up its steps within {scene.duration:g} s"
+    )
     return trace_of(scene, grid, output, method)
+
+
+def require_done(status: int, steps: str, out_of_steps: str) -> None:
+    """Raise SimulationFailed if a march ended with NOT_FINITE, telling how long its `steps` were, or OUT_OF_STEPS."""
+    if status == NOT_FINITE:
+        raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps {steps}")
+    if status == OUT_OF_STEPS:
+        raise SimulationFailed(Outcome.TOO_MANY_STEPS, out_of_steps)
 
 
 def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:

@@ -15,12 +15,12 @@ from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flo
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.memory import RETUNE, SHORTEST, UNITS, Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
-from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Output
+from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
 from physics.motion import MotionModel, motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.response.kinks import known_kinks
-from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
+from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output, require_done
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, refuse
 from physics.trace import ACCELERATION_ALONE, Kept
@@ -125,17 +125,12 @@ class March:
             status = march_modal(contacts, case.flow, grid, case.stops, self._memory, self.output)
             if status == LOG_FULL:
                 self.output = _with_longer_log(self.output, case.scene)
-        if status == OUT_OF_STEPS:
-            raise SimulationFailed(
-                Outcome.TOO_MANY_STEPS,
-                f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or "
-                "least_error takes fewer",
-            )
-        if status == NOT_FINITE:
-            raise SimulationFailed(
-                Outcome.NOT_FINITE,
-                f"the response stopped being finite with steps down to {SHORTEST * grid.interval / UNITS:.3g} s",
-            )
+        require_done(
+            status,
+            f"down to {SHORTEST * grid.interval / UNITS:.3g} s",
+            f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or least_error "
+            "takes fewer",
+        )
         return self.output
 
 

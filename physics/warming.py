@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from physics._jit import discard_cache, nothing_cached
+from physics._jit import discard_cache, nothing_cached, raised_by_cache
 from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
@@ -52,7 +52,9 @@ def warm_up() -> None:
             _use_kernels_beside_the_march(_scene())
     try:
         _use_every_kernel()
-    except Exception:
+    except Exception as error:
+        if not raised_by_cache(error):
+            raise
         discard_cache()
         _use_every_kernel()
 

@@ -1,9 +1,9 @@
 """The impulse train: each edge of a spall takes a ball's static load off the outer ring, or gives it back.
 
 The time of each edge comes from the cage's path, slip included; the load from the healthy load distribution where the
-ball is; the ramp of each taper blunts its step; the linear modes of the rig answer that swing, up to half the rate: what
-creeps back without swinging, as under a strong film, is left out. It is what most generators of bearing signals do, with
-a size in newtons.
+ball is; the ramp of each taper blunts its step; the linear modes of the rig answer that swing, up to half the rate:
+what creeps back without swinging, as under a strong film, is left out. It is what most generators of bearing signals
+do, with a size in newtons.
 """
 
 from __future__ import annotations
@@ -173,8 +173,8 @@ IMPULSE_TRAIN = Model(
     name="impulse train",
     computes="the ringing of the linear modes after each edge of each spall",
     holds_where="times of edges and the lines they make in spectra; levels to within some decibels for line spalls",
-    leaves_out="release and regain other than the edges, variation of stiffness, hardening, healthy vibration, and modes "
-    "that do not swing",
+    leaves_out="release and regain other than the edges, variation of stiffness, hardening, healthy vibration, and "
+    "modes that do not swing",
     rings=True,
     respond=impulse_response,
 )

@@ -57,9 +57,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
         output = empty_output(contacts, grid.samples, capacity, kept)
         status = MARCHES[method](contacts, motion, series, grid, stops, start, output)
         capacity *= 8
-    require_done(
-        status, f"of {grid.step:.3g} s", f"the method {method} used up its steps within {scene.duration:g} s"
-    )
+    require_done(status, f"of {grid.step:.3g} s", f"the method {method} used up its steps within {scene.duration:g} s")
     return trace_of(scene, grid, output, method)
 
 

@@ -13,7 +13,7 @@ SAMPLES, RATE, PUSH, LOAD, MASS = 400, 1000.0, 2.0, 50.0, 5.0
 
 
 def a_case(memory=0.0):
-    """Of which a push of 1 N s rings like 1 / (0.3 · rate · PUSH²), so that PUSH N s make 1 m/s² at the usual number."""
+    """A push of 1 N s rings like 1 / (0.3 · rate · PUSH²), so that PUSH N s make 1 m/s² at the usual number."""
     ringing = 1.0 / (0.3 * RATE * PUSH**2)
     return SimpleNamespace(
         contacts=SimpleNamespace(balls=np.zeros((1, 11, 4))),

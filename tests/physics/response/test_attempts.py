@@ -7,13 +7,13 @@ import pytest
 from stand_ins import SAMPLES, World, a_goal, an_output, tolerance
 
 from physics.outcome import Outcome, SimulationFailed
-from physics.response.attempts import made_sure, to_accuracy
+from physics.response.attempts import confirm_doubtful, to_accuracy
 
 ACCURACY = 1e-3
 
 
 def wrong_by(sensitivity, pushed=1.0, **fields):
-    """Responses of 1 m/s² that are wrong by `sensitivity` times their tolerance; steps' errors are `pushed` times it."""
+    """Responses of 1 m/s² wrong by `sensitivity` times their tolerance; the errors of steps are `pushed` times it."""
 
     def response(asked, number):
         return an_output(np.full((SAMPLES, 2), 1.0 + sensitivity * asked), pushed * asked, **fields)
@@ -66,7 +66,7 @@ def test_a_beginning_that_was_too_coarse_for_the_sensitivity_is_not_gone_on_with
 
 
 def coarse_of(world, sensitivity):
-    """A goal, a response at a tolerance of 1e-4, its grid, and its sensitivity, as `made_sure` takes them."""
+    """A goal, a response at a tolerance of 1e-4, its grid, and its sensitivity, as `confirm_doubtful` takes them."""
     goal = a_goal(world, ACCURACY)
     grid = goal.aimed(1.0, 0.1, 0.0)
     return goal, world.response(tolerance(grid), 0), grid, sensitivity
@@ -74,7 +74,7 @@ def coarse_of(world, sensitivity):
 
 def test_a_doubtful_response_is_said_again_as_much_finer_as_it_is_sensitive():
     world = wrong_by(5.0)
-    again, error, sensitivity = made_sure(*coarse_of(world, 5.0))
+    again, error, sensitivity = confirm_doubtful(*coarse_of(world, 5.0))
     share = 3.5 / (6.0 * 5.0)
     assert world.asked == [pytest.approx(share * 1e-4, rel=1e-9)]
     assert again.acceleration[0, 0] == pytest.approx(1.0 + 5.0 * share * 1e-4, rel=1e-12)
@@ -84,7 +84,7 @@ def test_a_doubtful_response_is_said_again_as_much_finer_as_it_is_sensitive():
 
 def test_a_second_response_that_shows_more_sensitivity_is_made_once_more_to_it():
     world = wrong_by(40.0)
-    _, error, sensitivity = made_sure(*coarse_of(world, 5.0))
+    _, error, sensitivity = confirm_doubtful(*coarse_of(world, 5.0))
     found = 40.0 * (1.0 - 3.5 / 30.0)
     assert sensitivity == pytest.approx(found, rel=1e-6)
     assert world.asked[1] == pytest.approx(1e-4 * 3.5 / (6.0 * found), rel=1e-6)
@@ -94,7 +94,7 @@ def test_a_second_response_that_shows_more_sensitivity_is_made_once_more_to_it()
 
 def test_a_chaotic_response_is_confirmed_by_one_so_much_finer_as_their_distance_asks_for():
     world = wrong_by(60.0)
-    fine, error, sensitivity = made_sure(*coarse_of(world, 60.0))
+    fine, error, sensitivity = confirm_doubtful(*coarse_of(world, 60.0))
     first = 60.0 * 1e-4 * 15.0 / 16.0  # from a tolerance of 1e-4 to a sixteenth
     next_share = (ACCURACY / (6.0 * first * 0.25)) ** 2  # errors fall with the root of the tolerance until shown
     assert world.asked == pytest.approx([1e-4 / 16.0, 1e-4 / 16.0 * next_share], rel=1e-3)
@@ -105,7 +105,7 @@ def test_a_chaotic_response_is_confirmed_by_one_so_much_finer_as_their_distance_
 
 def test_rings_that_part_are_confirmed_however_little_sensitive():
     world = wrong_by(1.0, made=(False, False))
-    made_sure(*coarse_of(world, 1.0))
+    confirm_doubtful(*coarse_of(world, 1.0))
     assert world.asked[0] == pytest.approx(1e-4 / 16.0, rel=1e-9)
 
 
@@ -124,7 +124,7 @@ def flipping(alike):
 def test_of_responses_that_part_too_soon_none_is_known(alike, calls):
     """Two more attempts would be needed from a share of 0.15 on, one from 0.4 on; then there are none left."""
     world = flipping(alike)
-    _, error, _ = made_sure(*coarse_of(world, 60.0))
+    _, error, _ = confirm_doubtful(*coarse_of(world, 60.0))
     assert len(world.asked) == calls
     assert math.isinf(error)
 
@@ -138,7 +138,7 @@ def test_what_cannot_be_made_finer_keeps_the_error_that_was_seen():
         return plain.response(asked, number)
 
     world = World(response)
-    fine, error, _ = made_sure(*coarse_of(world, 60.0))
+    fine, error, _ = confirm_doubtful(*coarse_of(world, 60.0))
     assert len(world.asked) == 2
     assert error == pytest.approx(6.0 * 60.0 * 1e-4 * 15.0 / 16.0 * 0.25, rel=1e-3)
     assert fine.acceleration[0, 0] == pytest.approx(1.0 + 60.0 * 1e-4 / 16.0, rel=1e-12)
@@ -147,5 +147,5 @@ def test_what_cannot_be_made_finer_keeps_the_error_that_was_seen():
 def test_none_is_made_after_one_that_took_seven_times_the_steps():
     plain = wrong_by(60.0)
     world = World(lambda asked, number: plain.response(asked, number)._replace(tally=np.array([0, 0, 1 + 7 * number])))
-    made_sure(*coarse_of(world, 60.0))
+    confirm_doubtful(*coarse_of(world, 60.0))
     assert len(world.asked) == 1

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from stand_ins import LOAD, MASS, PUSH, RATE, SAMPLES, World, a_case, a_goal, an_output, tolerance
 
-from physics.response.goal import apart, fewest_touching, finer, rms, shown, steady, tame
+from physics.response.goal import fewest_touching, finer, observed_sensitivity, rms, rms_distance, safety_factor, steady
 
 ONES = np.ones((SAMPLES, 2))
 
@@ -17,8 +17,8 @@ def test_the_error_allowed_is_a_share_of_the_signal_or_the_least_error():
 
 
 def test_a_scene_counts_as_tame_until_six_times_its_sensitivity_exceeds_the_usual_factor():
-    assert tame(0.0) == tame(0.58) == 1.0  # 6 · 0.58 < 3.5
-    assert tame(7.0) == pytest.approx(12.0, rel=1e-12)  # 6 · 7 / 3.5
+    assert safety_factor(0.0) == safety_factor(0.58) == 1.0  # 6 · 0.58 < 3.5
+    assert safety_factor(7.0) == pytest.approx(12.0, rel=1e-12)  # 6 · 7 / 3.5
 
 
 def test_the_estimate_is_the_usual_factor_or_six_times_the_sensitivity_of_what_steps_add_up_to():
@@ -64,14 +64,16 @@ def test_two_responses_are_apart_by_their_difference_as_long_as_both_last():
     other = ONES.copy()
     other[SAMPLES // 4 :] += 3.0
     one, long = an_output(ONES), an_output(np.vstack([other, other]))
-    assert apart(one, long) == pytest.approx(3.0 * math.sqrt(0.75), rel=1e-12)
-    assert apart(one, long, 0.25) == 0.0
-    assert apart(one, long, 0.5) == pytest.approx(3.0 * math.sqrt(0.5), rel=1e-12)
+    assert rms_distance(one, long) == pytest.approx(3.0 * math.sqrt(0.75), rel=1e-12)
+    assert rms_distance(one, long, 0.25) == 0.0
+    assert rms_distance(one, long, 0.5) == pytest.approx(3.0 * math.sqrt(0.5), rel=1e-12)
 
 
 def test_the_sensitivity_shown_is_the_distance_over_what_the_coarse_ones_steps_add_up_to():
-    assert shown(a_case(), an_output(ONES, pushed=0.1), an_output(ONES + 0.5)) == pytest.approx(5.0, rel=1e-12)
-    assert shown(a_case(), an_output(ONES), an_output(ONES + 0.5)) == 0.0
+    assert observed_sensitivity(a_case(), an_output(ONES, pushed=0.1), an_output(ONES + 0.5)) == pytest.approx(
+        5.0, rel=1e-12
+    )
+    assert observed_sensitivity(a_case(), an_output(ONES), an_output(ONES + 0.5)) == 0.0
 
 
 def test_the_fewest_balls_that_touch_at_once_are_counted_through_the_logged_changes():

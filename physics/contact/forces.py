@@ -188,7 +188,8 @@ def press(contacts: Contacts, dx: float, dy: float, vx: float, vy: float) -> tup
         q = dy * cosine - dx * sine
         a = vx * cosine + vy * sine + speed * q
         b = vy * cosine - vx * sine - speed * p
-        # Two loops that differ in the power alone: a choice inside the loop would keep it from vector instructions.
+        # Two loops that differ in the power alone, so that vector instructions do not hang on the compiler's taking the
+        # choice out of one.
         if law.exponent == 1.5:
             for j in range(balls.shape[2]):
                 compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]

@@ -206,9 +206,9 @@ def raised_by_cache(error: BaseException | None) -> bool:
 
     A file that is missing, locked or does not fit on the disk is not damaged.
     """
-    while error is not None:
+    while error is not None and not isinstance(error, OSError):
         met = (frame.f_code.co_filename for frame, _ in traceback.walk_tb(error.__traceback__))
-        if not isinstance(error, OSError) and numba.core.caching.__file__ in met:
+        if numba.core.caching.__file__ in met:
             return True
         error = error.__cause__ or error.__context__
     return False

@@ -234,6 +234,15 @@ def test_an_error_of_a_kernel_or_of_the_disk_is_none_of_the_cache():
     assert not raised_by_cache(missing.value)
 
 
+def test_an_error_to_which_a_cut_file_led_is_one_of_the_cache(tmp_path):
+    (tmp_path / "cut.nbi").write_bytes(b"\x80\x04")
+    with pytest.raises(EOFError) as cut:
+        numba.core.caching.IndexDataCacheFile(str(tmp_path), "cut", None).load(1)
+    while_compiling = RuntimeError("while compiling")
+    while_compiling.__cause__ = cut.value
+    assert raised_by_cache(while_compiling)
+
+
 def test_a_cut_cache_file_is_cured_by_discarding_the_cache(tmp_path):
     home = tmp_path / "cache"
     answer, folder = run_kernel(tmp_path, home)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
-from physics.integrators.modal.weights import POWERS
+from physics.integrators.modal.layout import POWERS
 
 Array = NDArray[np.float64]
 

@@ -36,10 +36,7 @@ from physics.integrators.modal.flow import (
     ringing,
 )
 from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, REJECTED, may_shrink
-from physics.integrators.modal.march import begin, march_modal
-from physics.integrators.modal.memory import STRIDES, Stride, memory_for
-from physics.integrators.modal.tables import tables_for
-from physics.integrators.modal.weights import (
+from physics.integrators.modal.layout import (
     AT_END,
     AT_HALF,
     HALF_POWERS,
@@ -55,9 +52,11 @@ from physics.integrators.modal.weights import (
     SECTION,
     STEP_WEIGHTS,
     TURN,
-    set_inside,
-    set_step,
 )
+from physics.integrators.modal.march import begin, march_modal
+from physics.integrators.modal.memory import STRIDES, Stride, memory_for
+from physics.integrators.modal.tables import tables_for
+from physics.integrators.modal.weights import set_inside, set_step
 from physics.integrators.output import DONE, LOGGED
 from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed

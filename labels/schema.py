@@ -180,7 +180,13 @@ LABELS: tuple[Label, ...] = (
     ),
     _text("model", "run", 'Model that made the signal; "measured" if a real machine did.'),
     _text("method", "run", 'Integrator that solved it; "none" if nothing was solved.'),
-    _number("step", "s", "run", "Longest time step of the integrator.", "the model takes no steps"),
+    _number(
+        "step",
+        "s",
+        "run",
+        "Mean time step of a method that chooses its own for the accuracy, else the longest step of the integrator.",
+        "nothing was solved in steps, or they were not counted",
+    ),
     _number(
         "error_estimate",
         "1",
@@ -193,7 +199,7 @@ LABELS: tuple[Label, ...] = (
         "1",
         "run",
         "Share of contact time, summed over the balls, in which the oil film pulls.",
-        "the model has no contact forces",
+        "the forces of single balls were not followed",
     ),
     _number(
         "stiffness_error",

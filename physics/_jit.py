@@ -11,6 +11,7 @@ import hashlib
 import os
 import shutil
 import tempfile
+import traceback
 import types
 from collections.abc import Callable
 from functools import cache
@@ -18,6 +19,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar, cast
 
 import numba
+import numba.core.caching
 import numba.core.cgutils
 import numba.core.registry
 import numba.extending
@@ -197,6 +199,19 @@ def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
 def nothing_cached() -> bool:
     """Whether no kernel has been compiled yet; the folders of kernels are there as soon as they are defined."""
     return not any(CACHE_FOLDER.rglob("*.nbi"))
+
+
+def raised_by_cache(error: BaseException | None) -> bool:
+    """Whether `error`, or one that led to it, arose while a compiled kernel was read back: what a cut file raises.
+
+    A file that is missing, locked or does not fit on the disk is not damaged.
+    """
+    while error is not None and not isinstance(error, OSError):
+        met = (frame.f_code.co_filename for frame, _ in traceback.walk_tb(error.__traceback__))
+        if numba.core.caching.__file__ in met:
+            return True
+        error = error.__cause__ or error.__context__
+    return False
 
 
 def discard_cache() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.cage import CagePath
-from physics.contact.forces import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, PLACE, SINE, Contacts, Law
+from physics.contact.forces import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, LANES, PLACE, SINE, Contacts, Law
 from physics.contact.track import (
     ANGLE,
     CAGE,
@@ -31,7 +31,6 @@ from physics.scene import Scene
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-LANES = 4
 PADDING_GAP = 1.0
 WAVINESS_CELLS_PER_WAVE = 64
 TABLES_KEPT = 8

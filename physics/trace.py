@@ -27,8 +27,26 @@ class ContactChanges:
 
 
 @dataclass(frozen=True)
+class Kept:
+    """What else a trace keeps besides acceleration and contact changes."""
+
+    state: bool = False
+    force: bool = False
+    outer: bool = False
+
+
+ACCELERATION_ALONE = Kept()
+
+
+@dataclass(frozen=True)
 class Trace:
     """The response of a Scene sampled at `rate` (Hz).
+
+    `model` is its name in `physics.simulate`, and `method` what solved it: a name of `integrators.methods.METHODS`,
+    "modal, repeated" where the last period of a modal march stands for all later ones, or a simpler model's own.
+    `step` (s): of the modal method the mean over the march, of methods with fixed steps each step's length away from
+    contact changes and kinks, of dormand_prince the longest it may take; NaN of the reference method, which does not
+    count its steps, and of simpler models that solve nothing in steps.
 
     `time` (T,) s from 0, or from before it where a lead-in is kept;
     `acceleration` (T, 2) of the resonator's mass along x and y, m/s²;
@@ -39,8 +57,11 @@ class Trace:
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `chaotic`: errors grow faster than shorter steps could reduce them, so compare spectra, not samples.
-    `tension_share` is the share of contact time (summed over balls) in which the contact force pulls.
+    `tension_share` is the share of contact time (summed over balls) in which the contact force pulls; NaN where the
+    forces of single balls were not followed, as by the reference method, the impulse train and the linear model.
     `unlocated_changes` counts changes of contact that many tries did not locate; they were taken at the ends of steps.
+    Both, and `step`, are of the whole march: with a lead-in of all of it, also where it is not kept, and of a response
+    that repeats itself of what was marched.
     """
 
     rate: float

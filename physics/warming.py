@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from physics._jit import discard_cache, nothing_cached
+from physics._jit import discard_cache, nothing_cached, raised_by_cache
 from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
@@ -24,8 +24,8 @@ from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
 from physics.motion import motion_model
 from physics.operation import Operation
-from physics.paths.kinks import known_kinks
 from physics.paths.profile import race_depth
+from physics.response.kinks import known_kinks
 from physics.response.march import empty_output
 from physics.response.resampling import decimate, read_at
 from physics.scene import Scene
@@ -36,6 +36,7 @@ from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import carried
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
+from physics.trace import ACCELERATION_ALONE
 
 RATE, SAMPLES = 65536.0, 128
 MARCHING = "from physics.warming import compile_march; compile_march()"
@@ -51,7 +52,9 @@ def warm_up() -> None:
             _use_kernels_beside_the_march(_scene())
     try:
         _use_every_kernel()
-    except Exception:
+    except Exception as error:
+        if not raised_by_cache(error):
+            raise
         discard_cache()
         _use_every_kernel()
 
@@ -68,7 +71,7 @@ def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory,
     contacts, flow = assemble(scene), linear_flow(motion_model(scene), (1e8, 1e8), (1.0, 1.0))
     grid = Stride(1, 1.0 / RATE, len(STRIDES), 1.0, 1.0, 1.0, 1.0, 1.0)
     memory = memory_for(flow, np.zeros(AMPLITUDES), empty_tables(), contacts.balls.shape)
-    return contacts, flow, grid, memory, empty_output(contacts, 1, 1, False, False, False)
+    return contacts, flow, grid, memory, empty_output(contacts, 1, 1, ACCELERATION_ALONE)
 
 
 @contextmanager

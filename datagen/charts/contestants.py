@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.charts.response import Response, of_states, of_trace
-from physics.integrators.general_purpose import (
+from physics.integrators.methods import MARCHES, METHODS, REFERENCE
+from physics.integrators.rivals.general_purpose import (
     BALL_BY_BALL,
     CONTACT_KERNEL,
     PAIRS,
@@ -20,7 +21,6 @@ from physics.integrators.general_purpose import (
     integrate_compiled,
     right_hand_side,
 )
-from physics.integrators.methods import MARCHES, METHODS, REFERENCE
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.response.periodic import METHOD as REPEATED

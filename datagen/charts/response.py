@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.integrators.reference_equations import contact_set, write_equations
+from physics.integrators.reference.equations import contact_set, write_equations
 from physics.ladder.contact_sets import changes_between_samples
 from physics.motion import motion_model, resonator_acceleration
 from physics.scene import Scene

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from datagen.charts.contestants import METHOD, MODEL
 from datagen.charts.measure import TARGET, Chart, Run
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, plt, png_of
-from physics.integrators.general_purpose import BALL_BY_BALL
 from physics.integrators.methods import MODAL
+from physics.integrators.rivals.general_purpose import BALL_BY_BALL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

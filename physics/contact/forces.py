@@ -44,11 +44,13 @@ Array = NDArray[np.float64]
 # gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or
 # not the ball touches (N); the force of the contact set (N); the rate of compression (m/s);
 # its angle in the cage (rad).
-COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING, PLACE = range(11)
 BALL_ROWS = 11
+COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING, PLACE = range(BALL_ROWS)
+# The balls of a cage are padded to a multiple of this: the four sums of `_sum_lanes`.
+LANES = 4
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
-FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(3)
 FRAME_COLUMNS = 3
+FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(FRAME_COLUMNS)
 
 
 class Law(NamedTuple):
@@ -186,6 +188,8 @@ def press(contacts: Contacts, dx: float, dy: float, vx: float, vy: float) -> tup
         q = dy * cosine - dx * sine
         a = vx * cosine + vy * sine + speed * q
         b = vy * cosine - vx * sine - speed * p
+        # Two loops that differ in the power alone, so that vector instructions do not hang on the compiler's taking the
+        # choice out of one.
         if law.exponent == 1.5:
             for j in range(balls.shape[2]):
                 compression = p * balls[cage, COSINE, j] + q * balls[cage, SINE, j] - balls[cage, FLOOR, j]
@@ -215,7 +219,7 @@ def _sum_lanes(balls: Array, cage: int) -> tuple[float, float]:
     """Sums of force times cosine and sine over the balls of one cage, in four lanes added in a fixed order."""
     p0, p1, p2, p3 = 0.0, 0.0, 0.0, 0.0
     q0, q1, q2, q3 = 0.0, 0.0, 0.0, 0.0
-    for j in range(0, balls.shape[2], 4):
+    for j in range(0, balls.shape[2], LANES):
         p0 += balls[cage, FORCE, j] * balls[cage, COSINE, j]
         p1 += balls[cage, FORCE, j + 1] * balls[cage, COSINE, j + 1]
         p2 += balls[cage, FORCE, j + 2] * balls[cage, COSINE, j + 2]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.motion import MotionModel, outer_load, resonator_acceleration
+from physics.motion import MotionModel, outer_load, outer_ring_acceleration, resonator_acceleration
 
 Array = NDArray[np.float64]
 
@@ -16,8 +16,6 @@ def accelerations(motion: MotionModel, time: float, state: Array, force: tuple[f
     """Fill `result` (6,), m/s², for inner ring, outer ring and resonator under the net contact `force` (N)."""
     load = outer_load(motion, time)
     for axis in range(2):
-        resonator = resonator_acceleration(motion, state, axis)
-        support = motion.support_stiffness[axis] * state[2 + axis] + motion.support_damping[axis] * state[8 + axis]
         result[axis] = (load[axis] - force[axis]) / motion.inner_mass
-        result[2 + axis] = (force[axis] - support - motion.resonator_mass * resonator) / motion.outer_mass
-        result[4 + axis] = resonator
+        result[2 + axis] = outer_ring_acceleration(motion, state, axis, force[axis])
+        result[4 + axis] = resonator_acceleration(motion, state, axis)

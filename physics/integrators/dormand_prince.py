@@ -1,7 +1,8 @@
 """The embedded pair of Dormand and Prince (1980) of orders 5 and 4: seven contact sums a step, dense output of order 4.
 
-Stable up to ω h ≈ 1 for undamped modes, the resonator's included; its step control keeps it there. Not to be confused
-with SciPy's RK45, the same pair, which runs through changes of contact without knowing of them.
+Stable up to ω h ≈ 1 for undamped modes, the resonator's included; its step control keeps it there, so its contract
+states no limit. Not to be confused with SciPy's RK45, the same pair, which runs through changes of contact without
+knowing of them.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """The impulse train: each edge of a spall takes a ball's static load off the outer ring, or gives it back.
 
 The time of each edge comes from the cage's path, slip included; the load from the healthy load distribution where the
-ball is; the ramp of each taper blunts its step; the linear modes of the rig answer. It is what most generators of
-bearing signals do, with a size in newtons.
+ball is; the ramp of each taper blunts its step; the linear modes of the rig answer that swing, up to half the rate:
+what creeps back without swinging, as under a strong film, is left out. It is what most generators of bearing signals
+do, with a size in newtons.
 """
 
 from __future__ import annotations
@@ -107,7 +108,10 @@ def _blunted(frequency: float, ramp: Array) -> Array:
 
 
 def _ring(time: Array, size: Array, frequency: float, damping: float, samples: int, rate: float) -> Array:
-    """Acceleration (T,) of a modal coordinate of unit mass after steps of force `size` (E,), N, at `time` (E,), s."""
+    """Acceleration (T,) of a modal coordinate of unit mass after steps of force `size` (E,), N, at `time` (E,), s.
+
+    Zero for a mode that does not swing: `damping` of 1 or more.
+    """
     from scipy.signal import lfilter
 
     decay = frequency * complex(-damping, math.sqrt(max(1.0 - damping**2, 0.0)))
@@ -148,9 +152,9 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
         changes=_changes(scene, edges),
         model=IMPULSE_TRAIN.name,
         method="modes",
-        step=1.0 / rate,
+        step=math.nan,
         error_estimate=math.nan,
-        tension_share=0.0,
+        tension_share=math.nan,
     )
 
 
@@ -169,7 +173,8 @@ IMPULSE_TRAIN = Model(
     name="impulse train",
     computes="the ringing of the linear modes after each edge of each spall",
     holds_where="times of edges and the lines they make in spectra; levels to within some decibels for line spalls",
-    leaves_out="release and regain other than the edges, variation of stiffness, hardening, and healthy vibration",
+    leaves_out="release and regain other than the edges, variation of stiffness, hardening, healthy vibration, and "
+    "modes that do not swing",
     rings=True,
     respond=impulse_response,
 )

@@ -62,18 +62,16 @@ def repeats_with_the_balls(scene: Scene) -> bool:
 
 
 @njit
-def _linearise(contacts: Contacts, time: Array, loads: Array) -> tuple[Array, Array, NDArray[np.bool_], int]:
-    """Table (N, 9), the position (2,) at its first time, who touches (N, M), and the first index without a position."""
-    table, first = np.zeros((time.size, COLUMNS)), np.zeros(2)
+def _linearise(contacts: Contacts, time: Array, loads: Array) -> tuple[Array, NDArray[np.bool_], int]:
+    """Table (N, 9), who touches (N, M), and the first index without a position, or −1."""
+    table = np.zeros((time.size, COLUMNS))
     touching = np.zeros((time.size, contacts.balls.shape[0] * contacts.balls.shape[2]), dtype=np.bool_)
     dx, dy = 0.0, 0.0
     for k in range(time.size):
         set_time(contacts, time[k])
         dx, dy, _, status = solve_at(contacts, loads[k, 0], loads[k, 1], dx, dy)
         if status == NO_EQUILIBRIUM:
-            return table, first, touching, k
-        if k == 0:
-            first[0], first[1] = dx, dy
+            return table, touching, k
         press(contacts, dx, dy, 0.0, 0.0)
         reset_contact(contacts)
         fx, fy = press(contacts, dx, dy, 0.0, 0.0)
@@ -82,7 +80,7 @@ def _linearise(contacts: Contacts, time: Array, loads: Array) -> tuple[Array, Ar
         table[k] = fx - xx * dx - xy * dy, fy - yx * dx - yy * dy, xx, xy, yx, yy, cxx - xx, cxy - xy, cyy - yy
         for ball in range(touching.shape[1]):
             touching[k, ball] = of_ball(contacts.balls, ACTIVE, ball) > 0.5
-    return table, first, touching, -1
+    return table, touching, -1
 
 
 class LinearContacts(NamedTuple):
@@ -166,7 +164,7 @@ def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, NDArr
     else:
         time = np.arange(NODES_PER_SAMPLE * samples + 1) / (NODES_PER_SAMPLE * rate)
     loads = load_vector(scene, time)
-    table, _, touching, lost = _linearise(contacts, time, loads)
+    table, touching, lost = _linearise(contacts, time, loads)
     if lost >= 0:
         refuse(scene, float(time[lost]))
     return time, table, touching
@@ -194,16 +192,16 @@ def linear_response(scene: Scene, rate: float) -> Trace:
     """
     samples = round(scene.duration * rate)
     contacts, motion = assemble(scene), motion_model(scene)
-    substeps = stable_substeps(scene, METHODS[METHOD], carried(scene, np.zeros(1)), rate)
+    rest = carried(scene, np.zeros(1))
+    substeps = stable_substeps(scene, METHODS[METHOD], rest, rate)
     require_stable(METHODS[METHOD], rate, substeps, substeps)
     time, table, touching = _table(scene, samples, rate)
     repeats = repeats_with_the_balls(scene)
     width = scene.rig.bearing.spacing / NODES_PER_SPACING if repeats else float(time[1])
     place = Place(contacts.track, scene.rig.bearing.spacing if repeats else 0.0, width)
-    now = _linearise(contacts, np.zeros(1), load_vector(scene, np.zeros(1)))[1]
     state = np.zeros((samples, 12))
     series = power_series(motion, 1.0 / (rate * substeps))
-    acceleration = _march(table, place, motion, series, substeps, starting_state(motion, now), state)
+    acceleration = _march(table, place, motion, series, substeps, starting_state(motion, rest.displacement[0]), state)
     if not np.isfinite(acceleration).all():
         raise SimulationFailed(
             Outcome.NOT_FINITE, f"the response stopped being finite with steps of {series.step:.3g} s"

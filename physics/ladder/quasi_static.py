@@ -37,7 +37,7 @@ def quasi_static_response(scene: Scene, rate: float) -> Trace:
         changes=changes_between_samples(rest.ball_load > 0.0, rate),
         model=QUASI_STATIC.name,
         method="Newton",
-        step=1.0 / rate,
+        step=math.nan,
         error_estimate=math.nan,
         tension_share=0.0,
         state=np.hstack([position, np.gradient(position, 1.0 / rate, axis=0)]) if time.size > 1 else None,

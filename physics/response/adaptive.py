@@ -8,15 +8,24 @@ from typing import NamedTuple
 
 from physics.integrators.methods import MODAL
 from physics.integrators.output import STEPS, Grid, Output
-from physics.response.attempts import made_sure, to_accuracy
-from physics.response.goal import AIM, COARSE, Goal, GoOn, apart, fewest_touching, rms, shown, steady
+from physics.response.attempts import confirm_doubtful, to_accuracy
+from physics.response.goal import (
+    AIM,
+    COARSE,
+    Goal,
+    GoOn,
+    fewest_touching,
+    observed_sensitivity,
+    rms,
+    rms_distance,
+    steady,
+)
 from physics.response.march import trace_of
-from physics.response.modal_case import Kept, March, case_of
+from physics.response.modal_case import March, case_of
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
-from physics.trace import Trace
+from physics.trace import ACCELERATION_ALONE, Kept, Trace
 
-ACCELERATION_ALONE = Kept()
 PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
@@ -72,11 +81,11 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
     if not growing and fewest_touching(output) <= goal.case.scene.rig.bearing.rows:
         # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
         coarse = goal.coarse(size)
-        sensitivity = max(sensitivity, shown(goal.case, coarse, output))
-        distance, growing = apart(coarse, output), True
+        sensitivity = max(sensitivity, observed_sensitivity(goal.case, coarse, output))
+        distance, growing = rms_distance(coarse, output), True
     allowed = goal.allowed(size)
     if sensitivity > DOUBTFUL or (growing and distance > min(NEAR * allowed, max(FAR * size, allowed))):
-        return made_sure(goal, output, grid, sensitivity)
+        return confirm_doubtful(goal, output, grid, sensitivity)
     if growing and goal.error(output, sensitivity) > allowed:
         output, _ = to_accuracy(goal, goal.begin(), size**2, sensitivity)
     return output, goal.error(output, sensitivity), sensitivity

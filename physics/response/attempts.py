@@ -4,31 +4,24 @@ will."""
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from physics.integrators.modal.memory import Stride
 from physics.integrators.output import STEPS, Output
 from physics.outcome import SimulationFailed
-from physics.response.goal import AIM, ROUND_OFF, Goal, apart, fewest_touching, finer, rms, shown, tame
+from physics.response.goal import (
+    AIM,
+    ROUND_OFF,
+    Goal,
+    fewest_touching,
+    finer,
+    observed_sensitivity,
+    rms,
+    rms_distance,
+    safety_factor,
+)
 from physics.response.modal_case import March
 
-# A response of more than this sensitivity may be chaotic, and is to be confirmed.
-CHAOTIC = 50.0
-# Of a response that is farther than LOST of its size from a coarser one no point is known. To confirm one, up to so
-# many are made, with between MUCH_FINER and SURE of the tolerance of the one before.
-LOST, MOST_CONFIRMATIONS = 0.1, 4
-# None is made after one that took this many times the steps of the response to be confirmed.
-MUCH_WORK = 7
-MUCH_FINER, SURE = 1.0 / 256.0, 1.0 / 16.0
-# What the share of the samples before they are LOST must exceed, with two attempts left and with one: it grew at most
-# 2.6 times when the tolerance became MUCH_FINER (in 100 such scenes of 2780 of the wide corpus, from 0.1 to 1 s long).
-SOON = (0.15, 0.4)
-# Distances shrink with tolerances to this power, or to a higher one if the responses show it: impacts' errors shrink
-# late.
-LATE = 0.5
-# The finer of two responses may be this many times as wrong as their distance leaves to hope for.
-CONFIRMED = 6.0
-# To say a response again it is made with this share of the tolerance at most.
-FINER = 0.25
 # A beginning made with more than this many times the tolerance that the scene turns out to need is made again.
 CALM = 1.5
 # No further attempt is made after one that has left more than this share of the error.
@@ -41,8 +34,8 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
     The first attempt goes on with the `march` that may have begun, unless steps are to be more exact; more begin anew.
     `seen` (m²/s⁴) is what to take for the mean square of the signal.
     """
-    aim, error = AIM / tame(sensitivity), math.inf
-    if tame(sensitivity) > CALM:
+    aim, error = AIM / safety_factor(sensitivity), math.inf
+    if safety_factor(sensitivity) > CALM:
         march = goal.begin()
     for _ in range(MOST_ATTEMPTS):
         grid = goal.aimed(seen, aim, sensitivity)
@@ -57,7 +50,13 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
     return output, grid
 
 
-def made_sure(goal: Goal, output: Output, grid: Stride, sensitivity: float) -> tuple[Output, float, float]:
+# A response of more than this sensitivity may be chaotic, and is to be confirmed.
+CHAOTIC = 50.0
+# To say a response again it is made with this share of the tolerance at most; to confirm one, at first with SURE.
+FINER, SURE = 0.25, 1.0 / 16.0
+
+
+def confirm_doubtful(goal: Goal, output: Output, grid: Stride, sensitivity: float) -> tuple[Output, float, float]:
     """The response made again with a smaller tolerance than that of the `output`'s grid; its estimated error (m/s²,
     RMS), infinite if no trajectory is known, and the sensitivity that both tell.
 
@@ -65,42 +64,100 @@ def made_sure(goal: Goal, output: Output, grid: Stride, sensitivity: float) -> t
     is not within the goal.
     """
     sure = sensitivity > CHAOTIC or fewest_touching(output) == 0
-    share = SURE if sure else min(FINER, 1.0 / tame(sensitivity))
+    share = SURE if sure else min(FINER, 1.0 / safety_factor(sensitivity))
     grid = finer(grid, share)
     again = goal.anew(grid)
-    sensitivity = max(sensitivity, shown(goal.case, output, again))
+    sensitivity = max(sensitivity, observed_sensitivity(goal.case, output, again))
     if sensitivity > CHAOTIC or fewest_touching(again) == 0:
-        return *_confirmed(goal, output, again, grid, share), sensitivity
+        return *_confirmed(goal, _pair(output, again, share), grid), sensitivity
     size = rms(again.acceleration)
     if goal.error(again, sensitivity) > goal.allowed(size):
         again, _ = to_accuracy(goal, goal.begin(), size**2, sensitivity)
     return again, goal.error(again, sensitivity), sensitivity
 
 
-def _confirmed(goal: Goal, coarse: Output, fine: Output, grid: Stride, share: float) -> tuple[Output, float]:
-    """The `fine` response on `grid`, or the first finer one, that is well within the goal of the one before, at first
-    the `coarse` one with a `share` less tolerance; and the error (m/s², RMS) that this tells.
+# Of a response that is farther than this share of its size from a coarser one no point is known.
+LOST = 0.1
+# Distances shrink with tolerances to this power, or to a higher one if the responses show it: impacts' errors shrink
+# late.
+LATE = 0.5
+# The finer of two responses may be this many times as wrong as their distance leaves to hope for.
+CONFIRMED = 6.0
+
+
+class Pair(NamedTuple):
+    """A `coarse` response and a `fine` one with this `share` of its tolerance, their `distance` and the `size` of the
+    fine one (m/s², RMS)."""
+
+    coarse: Output
+    fine: Output
+    share: float
+    distance: float
+    size: float
+
+    @property
+    def lost(self) -> bool:
+        """Whether they are so far apart that no point of the response is known."""
+        return self.distance > LOST * self.size
+
+    @property
+    def error(self) -> float:
+        """Of the fine one (m/s², RMS), as far as both tell."""
+        return CONFIRMED * self.distance * self.share**LATE
+
+    def lost_within(self, share: float) -> bool:
+        """Whether they are LOST already in this share of the samples."""
+        return rms_distance(self.coarse, self.fine, share) > LOST * self.size
+
+
+def _pair(coarse: Output, fine: Output, share: float) -> Pair:
+    return Pair(coarse, fine, share, rms_distance(coarse, fine), rms(fine.acceleration))
+
+
+# How many more are made to confirm one; none after one that took MUCH_WORK times the steps of the one to be confirmed.
+MOST_CONFIRMATIONS, MUCH_WORK = 4, 7
+# What the share of the samples before they are LOST must exceed, with two attempts left and with one: it grew at most
+# 2.6 times when the tolerance became MUCH_FINER (in 100 such scenes of 2780 of the wide corpus, from 0.1 to 1 s long).
+SOON = (0.15, 0.4)
+# The next one has at least this share of the tolerance of the one before, and at most SURE.
+MUCH_FINER = 1.0 / 256.0
+
+
+def _confirmed(goal: Goal, pair: Pair, grid: Stride) -> tuple[Output, float]:
+    """The fine response of the `pair`, which is on `grid`, or the first finer one, that is well within the goal of the
+    one before; and the error (m/s², RMS) that this tells.
 
     Where they are LOST too SOON for the attempts that are left, the error is infinite.
     """
-    most = MUCH_WORK * int(coarse.tally[STEPS])
-    power, distance, size = LATE, apart(coarse, fine), rms(fine.acceleration)
+    most, power = MUCH_WORK * int(pair.coarse.tally[STEPS]), LATE
     for attempt in range(MOST_CONFIRMATIONS):
-        lost, allowed = distance > LOST * size, goal.allowed(size)
-        if CONFIRMED * distance * share**LATE <= allowed:
-            return fine, CONFIRMED * distance * share**LATE
-        if lost and (attempt >= len(SOON) or apart(coarse, fine, SOON[attempt]) > LOST * size):
+        allowed = goal.allowed(pair.size)
+        if pair.error <= allowed:
+            return pair.fine, pair.error
+        if pair.lost and (attempt >= len(SOON) or pair.lost_within(SOON[attempt])):
             break
-        if int(fine.tally[STEPS]) > most:
+        if int(pair.fine.tally[STEPS]) > most:
             break
-        wanted = allowed / (CONFIRMED * distance * share**power)
-        smaller = MUCH_FINER if lost else min(max(wanted ** (1.0 / power), MUCH_FINER), SURE)
-        grid = finer(grid, smaller)
+        share = _next_share(pair, allowed, power)
+        grid = finer(grid, share)
         try:
-            coarse, fine = fine, goal.anew(grid)
+            following = _pair(pair.fine, goal.anew(grid), share)
         except SimulationFailed:
             break  # no finer one can be made
-        before, distance, size = distance, apart(coarse, fine), rms(fine.acceleration)
-        power = min(max(math.log(max(distance, ROUND_OFF * size) / before) / math.log(share), LATE), 1.0)
-        share = smaller
-    return fine, math.inf if distance > LOST * size else CONFIRMED * distance * share**LATE
+        power, pair = _observed_power(pair, following), following
+    return pair.fine, math.inf if pair.lost else pair.error
+
+
+def _next_share(pair: Pair, allowed: float, power: float) -> float:
+    """The share of the tolerance that should bring the error within what is `allowed` (m/s², RMS), if distances shrink
+    with tolerances to this `power`."""
+    if pair.lost:
+        return MUCH_FINER
+    wanted = allowed / (CONFIRMED * pair.distance * pair.share**power)
+    return min(max(wanted ** (1.0 / power), MUCH_FINER), SURE)
+
+
+def _observed_power(pair: Pair, following: Pair) -> float:
+    """The power of the tolerance with which the distance has shrunk from one pair to the following, LATE to 1."""
+    distance = max(following.distance, ROUND_OFF * following.size)
+    return min(max(math.log(distance / pair.distance) / math.log(pair.share), LATE), 1.0)

@@ -14,11 +14,10 @@ from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.march import respond
-from physics.response.modal_case import Kept
 from physics.response.stability import require_stable, stable_substeps
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
-from physics.trace import Trace
+from physics.trace import Kept, Trace
 
 Array = NDArray[np.float64]
 
@@ -63,7 +62,7 @@ def respond_by_fixed_steps(
                 f"RMS, and {accuracy:g} is asked for",
             )
     grid = Grid(samples, steps, 1.0 / (rate * steps))
-    trace = respond(scene, start, grid, method, keep_state=kept.state, keep_force=kept.force, keep_outer=kept.outer)
+    trace = respond(scene, start, grid, method, kept)
     return replace(trace, error_estimate=error)
 
 

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from physics.integrators.modal.memory import STRIDES, Stride
 from physics.integrators.output import LOGGED, Output
-from physics.response.modal_case import USUAL_PUSHES, Case, Kept, March
+from physics.response.modal_case import USUAL_PUSHES, Case, March
+from physics.trace import Kept
 
 Array = NDArray[np.float64]
 GoOn = Callable[[March, Stride], Output]
@@ -65,12 +66,12 @@ class Goal:
 
     def error(self, output: Output, sensitivity: float) -> float:
         """Estimated error (m/s², RMS) of the `output` of a scene of this sensitivity."""
-        return ERROR_FACTOR * tame(sensitivity) * self.case.pushed(output)
+        return ERROR_FACTOR * safety_factor(sensitivity) * self.case.pushed(output)
 
     def aimed(self, seen: float, aim: float, sensitivity: float) -> Stride:
         """A grid whose tolerance is this `aim` of the accuracy at first, of a signal whose mean square may be `seen`
         (m²/s⁴), and then what leaves the estimated error within it."""
-        spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * tame(sensitivity) * aim)) ** 2
+        spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * safety_factor(sensitivity) * aim)) ** 2
         return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least, seen, UNCERTAIN, spending)
 
 
@@ -99,19 +100,19 @@ def finer(grid: Stride, share: float) -> Stride:
     return grid._replace(share=share * grid.share, least=share * grid.least)
 
 
-def tame(sensitivity: float) -> float:
+def safety_factor(sensitivity: float) -> float:
     """How many times more exact the steps of a scene have to be than those of one that makes nothing of errors."""
     return max(1.0, SENSITIVE * sensitivity / ERROR_FACTOR)
 
 
-def shown(case: Case, coarse: Output, fine: Output) -> float:
+def observed_sensitivity(case: Case, coarse: Output, fine: Output) -> float:
     """The sensitivity that two responses show: how many times the errors of its steps the `coarse` one is apart from
     the `fine` one."""
     pushed = case.pushed(coarse)
-    return apart(coarse, fine) / pushed if pushed > 0.0 else 0.0
+    return rms_distance(coarse, fine) / pushed if pushed > 0.0 else 0.0
 
 
-def apart(one: Output, other: Output, share: float = 1.0) -> float:
+def rms_distance(one: Output, other: Output, share: float = 1.0) -> float:
     """How far two responses are apart (m/s², RMS) in this share of the samples, as long as both last."""
     both = math.ceil(share * min(one.acceleration.shape[0], other.acceleration.shape[0]))
     return rms(one.acceleration[:both] - other.acceleration[:both])

@@ -67,7 +67,8 @@ def starting_at(trace: Trace, before: int) -> Trace:
 
 
 def from_start(trace: Trace) -> Trace:
-    """What a `trace` with a lead-in has from t = 0 on."""
+    """What a `trace` with a lead-in has from t = 0 on; its step, tension share and unlocated changes stay those of the
+    whole march, start included."""
     first = int(np.searchsorted(trace.time, 0.0))
     raised = first * round(trace.outer_rate / trace.rate) if trace.outer_displacement is not None else 0
     return replace(

@@ -25,9 +25,9 @@ from physics.integrators.output import (
 from physics.integrators.propagator import power_series
 from physics.motion import motion_model, resonator_acceleration
 from physics.outcome import Outcome, SimulationFailed
-from physics.paths.kinks import known_kinks
+from physics.response.kinks import known_kinks
 from physics.scene import Scene
-from physics.trace import ContactChanges, Trace
+from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
 Array = NDArray[np.float64]
 
@@ -38,17 +38,8 @@ LARGEST_CHANGE_LOG = 2_097_152
 LOGGED_CHANGES_PER_STEP = 4
 
 
-def respond(
-    scene: Scene,
-    start: Array,
-    grid: Grid,
-    method: str,
-    *,
-    keep_state: bool = False,
-    keep_force: bool = False,
-    keep_outer: bool = False,
-) -> Trace:
-    """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, without an error estimate.
+def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = ACCELERATION_ALONE) -> Trace:
+    """Trace of `scene` on `grid` from the state `start` (12,) at t = 0 with what is `kept`, without an error estimate.
 
     Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps
     become too many.
@@ -63,21 +54,24 @@ def respond(
             raise SimulationFailed(
                 Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
             )
-        output = empty_output(contacts, grid.samples, capacity, keep_state, keep_force, keep_outer)
+        output = empty_output(contacts, grid.samples, capacity, kept)
         status = MARCHES[method](contacts, motion, series, grid, stops, start, output)
         capacity *= 8
-    if status == NOT_FINITE:
-        raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps of {grid.step:.3g} s")
-    if status == OUT_OF_STEPS:
-        raise SimulationFailed(
-            Outcome.TOO_MANY_STEPS, f"the method {method} used up its steps within {scene.duration:g} s"
-        )
+    require_done(status, f"of {grid.step:.3g} s", f"the method {method} used up its steps within {scene.duration:g} s")
     return trace_of(scene, grid, output, method)
+
+
+def require_done(status: int, steps: str, out_of_steps: str) -> None:
+    """Raise SimulationFailed if a march ended with NOT_FINITE, telling how long its `steps` were, or OUT_OF_STEPS."""
+    if status == NOT_FINITE:
+        raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps {steps}")
+    if status == OUT_OF_STEPS:
+        raise SimulationFailed(Outcome.TOO_MANY_STEPS, out_of_steps)
 
 
 def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:
     """Trace of `scene` by the slow reference method, at the instants k / rate, from the state `start` (12,)."""
-    from physics.integrators.reference import integrate_reference
+    from physics.integrators.reference.integrate import integrate_reference
 
     motion = motion_model(scene)
     time = np.arange(samples) / rate
@@ -97,23 +91,21 @@ def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, 
         ),
         model=MODEL,
         method="reference",
-        step=0.0,
+        step=math.nan,
         error_estimate=math.nan,
         tension_share=math.nan,
         state=solution.state if keep_state else None,
     )
 
 
-def empty_output(
-    contacts: Contacts, samples: int, capacity: int, keep_state: bool, keep_force: bool, keep_outer: bool
-) -> Output:
-    """Arrays for a march of `samples` instants, with room for `capacity` changes of contact."""
+def empty_output(contacts: Contacts, samples: int, capacity: int, kept: Kept) -> Output:
+    """Arrays for a march of `samples` instants with what is `kept`, and room for `capacity` changes of contact."""
     balls = contacts.balls.shape[0] * contacts.balls.shape[2]
     return Output(
         acceleration=np.zeros((samples, 2)),
-        state=np.zeros((samples if keep_state else 0, 12)),
-        force=np.zeros((samples if keep_force else 0, balls)),
-        outer=np.zeros((3 if keep_outer else 0, samples, 2)),
+        state=np.zeros((samples if kept.state else 0, 12)),
+        force=np.zeros((samples if kept.force else 0, balls)),
+        outer=np.zeros((3 if kept.outer else 0, samples, 2)),
         change_time=np.zeros(capacity),
         change_ball=np.zeros(capacity, dtype=np.int64),
         change_made=np.zeros(capacity, dtype=np.bool_),

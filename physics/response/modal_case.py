@@ -15,14 +15,15 @@ from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flo
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.memory import RETUNE, SHORTEST, UNITS, Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
-from physics.integrators.output import LOG_FULL, NOT_FINITE, OUT_OF_STEPS, Output
+from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
 from physics.motion import MotionModel, motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
-from physics.paths.kinks import known_kinks
-from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output
+from physics.response.kinks import known_kinks
+from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output, require_done
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, refuse
+from physics.trace import ACCELERATION_ALONE, Kept
 
 Array = NDArray[np.float64]
 
@@ -30,15 +31,6 @@ Array = NDArray[np.float64]
 USUAL_PUSHES = 0.3
 MEAN_STIFFNESS_TIMES = 64
 SMALLEST_STIFFNESS = 1e3
-
-
-@dataclass(frozen=True)
-class Kept:
-    """What else a trace keeps besides acceleration and contact changes."""
-
-    state: bool = False
-    force: bool = False
-    outer: bool = False
 
 
 @dataclass(frozen=True)
@@ -53,6 +45,8 @@ class Case:
     stops: Stops
     start: Array
     rate: float
+    # How many marches have set out; the last of them may go on, as all share the contacts.
+    begun: list[int] = field(default_factory=lambda: [0], init=False, repr=False)
 
     @cached_property
     def ringing(self) -> float:
@@ -106,47 +100,45 @@ def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
 
 @dataclass
 class March:
-    """A march of `case` over up to `samples`; one at a time, as it keeps its contact set in the case's contacts."""
+    """A march of `case` over up to `samples`; one at a time, as it keeps its contact set in the case's contacts: once
+    another has set out, it cannot go on."""
 
     case: Case
     samples: int
-    kept: Kept = Kept()
+    kept: Kept = ACCELERATION_ALONE
     output: Output = field(init=False)
     _memory: Memory | None = field(init=False, default=None)
+    _number: int = field(init=False, default=0)
 
     def __post_init__(self) -> None:
-        kept = self.kept
-        self.output = empty_output(
-            self.case.contacts, self.samples, FIRST_CHANGE_LOG, kept.state, kept.force, kept.outer
-        )
+        self.output = empty_output(self.case.contacts, self.samples, FIRST_CHANGE_LOG, self.kept)
 
     def go_on(self, grid: Stride) -> Output:
         """The output, filled up to the samples of `grid`.
 
         Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or
-        steps become too many.
+        steps become too many; RuntimeError if another march of the case has set out since this one did.
         """
         case, contacts = self.case, self.case.contacts
         if self._memory is None:
+            case.begun[0] += 1
+            self._number = case.begun[0]
             self._memory = memory_for(case.flow, case.amplitudes, case.tables, contacts.balls.shape)
             begin(contacts, case.flow, grid, self._memory, self.output)
+        if self._number != case.begun[0]:
+            raise RuntimeError("another march of this case has set out; the contacts that both share are its own now")
         self._memory.marks[RETUNE] = 0  # the grid may be another one than before
         status = LOG_FULL
         while status == LOG_FULL:
             status = march_modal(contacts, case.flow, grid, case.stops, self._memory, self.output)
             if status == LOG_FULL:
                 self.output = _with_longer_log(self.output, case.scene)
-        if status == OUT_OF_STEPS:
-            raise SimulationFailed(
-                Outcome.TOO_MANY_STEPS,
-                f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or "
-                "least_error takes fewer",
-            )
-        if status == NOT_FINITE:
-            raise SimulationFailed(
-                Outcome.NOT_FINITE,
-                f"the response stopped being finite with steps down to {SHORTEST * grid.interval / UNITS:.3g} s",
-            )
+        require_done(
+            status,
+            f"down to {SHORTEST * grid.interval / UNITS:.3g} s",
+            f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or least_error "
+            "takes fewer",
+        )
         return self.output
 
 

@@ -20,8 +20,9 @@ Array = NDArray[np.float64]
 MOST_STABLE_SUBSTEPS = 1024
 
 
-def fastest_rate(rig: Rig, limits: str, stiffness: Array, damping: Array) -> float:
-    """Largest |λ| (1/s) among the modes that limit a method, for a bearing of `stiffness`, `damping` (3,): xx, yy, xy.
+def limiting_modes(rig: Rig, limits: str, stiffness: Array, damping: Array) -> NDArray[np.complex128]:
+    """Eigenvalues λ (1/s) of the modes that limit a method, none for NO_MODES, for a bearing of `stiffness` and
+    `damping` (3,): xx, yy, xy.
 
     The contact modes are those of the inner ring against a free outer ring, which the film damps.
     """
@@ -33,7 +34,7 @@ def fastest_rate(rig: Rig, limits: str, stiffness: Array, damping: Array) -> flo
         mass, size = np.eye(2) / (1.0 / rig.inner_mass + 1.0 / rig.outer_mass), 2
         k, c = matrix(stiffness), matrix(damping)
     else:
-        return 0.0
+        return np.zeros(0, np.complex128)
     first_order = np.zeros((2 * size, 2 * size))
     first_order[:size, size:] = np.eye(size)
     first_order[size:, :size] = -np.linalg.solve(mass, k)
@@ -42,13 +43,15 @@ def fastest_rate(rig: Rig, limits: str, stiffness: Array, damping: Array) -> flo
     unit = math.sqrt(float(np.abs(first_order[size:, :size]).max())) or 1.0
     first_order[:size, size:] *= unit
     first_order[size:, :size] /= unit
-    return float(np.abs(np.linalg.eigvals(first_order)).max())
+    return np.linalg.eigvals(first_order).astype(np.complex128)
 
 
 def longest_stable_step(rig: Rig, method: Method, stiffness: Array, damping: Array) -> float:
-    """Longest stable step (s) of `method` for a bearing of this `stiffness` and `damping` (3,); may be infinite."""
-    rate = fastest_rate(rig, method.limits, stiffness, damping)
-    return method.stability_limit / rate if rate > 0.0 else math.inf
+    """Longest step (s) at which every mode that limits `method` is stable, for a bearing of this `stiffness` and
+    `damping` (3,); may be infinite."""
+    modes = limiting_modes(rig, method.limits, stiffness, damping)
+    steps = [method.limit_at(-mode.real / abs(mode)) / abs(mode) for mode in modes if mode != 0.0]
+    return float(min(steps, default=math.inf))
 
 
 def stable_substeps(scene: Scene, method: Method, rest: Equilibrium, rate: float) -> int:
@@ -62,7 +65,11 @@ def require_stable(method: Method, rate: float, substeps: int, least: int) -> No
     if substeps < least or substeps > MOST_STABLE_SUBSTEPS:
         raise SimulationFailed(
             Outcome.UNSTABLE_STEP,
-            f"{substeps} step(s) a sample of {rate:.6g} Hz; {method.name} is stable up to |λ| h = "
-            f"{method.stability_limit:g} of {method.limits}, which here takes {least} steps a sample (at most "
-            f"{MOST_STABLE_SUBSTEPS} are made)",
+            f"{substeps} step(s) a sample of {rate:.6g} Hz; {method.name} is stable up to |λ| h = {_told(method)} of "
+            f"{method.limits}, which here takes {least} steps a sample (at most {MOST_STABLE_SUBSTEPS} are made)",
         )
+
+
+def _told(method: Method) -> str:
+    limits = [method.stability_limit, *(limit for _, limit in method.damped_limits)]
+    return f"{min(limits):g} to {max(limits):g}, by the damping," if len(limits) > 1 else f"{limits[0]:g}"

@@ -30,14 +30,14 @@ from datagen.drawing.work_precision import (
 from datagen.errors import BadInput
 from datagen.plain import plain_json
 from datagen.runs.progress import steps_told
-from physics.integrators.general_purpose import (
+from physics.integrators.methods import METHODS
+from physics.integrators.rivals.general_purpose import (
     BALL_BY_BALL,
     CONTACT_KERNEL,
     PAIRS,
     integrate_by_fixed_steps,
     integrate_compiled,
 )
-from physics.integrators.methods import METHODS
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.response.stability import longest_stable_step

@@ -10,8 +10,8 @@ from scipy.linalg import expm
 
 from physics.cage import CagePath
 from physics.catalog import rig
-from physics.integrators import reference
-from physics.integrators.reference import integrate_reference
+from physics.integrators.reference import integrate as reference
+from physics.integrators.reference.integrate import integrate_reference
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
 from physics.scene import Scene

@@ -7,7 +7,8 @@ import numba
 
 from physics.contact import contact_set, forces
 from physics.integrators import events
-from physics.integrators.modal import bumps, carried, flow, grazing, weights
+from physics.integrators.modal import bumps, carried, flow, grazing
+from physics.integrators.modal import reading as reading_of_weights
 from physics.statics import rest
 
 
@@ -37,4 +38,4 @@ reading = from_python(flow.reading)
 is_rough = from_python(grazing.is_rough)
 mark_grazing = from_python(grazing.mark_grazing)
 note_motion = from_python(contact_set.note_motion)
-turn = from_python(weights.turn)
+turn = from_python(reading_of_weights.turn)

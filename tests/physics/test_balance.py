@@ -13,6 +13,7 @@ from physics.integrators.output import Grid
 from physics.operation import Operation
 from physics.response.march import respond
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 FINE_RATE = 2.0**20
@@ -126,7 +127,7 @@ def test_energy_never_grows_while_the_cage_stands_still(law, reference_scene):
     start = simulate(scene, RATE, keep_state=True, estimate_error=False).state[0].copy()
     lowest = energy(scene, start[None])[0]
     start[6:8] = [0.03, 0.05]  # m/s: a blow that lets every ball lose contact
-    trace = respond(scene, start, Grid(3000, 4, 0.25 / RATE), "exponential_rk4", keep_state=True)
+    trace = respond(scene, start, Grid(3000, 4, 0.25 / RATE), "exponential_rk4", Kept(state=True))
     stored = energy(scene, trace.state) - lowest
     assert trace.changes.time.size > 50
     assert stored[-1] < 0.6 * stored[0]
@@ -143,7 +144,7 @@ def test_undamped_energy_is_kept_while_the_cage_stands_still(reference_scene):
     start = simulate(scene, RATE, keep_state=True, estimate_error=False).state[0].copy()
     lowest = energy(scene, start[None])[0]
     start[6:8] = [0.03, 0.05]
-    trace = respond(scene, start, Grid(3000, 4, 0.25 / RATE), "exponential_rk4", keep_state=True)
+    trace = respond(scene, start, Grid(3000, 4, 0.25 / RATE), "exponential_rk4", Kept(state=True))
     stored = energy(scene, trace.state) - lowest
     assert stored == pytest.approx(np.full(3000, stored[0]), rel=1e-4)  # 12 000 steps of order 4, 130 a contact period
 

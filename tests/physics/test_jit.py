@@ -13,7 +13,16 @@ import pytest
 
 import physics
 from physics import _jit
-from physics._jit import CACHE_FOLDER, fingerprint, njit, njit_inline, njit_inner, njit_pasted, specialise
+from physics._jit import (
+    CACHE_FOLDER,
+    fingerprint,
+    njit,
+    njit_inline,
+    njit_inner,
+    njit_pasted,
+    raised_by_cache,
+    specialise,
+)
 
 PACKAGE = Path(physics.__file__).parent
 
@@ -129,7 +138,7 @@ def test_a_specialised_kernel_has_its_bindings_built_in():
 
 KERNEL = """
 import sys
-from physics._jit import CACHE_FOLDER, discard_cache, njit
+from physics._jit import CACHE_FOLDER, discard_cache, njit, raised_by_cache
 
 @njit
 def square(x):
@@ -140,7 +149,7 @@ try:
 except Exception as damage:
     discard_cache()
     answer = square(3.0)
-    print("damaged", type(damage).__name__)
+    print("damaged", type(damage).__name__, raised_by_cache(damage))
 print(answer, sum(square.stats.cache_hits.values()))
 print(CACHE_FOLDER)
 """
@@ -180,6 +189,60 @@ def test_a_cache_is_empty_until_a_kernel_is_compiled_not_until_one_is_defined(tm
     assert done.stdout == "True False\n"
 
 
+OUTPUT = {"capture_output": True, "text": True, "check": True}
+CUT_INSIDE = """
+from physics._jit import njit, njit_inner, raised_by_cache
+
+@njit_inner
+def square(x):
+    return x * x
+
+@njit
+def fourth(x):
+    return square(square(x))
+
+try:
+    print(fourth(2.0))
+except Exception as damage:
+    print("damaged", raised_by_cache(damage))
+"""
+
+
+@pytest.mark.parametrize("name", ["square", "fourth"])
+def test_a_cut_file_is_recognised_also_of_a_kernel_that_another_one_calls(name, tmp_path):
+    def run():
+        environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(PACKAGE.parent)}
+        done = subprocess.run([sys.executable, str(script)], env=environment, **OUTPUT)
+        return done.stdout
+
+    script = tmp_path / "kernel.py"
+    script.write_text(CUT_INSIDE, encoding="utf-8")
+    assert run() == "16.0\n"
+    for file in tmp_path.rglob("*.nbi"):
+        # Without its own file the caller is compiled anew, and reads what it calls from the cache.
+        if name in file.name or name == "square":
+            file.write_bytes(file.read_bytes()[:10]) if name in file.name else file.unlink()
+    assert run() == "damaged True\n"
+
+
+def test_an_error_of_a_kernel_or_of_the_disk_is_none_of_the_cache():
+    with pytest.raises(ZeroDivisionError) as own:
+        _ = 1 / 0
+    assert not raised_by_cache(own.value)
+    with pytest.raises(FileNotFoundError) as missing:
+        numba.core.caching.IndexDataCacheFile("/nowhere", "index", None).save(1, 2)
+    assert not raised_by_cache(missing.value)
+
+
+def test_an_error_to_which_a_cut_file_led_is_one_of_the_cache(tmp_path):
+    (tmp_path / "cut.nbi").write_bytes(b"\x80\x04")
+    with pytest.raises(EOFError) as cut:
+        numba.core.caching.IndexDataCacheFile(str(tmp_path), "cut", None).load(1)
+    while_compiling = RuntimeError("while compiling")
+    while_compiling.__cause__ = cut.value
+    assert raised_by_cache(while_compiling)
+
+
 def test_a_cut_cache_file_is_cured_by_discarding_the_cache(tmp_path):
     home = tmp_path / "cache"
     answer, folder = run_kernel(tmp_path, home)
@@ -192,6 +255,7 @@ def test_a_cut_cache_file_is_cured_by_discarding_the_cache(tmp_path):
         file.write_bytes(file.read_bytes()[:10])
     damaged, answer, _ = run_kernel(tmp_path, home)
     assert damaged.startswith("damaged")
+    assert damaged.endswith("True")
     assert answer.startswith("9.0")
     assert run_kernel(tmp_path, home)[0] == "9.0 1"
 

@@ -44,6 +44,11 @@ def with_bearing(scene, **changes):
         ({"least_error": -1.0}, r"least_error = -1\.0 m/s²"),
         ({"least_error": math.inf}, r"least_error = inf m/s²"),
         ({"fastest_path": math.nan}, r"fastest_path = nan Hz; it must be 0 or more"),
+        (
+            {"model": "impulse train", "method": "runge_kutta4"},
+            'method = "runge_kutta4"; the model "impulse train" has',
+        ),
+        ({"model": "quasi-static", "substeps": 7}, 'substeps = 7; the model "quasi-static" takes no'),
     ],
 )
 def test_a_bad_request_is_refused_with_the_argument_and_its_value(request_made, told, reference_scene):

@@ -1,6 +1,7 @@
 """What a simulation gives back is a plain record that nobody changes by accident."""
 
 import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -56,3 +57,41 @@ def test_replaying_the_changes_from_the_first_contact_set_gives_the_balls_that_c
             place += 1
         contact[k] = held
     assert np.array_equal(contact, trace.contact_force != 0.0)
+
+
+FIXED = {"substeps": 2, "estimate_error": False}
+
+
+@pytest.mark.parametrize(
+    ("choice", "samples"),
+    [
+        ({"method": "exponential_adams2"} | FIXED, 0.5),
+        ({"method": "dormand_prince"} | FIXED, 0.5),
+        ({"method": "reference"}, math.nan),
+        ({"model": "impulse train"}, math.nan),
+        ({"model": "quasi-static"}, math.nan),
+        ({"model": "linear time-varying"}, 1.0),
+    ],
+)
+def test_the_step_is_what_the_trace_says_it_is_for_each_kind_of_method(choice, samples, reference_scene):
+    trace = simulate(reference_scene("G0", 0.01), RATE, **choice)
+    assert trace.step * RATE == pytest.approx(samples, rel=1e-12, nan_ok=True)
+
+
+def test_the_step_of_the_modal_method_is_the_mean_over_the_march(reference_scene):
+    trace = simulate(reference_scene("G0", 0.05), RATE)
+    assert 1.0 < trace.step * RATE < 24.0  # its longest stride
+
+
+@pytest.mark.parametrize(
+    ("choice", "share"),
+    [
+        ({"model": "quasi-static"}, 0.0),  # without a film no ball pulls
+        ({"model": "impulse train"}, math.nan),
+        ({"model": "linear time-varying"}, math.nan),
+        ({"method": "reference"}, math.nan),
+    ],
+)
+def test_the_share_of_tension_is_only_known_where_the_forces_of_balls_are_followed(choice, share, reference_scene):
+    trace = simulate(reference_scene("G1", 0.01), RATE, **choice)
+    assert trace.tension_share == pytest.approx(share, nan_ok=True)

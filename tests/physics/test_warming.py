@@ -1,7 +1,12 @@
 """Kernels compiled beforehand: a worker that makes records has nothing left to compile."""
 
+import contextlib
 import subprocess
 import sys
+
+import pytest
+
+from physics import warming
 
 MAKE_RECORDS = """
 import gc
@@ -45,3 +50,21 @@ print(len(march_modal.signatures))
 def test_the_march_that_is_compiled_on_its_own_is_the_one_that_records_need() -> None:
     done = subprocess.run([sys.executable, "-c", ONE_MARCH], capture_output=True, text=True, check=True)
     assert done.stdout == "1\n"
+
+
+@pytest.mark.parametrize("damaged", [True, False])
+def test_only_a_damaged_cache_is_discarded(damaged, monkeypatch) -> None:
+    done = []
+
+    def use():
+        done.append("used")
+        if done == ["used"]:
+            raise ValueError("anything")
+
+    monkeypatch.setattr(warming, "nothing_cached", lambda: False)
+    monkeypatch.setattr(warming, "raised_by_cache", lambda error: damaged and isinstance(error, ValueError))
+    monkeypatch.setattr(warming, "_use_every_kernel", use)
+    monkeypatch.setattr(warming, "discard_cache", lambda: done.append("discarded"))
+    with contextlib.nullcontext() if damaged else pytest.raises(ValueError, match="anything"):
+        warming.warm_up()
+    assert done == (["used", "discarded", "used"] if damaged else ["used"])

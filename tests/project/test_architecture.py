@@ -15,6 +15,21 @@ MAY_IMPORT = {
 ABOUT_FILES = {"xarray", "netCDF4", "pathlib", "io", "shutil", "tempfile", "pandas", "matplotlib"}
 # Compiled kernels are cached in a folder; this is the one place of physics that knows of folders.
 CACHE_DOOR = ROOT / "physics" / "_jit.py"
+# The rooms of physics: each may import from those before it, itself or by way of physics' own files, and from no other.
+ROOMS = (
+    "paths",
+    "contact",
+    "statics",
+    "integrators",
+    "integrators.modal",
+    "integrators.reference",
+    "integrators.rivals",
+    "response",
+    "sensor",
+    "ladder",
+    "catalog",
+    "backgrounds",
+)
 
 
 def imported(path):
@@ -55,3 +70,41 @@ def test_numba_has_one_door():
 def test_records_are_made_of_scenarios_and_scenarios_know_no_records():
     for path in files("datagen/scenarios"):
         assert "datagen.records" not in path.read_text(encoding="utf-8"), path
+
+
+def room_of(module):
+    """The room of physics in which a module lies, e.g. integrators.modal; empty for one of physics' own files."""
+    return module.removeprefix("physics").rpartition(".")[0].lstrip(".")
+
+
+def modules_imported(module):
+    """Modules of physics that one of them imports, anywhere in it."""
+    tree = ast.parse(ROOT.joinpath(*module.split(".")).with_suffix(".py").read_text(encoding="utf-8"))
+    named = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
+    return {name for name in named if name.startswith("physics.")}
+
+
+def rooms_reached(module):
+    """Rooms from which a module imports, itself or by way of physics' own files."""
+    rooms, ahead, seen = set(), modules_imported(module), set()
+    while ahead:
+        found = ahead.pop()
+        if room_of(found):
+            rooms.add(room_of(found))
+        elif found not in seen:
+            seen.add(found)
+            ahead |= modules_imported(found)
+    return rooms
+
+
+def test_every_room_of_physics_has_its_place():
+    folders = {".".join(path.parent.relative_to(ROOT / "physics").parts) for path in files("physics")}
+    assert folders - {""} == set(ROOMS)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_of_physics_import_only_from_those_before_them(room):
+    allowed = set(ROOMS[: ROOMS.index(room) + 1])
+    for path in (ROOT / "physics").joinpath(*room.split(".")).glob("*.py"):
+        module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        assert rooms_reached(module) <= allowed, path

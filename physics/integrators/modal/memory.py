@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
-from physics.integrators.modal.weights import POWERS
+from physics.integrators.modal.layout import POWERS
 
 Array = NDArray[np.float64]
 
@@ -27,12 +27,14 @@ NEARLY = 1e-6
 # Entries of `clock`: time (s), longest next step (s), length of the step before (s, 0 if its past is of no use), what
 # is left to the contact change ahead (s), longest step next to it (s) and on the way to it (s), tolerance (N s), sum of
 # the squares of the acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
-TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(9)
+CLOCK_ENTRIES = 9
+TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(CLOCK_ENTRIES)
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
 # of the contact change ahead, whether `time` is a whole number of units, balls that pull now, sample from which on the
 # tolerance is to be set anew, 1 where a step may pass over bumps of a path unseen, 1 where the contact change ahead
 # is at a wall of the path.
-CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL = range(10)
+MARKS_ENTRIES = 10
+CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL = range(MARKS_ENTRIES)
 
 
 class Memory(NamedTuple):
@@ -98,7 +100,7 @@ def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shap
         past=np.zeros((2, 2)),
         noted=np.zeros((cages, 2, balls)),
         midway=np.zeros((cages, 2, balls)),
-        clock=np.zeros(9),
-        marks=np.zeros(10, dtype=np.int64),
+        clock=np.zeros(CLOCK_ENTRIES),
+        marks=np.zeros(MARKS_ENTRIES, dtype=np.int64),
         fastest=flow.fastest,
     )

@@ -21,17 +21,10 @@ from physics.integrators.modal.flow import (
     set_rest,
     weigh,
 )
+from physics.integrators.modal.layout import INSIDE_KICKS, INSIDE_OTHER, INSIDE_READINGS, INSIDE_TURN
 from physics.integrators.modal.memory import CELL, FIRST_INSIDE, UNITS, Memory, Stride
+from physics.integrators.modal.reading import push, read_inside, turn
 from physics.integrators.modal.remainder import remaining_force
-from physics.integrators.modal.weights import (
-    INSIDE_KICKS,
-    INSIDE_OTHER,
-    INSIDE_READINGS,
-    INSIDE_TURN,
-    push,
-    read_inside,
-    turn,
-)
 from physics.integrators.output import Output
 from physics.integrators.trial import Trial
 

@@ -17,21 +17,10 @@ from physics._jit import njit_inline, njit_pasted
 from physics.contact.contact_set import count_changes, note_motion
 from physics.contact.forces import Contacts, move_to
 from physics.integrators.modal.flow import LinearFlow, set_rest
+from physics.integrators.modal.layout import AT_END, AT_HALF, END, HALF, KICKS, OTHER, TURN
 from physics.integrators.modal.memory import Memory
+from physics.integrators.modal.reading import free_motion, push, pushed, turn
 from physics.integrators.modal.remainder import remainder_at
-from physics.integrators.modal.weights import (
-    AT_END,
-    AT_HALF,
-    END,
-    HALF,
-    KICKS,
-    OTHER,
-    TURN,
-    free_motion,
-    push,
-    pushed,
-    turn,
-)
 
 Array = NDArray[np.float64]
 Force = tuple[float, float]

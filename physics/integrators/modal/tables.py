@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_lean
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
+from physics.integrators.modal.layout import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS
 from physics.integrators.modal.memory import FIRST_INSIDE, ROWS, STRIDES, UNITS
-from physics.integrators.modal.weights import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS, set_inside, set_step
+from physics.integrators.modal.weights import set_inside, set_step
 
 Array = NDArray[np.float64]
 

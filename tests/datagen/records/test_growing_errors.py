@@ -101,7 +101,7 @@ def test_rings_that_part_are_not_marched_again_where_a_coarse_response_is_near(m
     drawn = _drawn(20271202, 735)
     scene = _shortened(drawn.scene, 0.1)
     exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
-    monkeypatch.delattr(adaptive, "made_sure")
+    monkeypatch.delattr(adaptive, "confirm_doubtful")
     trace = simulate(scene, drawn.rate)
     assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
 

@@ -5,9 +5,10 @@ import pytest
 
 from physics.integrators.modal.between import LONGEST_TURN, set_between
 from physics.integrators.modal.flow import linear_flow
+from physics.integrators.modal.layout import STEP_WEIGHTS
 from physics.integrators.modal.memory import BETWEEN, UNITS, memory_for
 from physics.integrators.modal.tables import tables_for
-from physics.integrators.modal.weights import STEP_WEIGHTS, set_step
+from physics.integrators.modal.weights import set_step
 from physics.motion import motion_model
 
 STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)

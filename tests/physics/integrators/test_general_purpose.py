@@ -6,7 +6,7 @@ import gc
 import numpy as np
 import pytest
 
-from physics.integrators.general_purpose import (
+from physics.integrators.rivals.general_purpose import (
     BALL_BY_BALL,
     CONTACT_KERNEL,
     absolute_tolerance,

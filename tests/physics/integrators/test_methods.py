@@ -53,7 +53,9 @@ def test_every_march_and_the_reference_state_their_contract():
     for name, method in METHODS.items():
         assert method.name == name
         assert method.order >= 2.0
-        assert method.stability_limit >= 0.5
+        assert method.controls_step == np.isnan(method.stability_limit)
+        assert method.controls_step or method.stability_limit >= 0.05
+        assert [least for least, _ in method.damped_limits] == sorted(least for least, _ in method.damped_limits)
         assert all((method.title, method.limits, method.dense_output, method.events, method.purpose, method.source))
 
 

@@ -36,10 +36,7 @@ from physics.integrators.modal.flow import (
     ringing,
 )
 from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, REJECTED, may_shrink
-from physics.integrators.modal.march import begin, march_modal
-from physics.integrators.modal.memory import STRIDES, Stride, memory_for
-from physics.integrators.modal.tables import tables_for
-from physics.integrators.modal.weights import (
+from physics.integrators.modal.layout import (
     AT_END,
     AT_HALF,
     HALF_POWERS,
@@ -55,18 +52,21 @@ from physics.integrators.modal.weights import (
     SECTION,
     STEP_WEIGHTS,
     TURN,
-    set_inside,
-    set_step,
 )
+from physics.integrators.modal.march import begin, march_modal
+from physics.integrators.modal.memory import STRIDES, Stride, memory_for
+from physics.integrators.modal.tables import tables_for
+from physics.integrators.modal.weights import set_inside, set_step
 from physics.integrators.output import DONE, LOGGED
 from physics.motion import motion_model, starting_state
 from physics.outcome import SimulationFailed
-from physics.paths.kinks import known_kinks
 from physics.paths.profile import build_path
+from physics.response.kinks import known_kinks
 from physics.response.march import empty_output
 from physics.response.modal_case import March, case_of, mean_flow, resting
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
+from physics.trace import ACCELERATION_ALONE
 
 RATE = 65536.0
 STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)
@@ -247,7 +247,7 @@ def marched(scene, samples, interval):
     flow = mean_flow(motion, resting(scene))
     grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
     start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
-    output = empty_output(contacts, samples, 64, False, False, False)
+    output = empty_output(contacts, samples, 64, ACCELERATION_ALONE)
     memory = memory_for(flow, start, tables_for(flow, interval), contacts.balls.shape)
     begin(contacts, flow, grid, memory, output)
     assert march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output) == DONE

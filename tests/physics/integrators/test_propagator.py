@@ -27,6 +27,7 @@ from physics.motion import motion_model
 from physics.operation import Operation
 from physics.response.march import respond
 from physics.scene import Scene
+from physics.trace import Kept
 
 OUTER_AND_RESONATOR = {0: [2, 8, 4, 10], 1: [3, 9, 5, 11]}
 
@@ -124,7 +125,7 @@ def test_without_contact_outer_ring_and_resonator_decay_as_the_matrix_exponentia
     start = np.zeros(12)
     start[2:6], start[8:12] = [1e-6, -2e-6, 3e-6, 0.5e-6], [1e-3, 2e-3, -1e-2, 3e-2]
     samples = 100
-    trace = respond(scene, start, Grid(samples, 1, step), "exponential_rk4", keep_state=True)
+    trace = respond(scene, start, Grid(samples, 1, step), "exponential_rk4", Kept(state=True))
     assert trace.changes.time.size == 0
     for axis, places in OUTER_AND_RESONATOR.items():
         matrix = matrix_by_hand(scene.rig, axis)
@@ -139,7 +140,7 @@ def test_without_contact_and_load_the_shaft_flies_straight(gearbox):
     scene = unloaded_scene(gearbox)
     start = np.zeros(12)
     start[[0, 1, 6, 7]] = [1e-6, -1e-6, 1e-4, 2e-4]
-    trace = respond(scene, start, Grid(100, 1, 1e-5), "exponential_rk4", keep_state=True)
+    trace = respond(scene, start, Grid(100, 1, 1e-5), "exponential_rk4", Kept(state=True))
     time = 1e-5 * np.arange(100)
     straight = start[:2] + time[:, None] * start[6:8]
     assert trace.state[:, :2] == pytest.approx(straight, abs=1e-19)  # round-off of 1e-6 m

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.integrators.reference_equations import Equations, polynomial_at
+from physics.integrators.reference.equations import Equations, polynomial_at
 
 Array = NDArray[np.float64]
 

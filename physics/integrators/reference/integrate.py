@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
-from physics.integrators.reference_equations import contact_set, slopes, write_equations
+from physics.integrators.reference.equations import contact_set, slopes, write_equations
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
 from physics.paths.profile import build_path

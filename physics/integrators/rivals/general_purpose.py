@@ -2,7 +2,7 @@
 
 DOP853 and RK45 with SciPy's tables and step control, and the classical Runge-Kutta method with fixed steps, on the
 equations written ball by ball and on this package's contact kernel. They are here to be measured beside the methods of
-this folder, not to be used.
+the folder above, not to be used.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from physics.assembly import assemble
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
-from physics.integrators.ball_by_ball import ball_by_ball_slopes
+from physics.integrators.events import Way, quintic
 from physics.integrators.march import press_state
-from physics.integrators.reference_equations import Equations, write_equations
+from physics.integrators.reference.equations import Equations, write_equations
+from physics.integrators.rivals.ball_by_ball import ball_by_ball_slopes
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 
@@ -108,19 +109,17 @@ def _error(
 
 
 @njit
-def _between(begin: Array, end: Array, rate: Array, last: Array, step: float, share: float, state: Array) -> None:
-    """Fill `state` (12,): displacements on the quintic through displacement, velocity and acceleration at both ends."""
-    x = share
+def _between(way: Way, begin: Array, end: Array, rate: Array, last: Array, share: float, state: Array) -> None:
+    """Fill `state` (12,) at a `share` of the step from `begin` to `end` (12,): displacements on the quintic through
+    displacement, velocity and acceleration at both ends, of which `rate` and `last` (12,) have the last.
+
+    `way` has the step; its ends (3, 6) are scratch.
+    """
+    step = way.step
     for i in range(6):
-        v0, a0 = step * begin[6 + i], 0.5 * step * step * rate[6 + i]
-        v1, a1 = step * end[6 + i], 0.5 * step * step * last[6 + i]
-        rise = end[i] - begin[i] - v0 - a0
-        speed, bend = v1 - v0 - 2.0 * a0, a1 - a0
-        c3 = 10.0 * rise - 4.0 * speed + bend
-        c4 = -15.0 * rise + 7.0 * speed - 2.0 * bend
-        c5 = 6.0 * rise - 3.0 * speed + bend
-        state[i] = begin[i] + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))))
-        rising = v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))
+        way.begin[0, i], way.begin[1, i], way.begin[2, i] = begin[i], step * begin[6 + i], step * step * rate[6 + i]
+        way.end[0, i], way.end[1, i], way.end[2, i] = end[i], step * end[6 + i], step * step * last[6 + i]
+        state[i], rising = quintic(way, i, share)
         state[6 + i] = rising / step
 
 
@@ -132,6 +131,7 @@ def _integrate(
     states[0] = start
     stages = tableau.a.shape[1]
     rates, state, trial = np.empty((stages + 1, 12)), start.copy(), np.empty(12)
+    ends = np.empty((2, 3, 6))
     rates[0] = slope(model, 0.0, state)
     time, step, sample, rejected = 0.0, FIRST_STEP, 1, False
     for _ in range(MOST_STEPS):
@@ -151,8 +151,10 @@ def _integrate(
             step *= min(growth, 1.0) if math.isfinite(error) else MOST_SHRINKING
             rejected = True
             continue
+        way = Way(time, step, ends[0], ends[1])
         while sample < samples and sample * period <= time + step:
-            _between(state, trial, rates[0], rates[stages], step, (sample * period - time) / step, states[sample])
+            share = (sample * period - time) / step
+            _between(way, state, trial, rates[0], rates[stages], share, states[sample])
             sample += 1
         time += step
         state[:] = trial

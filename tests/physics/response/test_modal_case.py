@@ -1,0 +1,39 @@
+"""A march that can be gone on with, and the one case that several share."""
+
+import numpy as np
+import pytest
+
+from physics.response.goal import steady
+from physics.response.modal_case import March, case_of, resting
+
+RATE, SAMPLES, SIZE = 65536.0, 400, 0.01
+
+
+@pytest.fixture
+def case(reference_scene):
+    scene = reference_scene("G1", 0.02)
+    return case_of(scene, resting(scene), RATE)
+
+
+def test_a_march_gone_on_with_is_the_march_made_at_once(case):
+    at_once = March(case, SAMPLES).go_on(steady(case, SAMPLES, 1e-3, SIZE)).acceleration
+    march = March(case, SAMPLES)
+    # The first part ends within a stride of the whole, so steps, not the response, may differ.
+    march.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
+    in_parts = march.go_on(steady(case, SAMPLES, 1e-3, SIZE)).acceleration
+    assert np.abs(in_parts - at_once).max() < 0.01 * np.abs(at_once).max()
+
+
+def test_a_march_cannot_go_on_after_another_of_its_case_has_set_out(case):
+    first, second = March(case, SAMPLES), March(case, SAMPLES)
+    first.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
+    second.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
+    with pytest.raises(RuntimeError, match="another march of this case has set out"):
+        first.go_on(steady(case, SAMPLES, 1e-3, SIZE))
+    second.go_on(steady(case, SAMPLES, 1e-3, SIZE))
+
+
+def test_a_march_may_wait_while_another_runs_before_it_sets_out(case):
+    waiting = March(case, SAMPLES)
+    March(case, SAMPLES).go_on(steady(case, SAMPLES, 1e-3, SIZE))
+    waiting.go_on(steady(case, SAMPLES, 1e-3, SIZE))

@@ -85,7 +85,7 @@ def test_an_estimate_of_the_least_that_is_required_is_scored_where_the_load_is_k
     loaded = replace(MACHINE, load=500.0, load_deflection=1e10)
     record = SizedRecord(3, 1000.0, np.zeros((400, 2)), None, labels, loaded, None)
     row = score_record(record, OwnEstimator("mine:Sizer", Saying(least), ""))
-    assert (row.extent, row.found_race) == (0.1, "")
+    assert (row.told.extent, row.told.race) == (0.1, "")
     assert math.isnan(row.static_arc)
 
 

@@ -17,6 +17,7 @@ from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_reco
 from labels.spall_size.estimator import ONSET
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
+from labels.spall_size.pair_features import LONGEST_LAG
 from labels.spall_size.situation import Situation
 
 Array = NDArray[np.float64]
@@ -24,7 +25,8 @@ Array = NDArray[np.float64]
 LEVELS_DB = (20.0, 10.0, 5.0, 0.0)
 SHORTEST_LAG = 1.5  # samples
 LAG_SCALE = 0.12
-PLACE_TOLERANCE = 0.4
+LAG_RESOLVED, PLACE_RESOLVED = 0.5, 2.5  # samples; what is off by no more than that is not wrong
+PLACE_TOLERANCE = 0.4  # of the lag, or of what is left of the period
 SHORTEST_SHARE, LONGEST_SHARE = 0.1, 0.5
 
 
@@ -115,7 +117,7 @@ def trial(sized: SizedRecord, evidence: Evidence, heard: Heard) -> Trial:
     truth = None if sized.truth is None else sized.truth.within(*_stretch(sized, heard))
     true_lag = truth.lag * sized.rate if truth is not None else math.nan
     if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LAG:
-        turns = math.floor(true_lag / (0.97 * evidence.mean.period))
+        turns = math.floor(true_lag / (LONGEST_LAG * evidence.mean.period))
         lag = max(true_lag - turns * evidence.mean.period, 1.0)
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)
@@ -138,12 +140,13 @@ def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:
     """exp(−|log error of the lag| / 0.12), but 0 for pairs whose events lie elsewhere in the pass."""
     period, pairs = evidence.mean.period, evidence.pairs
     short = min(lag, period - lag)
-    error = np.minimum(np.abs(np.log(pairs.lag / lag)), np.maximum(_apart(pairs.lag - lag, period) - 0.5, 0.0) / short)
+    beyond = np.maximum(_apart(pairs.lag - lag, period) - LAG_RESOLVED, 0.0)
+    error = np.minimum(np.abs(np.log(pairs.lag / lag)), beyond / short)
     away = [
         _apart(place - mean_place(evidence, times) - ONSET, period)
         for place, times in ((pairs.entry, truth.first), (pairs.exit, truth.last))
     ]
-    near = np.maximum(np.maximum(*away) - 2.5, 0.0) / short < PLACE_TOLERANCE
+    near = np.maximum(np.maximum(*away) - PLACE_RESOLVED, 0.0) / short < PLACE_TOLERANCE
     return np.asarray(np.exp(-error / LAG_SCALE) * near)
 
 

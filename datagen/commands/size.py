@@ -43,6 +43,7 @@ def size(
     Recordings are scored by the extents that are stated of them, and such a run is logged in their folder, in
     scored_runs.jsonl.
     """
+    from datagen.sizing.flat_rows import flat_scores
     from datagen.sizing.known_sizes import parse_known_sizes
     from datagen.sizing.report import write_report
     from datagen.sizing.score import score_sizes
@@ -51,7 +52,7 @@ def size(
         require_results_folder(out)
     sizes = parse_known_sizes(known_size or ())
     scores = score_sizes(folder, estimator, load_known, split, workers, sizes)
-    write_json(json_file, scores)
+    write_json(json_file, flat_scores(scores))
     if out is not None:
         write_report(scores, out)
     _tell(scores)
@@ -76,5 +77,5 @@ def _tell(scores: SizeScores) -> None:
         return
     for one in scores.records:
         if not one.asked:
-            print(f"record {one.record}: no estimate, {one.reason}")
+            print(f"record {one.truth.record}: no estimate, {one.told.reason}")
     show_tables([summary_table(scores.summary)])

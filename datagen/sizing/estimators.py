@@ -40,10 +40,12 @@ def default_estimator() -> SizeEstimator:
     return SizeEstimator(Calibration.from_arrays(dict(arrays)))
 
 
+@cache
 def find_estimator(name: str | None) -> AnyEstimator:
     """The estimator called "module:Class", made without arguments, or "module:function", or the default one.
 
-    Raises BadInput if there is none of that name.
+    It is made when a process first asks for it; after that the process gets the same one. Raises BadInput if there is
+    none of that name.
     """
     if name is None:
         return default_estimator()

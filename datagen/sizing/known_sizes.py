@@ -117,14 +117,14 @@ def with_effect(known: list[KnownSize], records: list[ScoredRecord]) -> list[Kno
 
 
 def _is_corrected(record: ScoredRecord, one: KnownSize, known: list[KnownSize]) -> bool:
-    own = machine_of(record.bearing_id, record.rig) == one.machine
-    return own and record.found and record.record not in {each.record for each in known}
+    own = machine_of(record.truth.bearing_id, record.truth.rig) == one.machine
+    return own and record.found and record.truth.record not in {each.record for each in known}
 
 
 def _with_effect(one: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
-    scored = [each for each in corrected if each.known_truth and each.scorable]
-    without = [abs(each.extent / each.known_size_factor / each.true_extent - 1.0) for each in scored]
-    given = [abs(each.extent / each.true_extent - 1.0) for each in scored]
+    scored = [each for each in corrected if each.truth.known and each.scorable]
+    without = [abs(each.told.extent / each.told.known_size_factor / each.truth.extent - 1.0) for each in scored]
+    given = [abs(each.told.extent / each.truth.extent - 1.0) for each in scored]
     if not scored:
         return replace(one, corrected=len(corrected))
     means = float(np.mean(without)), float(np.mean(given))

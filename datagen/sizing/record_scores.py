@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from datagen.sizing.estimators import AnyEstimator
-from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, ScoredRecord
+from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, ScoredRecord, Told, Truth
 from datagen.sizing.sized_records import SizedRecord, UnsizedRecord, nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
 from labels.features.modulation import RACES
@@ -19,13 +19,11 @@ from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected
 from labels.spall_size.rules import EnvelopeLagRule
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import Interval, SizeEstimate, SizeOutcome
 from labels.spall_size.static_release import arc_with_static_release
 
 TOLERANCE_S = 100e-6
 TOLERANCE_RAD = math.radians(0.5)
-WORDS = ("recording", "channel", "bearing_id", "rig", "profile", "split")
-NUMBERS = ("snr_db", "speed_rpm", "load_n", "extent_mm", "extent_spacing")
 
 
 def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.0) -> ScoredRecord:
@@ -42,12 +40,19 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.
     static = math.nan
     if told.found and told.race in RACES and situation.load_known and situation.load is not None:
         static = arc_with_static_release(told.lag_arc, situation.bearing(), told.race, situation.load)
+    known_size_factor = factor if told.found else 1.0
     return ScoredRecord(
-        **_labels(labels), **_told(told), pass_period=period,
-        true_lag=math.nan if sized.truth is None else sized.truth.lag,
-        static_arc=static, envelope_arc=plain.lag_arc, known_size_factor=factor if told.found else 1.0, seconds=seconds,
-        events_in_time=in_time, events_in_arc=in_arc, known_truth=sized.truth is not None,
-    )  # fmt: skip
+        replace(_truth(labels), pass_period=period, lag=_true_lag(sized.truth), known=sized.truth is not None),
+        replace(_told(told), known_size_factor=known_size_factor, seconds=seconds, load_known=situation.load_known),
+        static_arc=static,
+        envelope_arc=plain.lag_arc,
+        events_in_time=in_time,
+        events_in_arc=in_arc,
+    )
+
+
+def _true_lag(truth: EventTruth | None) -> float:
+    return math.nan if truth is None else truth.lag
 
 
 def _with_race(situation: Situation, told: SizeEstimate, labels: Mapping[str, Any]) -> Situation:
@@ -58,48 +63,59 @@ def _with_race(situation: Situation, told: SizeEstimate, labels: Mapping[str, An
 
 def unsized_row(unsized: UnsizedRecord) -> ScoredRecord:
     """The row of a record that no estimator could be asked about."""
-    told = _told(SizeEstimate(SizeOutcome.NO_PASSES, "")) | {"outcome": NOT_ASKED, "reason": unsized.reason}
-    return ScoredRecord(
-        **_labels(unsized.labels), **told, pass_period=math.nan, true_lag=math.nan, static_arc=math.nan,
-        envelope_arc=math.nan, known_size_factor=1.0, seconds=0.0,
-        events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=False,
-    )  # fmt: skip
+    told = _told(SizeEstimate(SizeOutcome.NO_PASSES, ""))
+    return ScoredRecord(_truth(unsized.labels), replace(told, outcome=NOT_ASKED, reason=unsized.reason))
 
 
-def _labels(labels: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        "record": int(labels["record"]),
-        "race": str(labels["location"]),
-        "rate": float(labels["rate_hz"]),
-        "true_extent": float(labels["extent"]),
-        **{name: str(labels[name]) for name in WORDS},
-        **{name: float(labels[name]) for name in NUMBERS},
-    }
+def _truth(labels: Mapping[str, Any]) -> Truth:
+    """What the labels say of a record; nothing yet of its ball passes."""
+    return Truth(
+        record=int(labels["record"]),
+        recording=str(labels["recording"]),
+        channel=str(labels["channel"]),
+        bearing_id=str(labels["bearing_id"]),
+        rig=str(labels["rig"]),
+        race=str(labels["location"]),
+        profile=str(labels["profile"]),
+        split=str(labels["split"]),
+        snr_db=float(labels["snr_db"]),
+        speed_rpm=float(labels["speed_rpm"]),
+        load_n=float(labels["load_n"]),
+        extent_mm=float(labels["extent_mm"]),
+        extent_spacing=float(labels["extent_spacing"]),
+        rate=float(labels["rate_hz"]),
+        pass_period=math.nan,
+        lag=math.nan,
+        extent=float(labels["extent"]),
+        known=False,
+    )
 
 
-def _told(told: SizeEstimate) -> dict[str, Any]:
+def _told(told: SizeEstimate) -> Told:
+    """The estimate in floats, whatever kind of numbers it came in."""
     mm_per_rad = told.extent_mm / told.extent if told.extent else math.nan
-    bounds = {
-        "lag": (told.lag, told.lag_interval),
-        "extent": (told.extent, told.extent_interval),
-        "estimated_deg": (math.degrees(told.extent), tuple(map(math.degrees, told.extent_interval))),
-        "estimated_mm": (told.extent_mm, told.extent_mm_interval),
-    }
-    numbers: dict[str, Any] = {}
-    for name, (value, (low, high)) in bounds.items():
-        numbers |= {name: float(value), f"{name}_low": float(low), f"{name}_high": float(high)}
-    return numbers | {
-        "outcome": told.outcome.name.lower(),
-        "reason": told.reason,
-        "method": told.method,
-        "found_race": told.race,
-        "trust": float(told.trust),
-        "lag_arc": float(told.lag_arc),
-        "candidates": tuple(float(arc) for arc in told.candidates),
-        "candidates_deg": tuple(math.degrees(arc) for arc in told.candidates),
-        "candidates_mm": tuple(float(arc * mm_per_rad) for arc in told.candidates),
-        "event_times": np.asarray(told.event_times, dtype=np.float64),
-    }
+    return Told(
+        outcome=told.outcome.name.lower(),
+        reason=told.reason,
+        method=told.method,
+        race=told.race,
+        trust=float(told.trust),
+        lag=float(told.lag),
+        lag_interval=_floats(told.lag_interval),
+        lag_arc=float(told.lag_arc),
+        extent=float(told.extent),
+        extent_interval=_floats(told.extent_interval),
+        extent_mm=float(told.extent_mm),
+        extent_mm_interval=_floats(told.extent_mm_interval),
+        candidates=tuple(float(arc) for arc in told.candidates),
+        candidates_mm=tuple(float(arc * mm_per_rad) for arc in told.candidates),
+        event_times=np.asarray(told.event_times, dtype=np.float64),
+    )
+
+
+def _floats(interval: Interval) -> Interval:
+    low, high = interval
+    return float(low), float(high)
 
 
 def _events(

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from datagen.corpora.atomic import write_results
 from datagen.plain import plain_json
+from datagen.sizing.flat_rows import flat_row, flat_scores
 from datagen.sizing.score import SizeScores
 
 LISTS = ("candidates", "candidates_deg", "candidates_mm")
@@ -18,7 +19,10 @@ def write_report(scores: SizeScores, folder: Path) -> None:
 
     BadInput if that cannot be.
     """
-    files = {"size_report.json": plain_json(scores).encode(), "estimates.csv": estimates_csv(scores).encode()}
+    files = {
+        "size_report.json": plain_json(flat_scores(scores)).encode(),
+        "estimates.csv": estimates_csv(scores).encode(),
+    }
     if scores.summary is not None:
         from datagen.drawing.size_report import size_report_png
 
@@ -28,7 +32,7 @@ def write_report(scores: SizeScores, folder: Path) -> None:
 
 def estimates_csv(scores: SizeScores) -> str:
     """The table of all records as CSV; `passes_heard` counts the passes whose event times the JSON has."""
-    rows = [one.to_dict() for one in scores.records]
+    rows = [flat_row(one) for one in scores.records]
     for row in rows:
         row |= {name: " ".join(format(value, ".6g") for value in row[name]) for name in LISTS}
         row["passes_heard"] = len(row.pop("event_times"))

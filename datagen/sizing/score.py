@@ -67,31 +67,18 @@ def score_sizes(
         options = {"split": chosen, "load_known": load_known, "known_sizes": dict(sizes)}
         write_line(folder, {"began": options, "sizes_by": told_of})
     known = known_sizes(folder, sizes, own, load_known)
-    records = _Counted(sized_records(folder, load_known=load_known, splits=splits))
-    made = _scored(iter(records), estimator, known, workers)
-    scored = sorted([*made, *unsized], key=lambda one: one.record)
-    true = [one for one in scored if one.known_truth]
+    records = sized_records(folder, load_known=load_known, splits=splits)
+    made = _scored(records, estimator, known, workers)
+    scored = sorted([*made, *unsized], key=lambda one: one.truth.record)
+    true = [one for one in scored if one.truth.known]
     summary = summarise(true, load_known) if true else None
     stated = summarise_stated(scored)
     if logged:
         time = datetime.now(UTC).isoformat(timespec="seconds")
         write_line(folder, {"time": time, "sizes_by": told_of, "versions": program_versions(), "scores": stated})
-    return SizeScores(
-        str(folder), told_of, chosen, load_known, scored, summary, with_effect(known, scored), stated, records.load_told
-    )
-
-
-@dataclass
-class _Counted:
-    """The records, with how many of those handed out tell load and Hertz factor."""
-
-    records: Iterator[SizedRecord]
-    load_told: int = 0
-
-    def __iter__(self) -> Iterator[SizedRecord]:
-        for one in self.records:
-            self.load_told += one.situation.load_known
-            yield one
+    load_told = sum(one.told.load_known for one in scored)
+    effect = with_effect(known, scored)
+    return SizeScores(str(folder), told_of, chosen, load_known, scored, summary, effect, stated, load_told)
 
 
 def _scored(

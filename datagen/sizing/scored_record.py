@@ -1,16 +1,16 @@
-"""The row of one record: its estimate beside its truth, flat, in numbers and words."""
+"""One record scored: what is true of it, and what was told of it."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from labels.event_scores import EventScores
 from labels.schema import UNKNOWN
+from labels.spall_size.size_estimate import Interval
 
 LONGEST_SCORED_SPACINGS = 0.9
 FEWEST_SAMPLES, FEWEST_SPACINGS = 5.0, 1.0 / 50.0
@@ -21,15 +21,11 @@ NOT_ASKED = "not_asked"
 
 
 @dataclass(frozen=True)
-class ScoredRecord:
-    """Truth and estimate of one record, SI units where the name has none; NaN where there is none.
+class Truth:
+    """What a record is, and what is true of its spall; NaN where that is unknown or there is none.
 
-    `true_lag`, `lag` s; `true_extent`, `extent`, `lag_arc`, `static_arc` (lag and static release arcs), `envelope_arc`
-    (plain rule), `candidates` rad; `extent_mm` is the label, `estimated_mm` and `estimated_deg` are `extent` in other
-    units. `_low` and `_high` bound a 90 % interval. `event_times` (K, 2), s: both events of each pass that was heard.
-    `pass_period` nominal, s; `seconds` of the processor that the estimate took. The event scores are within 100 µs and
-    within 0.5 degrees. `known_size_factor` is what a known size of another record has multiplied the extents by.
-    `outcome` is "not_asked" if no estimate could be asked for; `reason` says in words why there is none.
+    `rate` Hz; `pass_period` nominal, s; `lag` between the events, s; `extent` of the spall, rad, which in other units
+    is `extent_mm` and `extent_spacing`. `known` if the ball passes of the record are known.
     """
 
     record: int
@@ -47,69 +43,132 @@ class ScoredRecord:
     extent_spacing: float
     rate: float
     pass_period: float
-    true_lag: float
-    true_extent: float
+    lag: float
+    extent: float
+    known: bool
+
+
+@dataclass(frozen=True)
+class Told:
+    """What an estimator told of a record, as in SizeEstimate; NaN where it told nothing.
+
+    Its numbers are floats, its `outcome` is in letters and "not_asked" if no estimate could be asked for; `reason` says
+    in words why there is none. `candidates_mm` are the `candidates` (rad), by the mm that the estimator has for a rad.
+    `known_size_factor` is what a known size of another record has multiplied the extents by; `seconds` of the processor
+    that the estimate took; `load_known` if load and Hertz factor were given.
+    """
+
     outcome: str
     reason: str
     method: str
-    found_race: str
+    race: str
     trust: float
     lag: float
-    lag_low: float
-    lag_high: float
+    lag_interval: Interval
     lag_arc: float
     extent: float
-    extent_low: float
-    extent_high: float
-    estimated_deg: float
-    estimated_deg_low: float
-    estimated_deg_high: float
-    estimated_mm: float
-    estimated_mm_low: float
-    estimated_mm_high: float
+    extent_interval: Interval
+    extent_mm: float
+    extent_mm_interval: Interval
     candidates: tuple[float, ...]
-    candidates_deg: tuple[float, ...]
     candidates_mm: tuple[float, ...]
-    static_arc: float
-    envelope_arc: float
-    known_size_factor: float
-    seconds: float
     event_times: NDArray[np.float64] = field(compare=False)
-    events_in_time: EventScores
-    events_in_arc: EventScores
-    known_truth: bool
+    known_size_factor: float = 1.0
+    seconds: float = 0.0
+    load_known: bool = False
+
+    @property
+    def extent_deg(self) -> float:
+        """The extent in degrees."""
+        return math.degrees(self.extent)
+
+    @property
+    def extent_deg_interval(self) -> Interval:
+        """Its interval in degrees."""
+        low, high = self.extent_interval
+        return math.degrees(low), math.degrees(high)
+
+    @property
+    def candidates_deg(self) -> tuple[float, ...]:
+        """The candidates in degrees."""
+        return tuple(math.degrees(arc) for arc in self.candidates)
+
+
+@dataclass(frozen=True)
+class ScoredRecord:
+    """Truth and estimate of one record, arcs by simpler rules, and scores of the events.
+
+    `static_arc` (rad) is of the lag told and static release, `envelope_arc` (rad) of the plain rule. The event scores
+    are within 100 µs and within 0.5 degrees.
+    """
+
+    truth: Truth
+    told: Told
+    static_arc: float = math.nan
+    envelope_arc: float = math.nan
+    events_in_time: EventScores = NO_SCORES
+    events_in_arc: EventScores = NO_SCORES
 
     @property
     def bearing_group(self) -> tuple[str, str]:
         """What the records of one bearing share and no other has; where the bearing is unknown, no two records do."""
-        return (self.bearing_id, "") if self.bearing_id != UNKNOWN else (UNKNOWN, str(self.record))
+        bearing = self.truth.bearing_id
+        return (bearing, "") if bearing != UNKNOWN else (UNKNOWN, str(self.truth.record))
 
     @property
     def found(self) -> bool:
         """True if there is an estimate."""
-        return math.isfinite(self.extent)
+        return math.isfinite(self.told.extent)
 
     @property
     def has_events(self) -> bool:
         """True if the record has events far enough apart that a size may be asked for."""
-        least = max(FEWEST_SAMPLES / self.rate, FEWEST_SPACINGS * self.pass_period)
-        return self.true_lag >= least
+        least = max(FEWEST_SAMPLES / self.truth.rate, FEWEST_SPACINGS * self.truth.pass_period)
+        return self.truth.lag >= least
 
     @property
     def scorable(self) -> bool:
         """True if a size must be told and no whole ball spacing can hide in it."""
-        return self.has_events and self.extent_spacing <= LONGEST_SCORED_SPACINGS
+        return self.has_events and self.truth.extent_spacing <= LONGEST_SCORED_SPACINGS
 
     @property
     def without_event(self) -> bool:
         """True if nothing may be told: no event, or a lag below two samples."""
-        return self.known_truth and not self.true_lag >= NO_EVENT_SAMPLES / self.rate
+        return self.truth.known and not self.truth.lag >= NO_EVENT_SAMPLES / self.truth.rate
 
     @property
     def asked(self) -> bool:
         """True if an estimate could be asked for."""
-        return self.outcome != NOT_ASKED
+        return self.told.outcome != NOT_ASKED
 
-    def to_dict(self) -> dict[str, Any]:
-        """The row by names."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+    # The picture of a scored corpus reads these by name.
+
+    @property
+    def known_truth(self) -> bool:
+        """True if the ball passes of the record are known."""
+        return self.truth.known
+
+    @property
+    def true_lag(self) -> float:
+        """The true lag, s."""
+        return self.truth.lag
+
+    @property
+    def true_extent(self) -> float:
+        """The true extent, rad."""
+        return self.truth.extent
+
+    @property
+    def lag(self) -> float:
+        """The lag told, s."""
+        return self.told.lag
+
+    @property
+    def extent(self) -> float:
+        """The extent told, rad."""
+        return self.told.extent
+
+    @property
+    def trust(self) -> float:
+        """The trust told."""
+        return self.told.trust

@@ -18,9 +18,9 @@ def summarise_stated(records: list[ScoredRecord]) -> dict[str, Any] | None:
 
     Records of unknown bearings count as bearings of their own.
     """
-    asked = [one for one in records if one.asked and not one.known_truth]
-    spalled = [one for one in asked if math.isfinite(one.true_extent) and one.true_extent > 0.0]
-    healthy = [one for one in asked if one.race == "none"]
+    asked = [one for one in records if one.asked and not one.truth.known]
+    spalled = [one for one in asked if math.isfinite(one.truth.extent) and one.truth.extent > 0.0]
+    healthy = [one for one in asked if one.truth.race == "none"]
     if not spalled and not healthy:
         return None
     told = [one for one in spalled if one.found]
@@ -28,7 +28,7 @@ def summarise_stated(records: list[ScoredRecord]) -> dict[str, Any] | None:
     return {
         "records": len(spalled),
         "told": len(told),
-        "told_on_the_stated_race": sum(one.found_race == one.race for one in told),
+        "told_on_the_stated_race": sum(one.told.race == one.truth.race for one in told),
         **mean_with_interval("arc_error", errors, told),
         "healthy": len(healthy),
         "healthy_told": sum(one.found for one in healthy),

@@ -14,6 +14,7 @@ from datagen.scenarios.streams import stream
 from datagen.sizing.scored_record import CLEAN_DB, NO_SCORES, ScoredRecord
 from labels.event_scores import EventScores
 from labels.spall_size.known_size import known_size_factor
+from labels.spall_size.size_estimate import Interval
 
 Array = NDArray[np.float64]
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
@@ -47,36 +48,36 @@ def summarise(records: list[ScoredRecord], load_known: bool) -> dict[str, Any]:
         "long": _long(records),
         "known_size_of_another_record": _known_size(records),
         "seconds_per_record": {
-            "mean": float(np.mean([one.seconds for one in records])) if records else math.nan,
-            "largest_after_first": max((one.seconds for one in records[1:]), default=math.nan),
+            "mean": float(np.mean([one.told.seconds for one in records])) if records else math.nan,
+            "largest_after_first": max((one.told.seconds for one in records[1:]), default=math.nan),
         },
     }
 
 
 def noise_level(one: ScoredRecord) -> float:
     """The nominal noise level of a record, dB; infinite if it is clean, which is what 60 dB and more count as."""
-    if not one.snr_db < CLEAN_DB:
+    if not one.truth.snr_db < CLEAN_DB:
         return math.inf
-    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - one.snr_db))
+    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - one.truth.snr_db))
 
 
 def lag_error(one: ScoredRecord) -> float:
     """|error| of the lag over its true value."""
-    return abs(one.lag - one.true_lag) / one.true_lag
+    return abs(one.told.lag - one.truth.lag) / one.truth.lag
 
 
 def extent_error(one: ScoredRecord) -> float:
     """|error| of the extent over its true value."""
-    return abs(one.extent - one.true_extent) / one.true_extent
+    return abs(one.told.extent - one.truth.extent) / one.truth.extent
 
 
 def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], float]:
-    return lambda one: abs(arc(one) - one.true_extent) / one.true_extent
+    return lambda one: abs(arc(one) - one.truth.extent) / one.truth.extent
 
 
 RULES: dict[str, Callable[[ScoredRecord], float]] = {
-    "full size, own lag": _rule(lambda one: one.lag_arc),
-    "half size, own lag": _rule(lambda one: 2.0 * one.lag_arc),
+    "full size, own lag": _rule(lambda one: one.told.lag_arc),
+    "half size, own lag": _rule(lambda one: 2.0 * one.told.lag_arc),
     "plain envelope lag": _rule(lambda one: one.envelope_arc),
     "own lag and static release": _rule(lambda one: one.static_arc),
 }
@@ -97,9 +98,14 @@ def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
         figures.append(_figure(f"no estimate, {name}", asked, _silent, 0.05 if level == math.inf else None))
     eventless = [one for one in records if one.without_event]
     figures.append(_figure("abstention where there is no event", eventless, _silent, 0.95, at_least=True))
-    figures.append(_coverage("lag", told, lambda one: float(one.lag_low <= one.true_lag <= one.lag_high)))
-    figures.append(_coverage("arc", told, lambda one: float(one.extent_low <= one.true_extent <= one.extent_high)))
+    figures.append(_coverage("lag", told, lambda one: _holds(one.told.lag_interval, one.truth.lag)))
+    figures.append(_coverage("arc", told, lambda one: _holds(one.told.extent_interval, one.truth.extent)))
     return figures
+
+
+def _holds(interval: Interval, true: float) -> float:
+    low, high = interval
+    return float(low <= true <= high)
 
 
 def _silent(one: ScoredRecord) -> float:
@@ -172,14 +178,14 @@ def _tables(records: list[ScoredRecord]) -> dict[str, list[dict[str, Any]]]:
     scorable = [one for one in records if one.scorable]
     keys: dict[str, Callable[[ScoredRecord], Bin]] = {
         "noise, dB": lambda one: (-noise_level(one), noise_name(noise_level(one))),
-        "size, spacings": _binned(lambda one: one.extent_spacing, (0.0, 0.05, 0.1, 0.2, 0.4, 0.9)),
-        "size, mm": _binned(lambda one: one.extent_mm, (0.0, 0.5, 1.0, 2.0, 4.0, 16.0)),
-        "true lag, samples": _binned(lambda one: one.true_lag * one.rate, (0.0, 10.0, 20.0, 50.0, 150.0, 1e9)),
-        "speed, rpm": _binned(lambda one: one.speed_rpm, (0.0, 600.0, 1200.0, 1800.0, 2400.0, 1e9)),
-        "load, N": _binned(lambda one: one.load_n, (0.0, 50.0, 200.0, 800.0, 1e9)),
-        "race": lambda one: (0.0, one.race),
-        "profile": lambda one: (0.0, one.profile),
-        "rig": lambda one: (0.0, one.rig),
+        "size, spacings": _binned(lambda one: one.truth.extent_spacing, (0.0, 0.05, 0.1, 0.2, 0.4, 0.9)),
+        "size, mm": _binned(lambda one: one.truth.extent_mm, (0.0, 0.5, 1.0, 2.0, 4.0, 16.0)),
+        "true lag, samples": _binned(lambda one: one.truth.lag * one.truth.rate, (0.0, 10.0, 20.0, 50.0, 150.0, 1e9)),
+        "speed, rpm": _binned(lambda one: one.truth.speed_rpm, (0.0, 600.0, 1200.0, 1800.0, 2400.0, 1e9)),
+        "load, N": _binned(lambda one: one.truth.load_n, (0.0, 50.0, 200.0, 800.0, 1e9)),
+        "race": lambda one: (0.0, one.truth.race),
+        "profile": lambda one: (0.0, one.truth.profile),
+        "rig": lambda one: (0.0, one.truth.rig),
     }
     return {name: _table(scorable, key) for name, key in keys.items()}
 
@@ -229,8 +235,8 @@ def _long(records: list[ScoredRecord]) -> dict[str, Any]:
     """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was told."""
     own = [one for one in records if one.has_events and not one.scorable]
     told = [one for one in own if one.found]
-    near = [one for one in told if one.candidates]
-    errors = [min(abs(c - one.true_extent) for c in one.candidates) / one.true_extent for one in near]
+    near = [one for one in told if one.told.candidates]
+    errors = [min(abs(c - one.truth.extent) for c in one.told.candidates) / one.truth.extent for one in near]
     return {"records": len(own), "told": len(told), **mean_with_interval("error_of_nearest_candidate", errors, near),
             "median": _median(errors)}  # fmt: skip
 
@@ -244,11 +250,11 @@ def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
     known_for = {bearing: _two_surest(own) for bearing, own in of_bearing.items()}
     before, after = [], []
     for one in told:
-        known = next((other for other in known_for[one.bearing_group] if other.record != one.record), None)
+        known = next((other for other in known_for[one.bearing_group] if other.truth.record != one.truth.record), None)
         if known is not None:
-            factor = known_size_factor(known.extent, known.true_extent)
+            factor = known_size_factor(known.told.extent, known.truth.extent)
             before.append(extent_error(one))
-            after.append(abs(one.extent * factor - one.true_extent) / one.true_extent)
+            after.append(abs(one.told.extent * factor - one.truth.extent) / one.truth.extent)
     return {"records": len(before), "arc_error_without": _mean(before), "arc_error_with": _mean(after),
             "median_without": _median(before), "median_with": _median(after)}  # fmt: skip
 
@@ -257,10 +263,13 @@ def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
     """The record of least noise and most trust, and the next one after it: what is known to any of its bearing."""
 
     def sure(one: ScoredRecord) -> tuple[float, float]:
-        return noise_level(one), one.trust
+        return noise_level(one), one.told.trust
 
     first = max(records, key=sure)
-    return [first, *sorted((one for one in records if one.record != first.record), key=sure, reverse=True)[:1]]
+    return [
+        first,
+        *sorted((one for one in records if one.truth.record != first.truth.record), key=sure, reverse=True)[:1],
+    ]
 
 
 def _events(records: list[ScoredRecord]) -> dict[str, dict[str, float]]:

@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from datagen.sizing.known_sizes import KnownSize
-from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.scored_record import ScoredRecord, Truth
 
 
 def summary_table(summary: dict[str, Any]) -> Table:
@@ -42,12 +42,12 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")
     for one in records:
-        trust = f"{one.trust:.2f}" if one.asked else ""
-        table.add_row(str(one.record), escape(_source(one)), *_spall(one), trust, escape(one.reason))
+        trust = f"{one.told.trust:.2f}" if one.asked else ""
+        table.add_row(str(one.truth.record), escape(_source(one.truth)), *_spall(one), trust, escape(one.told.reason))
     return table
 
 
-def _source(one: ScoredRecord) -> str:
+def _source(one: Truth) -> str:
     told = f" {one.channel}" in one.recording
     return one.recording if told else " ".join(part for part in (one.recording, one.channel) if part)
 
@@ -55,10 +55,11 @@ def _source(one: ScoredRecord) -> str:
 def _spall(one: ScoredRecord) -> tuple[str, str, str]:
     if not one.found:
         return "", "", ""
+    told = one.told
     return (
-        one.found_race,
-        _with_interval(one.estimated_deg, one.estimated_deg_low, one.estimated_deg_high),
-        _with_interval(one.estimated_mm, one.estimated_mm_low, one.estimated_mm_high),
+        told.race,
+        _with_interval(told.extent_deg, *told.extent_deg_interval),
+        _with_interval(told.extent_mm, *told.extent_mm_interval),
     )
 
 

@@ -25,7 +25,8 @@ Array = NDArray[np.float64]
 LEVELS_DB = (20.0, 10.0, 5.0, 0.0)
 SHORTEST_LAG = 1.5  # samples
 LAG_SCALE = 0.12
-PLACE_TOLERANCE = 0.4
+LAG_RESOLVED, PLACE_RESOLVED = 0.5, 2.5  # samples; what is off by no more than that is not wrong
+PLACE_TOLERANCE = 0.4  # of the lag, or of what is left of the period
 SHORTEST_SHARE, LONGEST_SHARE = 0.1, 0.5
 
 
@@ -139,12 +140,13 @@ def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:
     """exp(−|log error of the lag| / 0.12), but 0 for pairs whose events lie elsewhere in the pass."""
     period, pairs = evidence.mean.period, evidence.pairs
     short = min(lag, period - lag)
-    error = np.minimum(np.abs(np.log(pairs.lag / lag)), np.maximum(_apart(pairs.lag - lag, period) - 0.5, 0.0) / short)
+    beyond = np.maximum(_apart(pairs.lag - lag, period) - LAG_RESOLVED, 0.0)
+    error = np.minimum(np.abs(np.log(pairs.lag / lag)), beyond / short)
     away = [
         _apart(place - mean_place(evidence, times) - ONSET, period)
         for place, times in ((pairs.entry, truth.first), (pairs.exit, truth.last))
     ]
-    near = np.maximum(np.maximum(*away) - 2.5, 0.0) / short < PLACE_TOLERANCE
+    near = np.maximum(np.maximum(*away) - PLACE_RESOLVED, 0.0) / short < PLACE_TOLERANCE
     return np.asarray(np.exp(-error / LAG_SCALE) * near)
 
 

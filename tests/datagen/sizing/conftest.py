@@ -2,35 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 import pytest
 
-from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
+from datagen.sizing.scored_record import ScoredRecord, Told, Truth
 
 RATE = 65_536.0
+NOTHING: Mapping[str, object] = MappingProxyType({})
 
 
 @pytest.fixture
 def scored() -> Callable[..., ScoredRecord]:
-    """Function (**changes) → the row of a record told exactly, 10 dB, with these changes."""
+    """Function (**changes) → a record told exactly, 10 dB, with these changes."""
     return exactly_told
 
 
-def exactly_told(**changes: object) -> ScoredRecord:
-    """A record told exactly, 10 dB, with what the test changes."""
-    exact = ScoredRecord(
+def exactly_told(
+    truth: Mapping[str, object] = NOTHING, told: Mapping[str, object] = NOTHING, **changes: object
+) -> ScoredRecord:
+    """A record told exactly, 10 dB, with what the test changes in its truth, in what was told and in the rest."""
+    exact = Truth(
         record=0, recording="", channel="", bearing_id="b", rig="r", race="outer", profile="tukey", split="test",
-        snr_db=10.2, speed_rpm=600.0, load_n=100.0,
-        extent_mm=2.0, extent_spacing=0.2, rate=RATE, pass_period=0.02, true_lag=0.004, true_extent=0.1,
-        outcome="estimated", reason="", method="m", found_race="outer", trust=0.9,
-        lag=0.004, lag_low=0.003, lag_high=0.005, lag_arc=0.08,
-        extent=0.1, extent_low=0.09, extent_high=0.12, estimated_deg=5.73, estimated_deg_low=5.16,
-        estimated_deg_high=6.88, estimated_mm=2.0, estimated_mm_low=1.8, estimated_mm_high=2.4, candidates=(0.1, 0.6),
-        candidates_deg=(5.73, 34.4), candidates_mm=(2.0, 12.0), static_arc=0.1, envelope_arc=0.05,
-        known_size_factor=1.0, seconds=0.1, event_times=np.zeros((0, 2)),
-        events_in_time=NO_SCORES, events_in_arc=NO_SCORES, known_truth=True,
+        snr_db=10.2, speed_rpm=600.0, load_n=100.0, extent_mm=2.0, extent_spacing=0.2, rate=RATE, pass_period=0.02,
+        lag=0.004, extent=0.1, known=True,
     )  # fmt: skip
-    return replace(exact, **changes)  # type: ignore[arg-type]
+    same = Told(
+        outcome="estimated", reason="", method="m", race="outer", trust=0.9, lag=0.004, lag_interval=(0.003, 0.005),
+        lag_arc=0.08, extent=0.1, extent_interval=(0.09, 0.12), extent_mm=2.0, extent_mm_interval=(1.8, 2.4),
+        candidates=(0.1, 0.6), candidates_mm=(2.0, 12.0), event_times=np.zeros((0, 2)), seconds=0.1,
+    )  # fmt: skip
+    whole = ScoredRecord(replace(exact, **truth), replace(same, **told), static_arc=0.1, envelope_arc=0.05)  # type: ignore[arg-type]
+    return replace(whole, **changes)  # type: ignore[arg-type]

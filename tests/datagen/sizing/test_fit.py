@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import shutil
+from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.sizing.fit import OutOfFold, main
+from datagen.sizing import fit
+from datagen.sizing.estimators import default_estimator
+from datagen.sizing.fit_limits import most_doubt, reach
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.training_rows import trials
+from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.estimator import SizeEstimator
 from labels.spall_size.size_estimate import SizeOutcome
@@ -44,10 +51,131 @@ def small_ladder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def columns(**changes: object) -> TrialColumns:
+    """Four trials as stored, of as many bearings: a clean one and a noisy one with events, two without."""
+    gone = np.nan
+    four = TrialColumns(
+        bearing=np.array(["a", "b", "c", "d"]), stored=np.ones(4, dtype=np.bool_),
+        clean=np.array([True, False, True, False]), asked=np.array([True, True, False, False]),
+        typical=np.ones(4, dtype=np.bool_), true_lag=np.array([20.0, 30.0, gone, 1.9]),
+        lag=np.array([20.0, 30.0, gone, 1.9]), arc=np.array([0.1, 0.2, gone, 0.01]), period=np.full(4, 100.0),
+    )  # fmt: skip
+    return replace(four, **changes)  # type: ignore[arg-type]
+
+
 def test_the_reach_holds_ninety_per_cent_of_the_usual_errors_that_are_known() -> None:
     missed = np.concatenate([np.arange(101.0), [np.nan, 1e6]])  # the 90 % quantile of 0 to 100 is 90
     usual = np.append(np.ones(102, dtype=np.bool_), False)
-    assert OutOfFold(np.zeros(103), missed).reach(usual) == pytest.approx(90.0)
+    assert reach(missed, usual) == pytest.approx(90.0)
+    with pytest.raises(BadInput, match="no reach"):
+        reach(missed, np.zeros(103, dtype=np.bool_))
+
+
+def test_masks_say_which_trials_a_stage_looks_at() -> None:
+    four = columns(true_lag=np.array([1.9, 2.0, 2.9, 3.0]))
+    assert four.eventless.tolist() == [True, False, False, False]
+    assert four.decided.tolist() == [True, False, False, True]
+    assert columns().eventless.tolist() == [False, False, True, True]
+    assert columns().decided.all()
+    flags = {
+        "stored": [False, True, True, True, True, True],
+        "clean": [True, True, False, True, True, True],
+        "asked": [True, True, True, False, True, True],
+        "typical": [True, True, True, True, False, True],
+    }
+    six = columns(true_lag=np.full(6, np.nan), **{name: np.array(values) for name, values in flags.items()})
+    assert six.eventless.tolist() == [False, True, True, True, True, True]
+    assert six.as_stored.tolist() == [False, True, True, True, False, True]
+    assert six.asked_as_stored.tolist() == [False, True, True, False, False, True]
+    assert six.asked_clean.tolist() == [True, True, False, False, False, True]
+
+
+def test_the_most_doubt_leaves_nearly_all_trials_without_events_untold() -> None:
+    error, expected = np.array([0.01, 0.5, np.nan, 9.0]), np.array([0.1, 0.2, 0.3, 0.8])
+    assert most_doubt(columns(), error, expected) == pytest.approx(0.3 + 0.02 * 0.5)  # 2 % of the way from 0.3 to 0.8
+    # Clean ones that would be 50 % wrong up to there are cut off behind the last that keeps the mean below 4.5 %.
+    clean = np.array([True, True, False, False])
+    assert most_doubt(columns(clean=clean), error, expected) == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"bearing": np.array(["a", "a", "b", "b"])}, "bearings = 2: too few"),
+        ({"true_lag": np.full(4, 20.0)}, "no record without events"),
+        ({"typical": np.array([False, False, True, True]), "lag": np.array([20.0, 30.0, np.nan, np.nan])}, "reach"),
+    ],
+)
+def test_trials_that_do_not_suffice_are_refused_before_the_first_stage(
+    change: dict[str, object], problem: str, small_ladder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setattr(TrialColumns, "of", classmethod(lambda *_: columns(**change)))
+    monkeypatch.setattr(fit, "trials", lambda *_: [])
+    monkeypatch.setattr(fit, "fit_calibration", lambda *_: pytest.fail("it was fitting already"))
+    assert fit.main([str(small_ladder), "--out", str(tmp_path / "c.npz")]) == 2
+    assert problem in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        (["CORPUS", "CORPUS"], "--out"),  # the last is a corpus and no file
+        (["CORPUS", "--out", "CORPUS"], "this is a folder"),
+        (["CORPUS", "--out", "CORPUS/none/c.npz"], "no such folder"),
+        (["CORPUS", "--out", "c.npz", "--workers", "0"], "--workers = 0"),
+        (["CORPUS", "CORPUS/shards", "--out", "c.npz"], "shards"),
+        (["TESTS", "--out", "c.npz"], "no records to learn from"),
+        (["--out", "c.npz"], "CORPUS"),
+    ],
+)
+def test_arguments_that_cannot_be_used_are_refused_before_any_work(
+    arguments: list[str], problem: str, small_ladder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    tests = tmp_path / "tests"
+    shutil.copytree(small_ladder, tests)
+    index = tests / "index.csv"
+    index.write_text(index.read_text().replace(",train,", ",test,"))
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(fit, "trials", lambda *_: pytest.fail("it was at work already"))
+    with pytest.raises(SystemExit) if problem in ("--out", "CORPUS") else nullcontext() as refused:
+        places = [one.replace("CORPUS", str(small_ladder)).replace("TESTS", str(tests)) for one in arguments]
+        assert fit.main(places) == 2
+    assert refused is None or refused.value.code == 2
+    assert problem in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["tests"]
+
+
+@pytest.mark.parametrize("name", ["calibration.npz", "calibration"])
+def test_the_file_is_whole_under_the_name_that_was_given(
+    name: str, small_ladder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(fit, "trials", lambda *_: [])
+    monkeypatch.setattr(TrialColumns, "of", classmethod(lambda *_: columns()))
+    monkeypatch.setattr(fit, "fit_calibration", lambda *_: default_estimator().calibration)
+    (tmp_path / name).write_text("old")
+    assert fit.main([str(small_ladder), "--out", str(tmp_path / name)]) == 0
+    with np.load(tmp_path / name) as file:
+        again = Calibration.from_arrays({key: file[key] for key in file.files})
+    assert again.with_load.most == default_estimator().calibration.with_load.most
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_file_that_cannot_be_finished_leaves_the_old_one(
+    small_ladder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(fit, "trials", lambda *_: [])
+    monkeypatch.setattr(TrialColumns, "of", classmethod(lambda *_: columns()))
+    monkeypatch.setattr(fit, "fit_calibration", lambda *_: default_estimator().calibration)
+    monkeypatch.setattr("datagen.corpora.atomic.os.fsync", full)
+    (tmp_path / "c.npz").write_text("old")
+    assert fit.main([str(small_ladder), "--out", str(tmp_path / "c.npz")]) == 2
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("c.npz", "old")]
 
 
 @pytest.mark.slow
@@ -71,7 +199,7 @@ def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
 
 @pytest.mark.slow
 def test_a_fit_to_few_records_gives_a_calibration_that_estimates(small_ladder: Path, tmp_path: Path) -> None:
-    main([str(small_ladder)], str(tmp_path / "calibration.npz"), workers=1)
+    assert fit.main([str(small_ladder), "--out", str(tmp_path / "calibration.npz"), "--workers", "1"]) == 0
     with np.load(tmp_path / "calibration.npz") as file:
         learned = Calibration.from_arrays({name: file[name] for name in file.files})
     estimator = SizeEstimator(learned)

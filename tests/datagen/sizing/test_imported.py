@@ -73,7 +73,7 @@ def test_recordings_are_told_sizes_or_not_without_being_scored(tmp_path: Path) -
     scores = score_sizes(corpus, None, True, None)
     assert scores.summary is None
     (only,) = scores.records
-    assert not only.known_truth
+    assert not only.truth.known
     assert not only.found
     code, said, _ = size(corpus, "--out", tmp_path / "out")
     assert code == 0
@@ -218,6 +218,20 @@ def test_recordings_of_which_nothing_is_stated_are_neither_scored_nor_logged(tmp
 def test_without_a_hertz_factor_the_command_says_that_it_is_blind(stated: Path) -> None:
     assert "blind: no load or no Hertz factor is known" in size(stated)[1]
     assert "blind: no load" not in size(stated, "--blind")[1]  # as was asked
+
+
+def test_the_records_whose_load_and_hertz_factor_were_told_are_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "speeds.csv").write_text(
+        "file,speed_rpm,load_n\nfree.npy,1200,\npressed.npy,1200,200\nrest.npy,0,200\n"
+    )
+    corpus = imported(tmp_path, TABLE, free=noise(1), pressed=noise(2), rest=noise(3))
+    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    for load_known, given in ((True, ["pressed"]), (False, [])):
+        scores = score_sizes(corpus, None, load_known, None)
+        assert [one.truth.recording for one in scores.records if one.told.load_known] == given
+        assert scores.load_told == len(given)
 
 
 @pytest.mark.parametrize(

@@ -93,7 +93,9 @@ def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Pa
 def test_without_a_known_bearing_the_rig_is_the_machine(corpus: Path) -> None:
     scores = score_sizes(corpus, None, True, "all", sizes={6: 1.0})
     factor = known_size_factor(2.0, 1.0)
-    assert {one.record: one.known_size_factor for one in scores.records if one.known_size_factor != 1.0} == {7: factor}
+    told = {one.truth.record: one.told.known_size_factor for one in scores.records}
+    factors = {record: own for record, own in told.items() if own != 1.0}
+    assert factors == {7: factor}
     assert machine_of("unknown", "unknown") == machine_of("", "") == ""
 
 

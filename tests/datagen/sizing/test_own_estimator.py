@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 import threading
 from collections.abc import Iterator
@@ -84,7 +85,7 @@ def test_an_estimate_of_the_least_that_is_required_is_scored_where_the_load_is_k
     loaded = replace(MACHINE, load=500.0, load_deflection=1e10)
     record = SizedRecord(3, 1000.0, np.zeros((400, 2)), None, labels, loaded, None)
     row = score_record(record, OwnEstimator("mine:Sizer", Saying(least), ""))
-    assert (row.extent, row.found_race) == (0.1, "")
+    assert (row.told.extent, row.told.race) == (0.1, "")
     assert math.isnan(row.static_arc)
 
 
@@ -122,6 +123,35 @@ def test_the_command_ends_with_2_and_writes_nothing(
     assert done.exit_code == 2
     assert done.stderr.startswith('error: --estimator = "seven:Sizer": its method estimate gave int 7')
     assert not out.exists()
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_class_is_made_once_in_every_process(
+    workers: int, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name = f"counted_in_{workers}"
+    (tmp_path / f"{name}.py").write_text(
+        "import os\n"
+        "from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome\n"
+        "def note(what):\n"
+        f"    with open({str(tmp_path / 'notes')!r}, 'a') as notes:\n"
+        "        notes.write(f'{what} {os.getpid()}\\n')\n"
+        "class Counted:\n"
+        "    def __init__(self):\n"
+        "        note('made')\n"
+        "    def estimate(self, acceleration, rate, situation):\n"
+        "        note('asked')\n"
+        "        return SizeEstimate(SizeOutcome.NO_PASSES, 'none')\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")  # for the worker processes
+    scores = score_sizes(tiny_corpus, f"{name}:Counted", True, "all", workers)
+    notes = [line.split() for line in (tmp_path / "notes").read_text().splitlines()]
+    made = [process for what, process in notes if what == "made"]
+    asked = [process for what, process in notes if what == "asked"]
+    assert len(asked) == len(scores.records) == 14
+    assert len(made) == len(set(made))
+    assert set(made) == {str(os.getpid()), *asked}  # the command makes one of its own, to see that it can be made
 
 
 def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -72,7 +72,7 @@ def run(*arguments: object) -> tuple[int, str, str]:
 def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(sized_corpus: Path) -> None:
     scores = score_sizes(sized_corpus, None, True, "all")
     gaps, healthy = scores.records[:3], scores.records[3]
-    assert all(one.found and one.found_race == "outer" for one in gaps)
+    assert all(one.found and one.told.race == "outer" for one in gaps)
     # Half of the ladder's clean records are within 3 %, its mean is about 5 %; three records may do twice as badly.
     assert np.mean([lag_error(one) for one in gaps]) < 0.10
     assert np.mean([extent_error(one) for one in gaps]) < 0.15
@@ -125,23 +125,24 @@ def test_the_command_writes_report_table_and_picture(sized_corpus: Path, tmp_pat
 
 def test_a_told_record_says_its_size_in_every_unit_with_intervals_and_when_its_balls_passed(sized_corpus: Path) -> None:
     gap = score_sizes(sized_corpus, None, True, "all").records[0]
-    assert (gap.found_race, gap.reason) == ("outer", "")
-    assert "Hertz" in gap.method
-    assert gap.lag_low < gap.lag < gap.lag_high
-    for name in ("extent", "estimated_deg", "estimated_mm"):
-        low, value, high = (getattr(gap, name + end) for end in ("_low", "", "_high"))
+    told = gap.told
+    assert (told.race, told.reason) == ("outer", "")
+    assert "Hertz" in told.method
+    assert told.lag_interval[0] < told.lag < told.lag_interval[1]
+    for name in ("extent", "extent_deg", "extent_mm"):
+        value, (low, high) = getattr(told, name), getattr(told, f"{name}_interval")
         assert low < value < high
-        assert low / value == pytest.approx(gap.extent_low / gap.extent, rel=1e-12)  # one interval in three units
-    assert gap.estimated_deg == pytest.approx(math.degrees(gap.extent), rel=1e-12)
-    radius_mm = gap.extent_mm / gap.true_extent  # the label says both
-    assert gap.estimated_mm == pytest.approx(radius_mm * gap.extent, rel=1e-9)
+        assert low / value == pytest.approx(told.extent_interval[0] / told.extent, rel=1e-12)  # one in three units
+    assert told.extent_deg == pytest.approx(math.degrees(told.extent), rel=1e-12)
+    radius_mm = gap.truth.extent_mm / gap.truth.extent  # the label says both
+    assert told.extent_mm == pytest.approx(radius_mm * told.extent, rel=1e-9)
     spacing = 2.0 * math.pi / 12.0
-    assert np.diff(gap.candidates) == pytest.approx(spacing, rel=1e-9)
+    assert np.diff(told.candidates) == pytest.approx(spacing, rel=1e-9)
     # All that are no longer than half the race, and no others.
-    assert max(gap.candidates) <= math.pi < max(gap.candidates) + spacing
-    assert gap.candidates_mm == pytest.approx([radius_mm * arc for arc in gap.candidates], rel=1e-9)
-    assert np.diff(gap.event_times, axis=1) == pytest.approx(gap.lag, rel=1e-9)
-    assert 30 <= len(gap.event_times) <= 40  # 98 passes a second for 0.4 s, but for those cut off or not heard
+    assert max(told.candidates) <= math.pi < max(told.candidates) + spacing
+    assert told.candidates_mm == pytest.approx([radius_mm * arc for arc in told.candidates], rel=1e-9)
+    assert np.diff(told.event_times, axis=1) == pytest.approx(told.lag, rel=1e-9)
+    assert 30 <= len(told.event_times) <= 40  # 98 passes a second for 0.4 s, but for those cut off or not heard
 
 
 def test_events_are_told_where_balls_are_released_and_loaded_again(sized_corpus: Path) -> None:
@@ -149,7 +150,7 @@ def test_events_are_told_where_balls_are_released_and_loaded_again(sized_corpus:
     away = []
     for scored, truth in zip(score_sizes(sized_corpus, None, True, "all").records, truths, strict=False):
         assert truth is not None
-        for told, true in zip(scored.event_times.T, (truth.first, truth.last), strict=True):
+        for told, true in zip(scored.told.event_times.T, (truth.first, truth.last), strict=True):
             away.append(np.median(told - true[np.abs(told[:, None] - true).argmin(axis=1)]))
     assert abs(np.mean(away)) < 50e-6  # half of what an event may be off to count; 3.3 samples
 
@@ -219,11 +220,13 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
     silent = {"lag": math.nan, "extent": math.nan, "outcome": "no_event_pair"}
     rows = [
         scored(),
-        scored(lag=0.0048, extent=0.13, extent_low=0.11),  # 20 % and 30 % wrong, arc outside its interval
-        scored(**silent),
-        scored(true_lag=math.nan, **silent),  # no event, rightly silent
-        scored(true_lag=1.5 / RATE),  # below two samples, wrongly told
-        scored(extent_spacing=1.4, true_extent=0.6),  # beyond 0.9 spacings: a candidate is exact
+        scored(
+            told={"lag": 0.0048, "extent": 0.13, "extent_interval": (0.11, 0.12)}
+        ),  # 20 % and 30 % wrong, arc outside its interval
+        scored(told=silent),
+        scored({"lag": math.nan}, silent),  # no event, rightly silent
+        scored({"lag": 1.5 / RATE}),  # below two samples, wrongly told
+        scored({"extent_spacing": 1.4, "extent": 0.6}),  # beyond 0.9 spacings: a candidate is exact
     ]
     summary = summarise(rows, load_known=True)
     assert (summary["scorable"], summary["without_event"]) == (3, 2)
@@ -241,9 +244,10 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
 
 def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Callable[..., ScoredRecord]) -> None:
     known = KnownSize(record=0, machine="b", known_mm=2.2, estimated_mm=2.0, factor=1.1)
-    other = scored(record=1, extent=0.11, known_size_factor=1.1)  # 0.1 without it, which is the truth
-    silent = scored(record=2, extent=math.nan, outcome="no_event_pair")
-    (told,) = with_effect([known], [scored(), other, silent, scored(record=3, bearing_id="c", extent=0.3)])
+    other = scored({"record": 1}, {"extent": 0.11, "known_size_factor": 1.1})  # 0.1 without it, which is the truth
+    silent = scored({"record": 2}, {"extent": math.nan, "outcome": "no_event_pair"})
+    elsewhere = scored({"record": 3, "bearing_id": "c"}, {"extent": 0.3})
+    (told,) = with_effect([known], [scored(), other, silent, elsewhere])
     assert told.corrected == 1
     assert told.arc_error_without == pytest.approx(0.0, abs=1e-12)  # rounding
     assert told.arc_error_with == pytest.approx(0.1)
@@ -251,8 +255,8 @@ def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Ca
 
 
 def test_intervals_are_of_a_bootstrap_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
-    wrong = [scored(bearing_id="bad", lag=0.0044) for _ in range(40)]  # 10 % wrong, all of one bearing
-    rows = [*wrong, *(scored(bearing_id=f"good {k // 4}") for k in range(40))]  # ten bearings told exactly
+    wrong = [scored({"bearing_id": "bad"}, {"lag": 0.0044}) for _ in range(40)]  # 10 % wrong, all of one bearing
+    rows = [*wrong, *(scored({"bearing_id": f"good {k // 4}"}) for k in range(40))]  # ten bearings told exactly
     (lag,) = (one for one in summarise(rows, True)["figures"] if one.name == "lag error, 10 dB")
     assert lag.value == pytest.approx(0.05)
     # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad bearing makes 0, 50, 69 or 79 % of the
@@ -273,7 +277,7 @@ def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the
 
 
 def test_between_two_and_five_samples_nothing_is_scored(scored: Callable[..., ScoredRecord]) -> None:
-    between = scored(true_lag=4.0 / RATE, pass_period=0.001)
+    between = scored({"lag": 4.0 / RATE, "pass_period": 0.001})
     assert not between.scorable
     assert not between.without_event
     assert noise_level(between) == 10.0

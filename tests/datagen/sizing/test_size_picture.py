@@ -25,7 +25,7 @@ def drawn(records: list[ScoredRecord]) -> Figure:
 
 @pytest.mark.parametrize("rigs", [1, 13])
 def test_the_names_below_the_bars_do_not_lie_on_each_other(rigs: int, scored: Callable[..., ScoredRecord]) -> None:
-    records = [scored(record=k, rig=f"an imaginary rig {k % rigs}", bearing_id=f"b{k}") for k in range(26)]
+    records = [scored({"record": k, "rig": f"an imaginary rig {k % rigs}", "bearing_id": f"b{k}"}) for k in range(26)]
     figure = drawn(records)
     panel = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Rig"))
     boxes = [label.get_window_extent() for label in panel.get_xticklabels() if not label.get_rotation()]
@@ -38,7 +38,7 @@ def test_the_names_below_the_bars_do_not_lie_on_each_other(rigs: int, scored: Ca
 
 
 def test_where_nothing_was_told_the_panels_say_so(scored: Callable[..., ScoredRecord]) -> None:
-    records = [scored(record=k, outcome="no_events", lag=math.nan, extent=math.nan) for k in range(3)]
+    records = [scored({"record": k}, {"outcome": "no_events", "lag": math.nan, "extent": math.nan}) for k in range(3)]
     figure = drawn(records)
     assert [[text.get_text() for text in axes.texts] for axes in figure.axes[:3]] == [["no record was told a size"]] * 3
     plt.close(figure)

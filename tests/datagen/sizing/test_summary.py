@@ -18,9 +18,10 @@ BAD, GOOD = EventScores(0, 10, 10), EventScores(10, 10, 10)
 
 def two_kinds(scored: Callable[..., ScoredRecord]) -> list[ScoredRecord]:
     """Forty records of one bearing, 10 % and 50 % wrong and all events missed, and forty exact ones of ten bearings."""
-    wrong = {"lag": 0.0044, "extent": 0.15, "events_in_time": BAD, "events_in_arc": BAD}
-    bad = [scored(bearing_id="bad", **wrong) for _ in range(40)]
-    return [*bad, *(scored(bearing_id=f"good {k // 4}", events_in_time=GOOD, events_in_arc=GOOD) for k in range(40))]
+    wrong, missed = {"lag": 0.0044, "extent": 0.15}, {"events_in_time": BAD, "events_in_arc": BAD}
+    bad = [scored({"bearing_id": "bad"}, wrong, **missed) for _ in range(40)]
+    heard = {"events_in_time": GOOD, "events_in_arc": GOOD}
+    return [*bad, *(scored({"bearing_id": f"good {k // 4}"}, **heard) for k in range(40))]
 
 
 def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
@@ -42,7 +43,7 @@ def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., Score
 
 
 def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
-    summary = summarise([scored(lag=math.nan, extent=math.nan, candidates=())], True)
+    summary = summarise([scored(told={"lag": math.nan, "extent": math.nan, "candidates": ()})], True)
     (row,) = summary["by"]["race"]
     assert row["no_estimate"] == 1.0
     assert math.isnan(row["lag_error"])
@@ -54,11 +55,13 @@ def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., Score
 
 def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., ScoredRecord]) -> None:
     values = np.random.default_rng(0).standard_normal(400)
-    found = mean_with_interval("error", values.tolist(), [scored(bearing_id="unknown", record=k) for k in range(400)])
+    found = mean_with_interval(
+        "error", values.tolist(), [scored({"bearing_id": "unknown", "record": k}) for k in range(400)]
+    )
     reach = 1.645 * values.std() / math.sqrt(400)  # of a normal distribution; 2000 draws tell quantiles to 4 %
     assert found["error_high"] - found["error"] == pytest.approx(reach, rel=0.1)
     # Of two records one is drawn twice in a quarter of the draws each.
-    pair = mean_with_interval("error", [0.0, 1.0], [scored(bearing_id="unknown", record=k) for k in range(2)])
+    pair = mean_with_interval("error", [0.0, 1.0], [scored({"bearing_id": "unknown", "record": k}) for k in range(2)])
     assert (pair["error_low"], pair["error"], pair["error_high"]) == (0.0, 0.5, 1.0)
 
 
@@ -66,7 +69,7 @@ def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., 
 def test_one_bearing_alone_gives_a_mean_no_interval(
     scored: Callable[..., ScoredRecord], bearing: str, count: int
 ) -> None:
-    records = [scored(bearing_id=bearing, record=k) for k in range(count)]
+    records = [scored({"bearing_id": bearing, "record": k}) for k in range(count)]
     found = mean_with_interval("error", np.linspace(0.0, 1.0, count + 1)[1:].tolist(), records)
     assert math.isfinite(found["error"])
     assert math.isnan(found["error_low"])
@@ -83,16 +86,18 @@ def test_no_interval_is_printed_where_there_is_none() -> None:
 
 
 def test_one_record_of_an_unknown_bearing_tells_nothing_of_another(scored: Callable[..., ScoredRecord]) -> None:
-    records = [scored(record=k, bearing_id="unknown") for k in range(3)]
+    records = [scored({"record": k, "bearing_id": "unknown"}) for k in range(3)]
     assert summarise(records, True)["known_size_of_another_record"]["records"] == 0
 
 
 def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored: Callable[..., ScoredRecord]) -> None:
     clean, sure, unsure = (
-        scored(record=k, extent=extent, snr_db=snr, trust=trust)
+        scored({"record": k, "snr_db": snr}, {"extent": extent, "trust": trust})
         for k, (extent, snr, trust) in enumerate([(0.102, 99.0, 0.2), (0.097, 10.0, 0.9), (0.104, 10.0, 0.8)])
     )
-    found = summarise([unsure, sure, clean, scored(record=9, bearing_id="alone")], True)["known_size_of_another_record"]
+    found = summarise([unsure, sure, clean, scored({"record": 9, "bearing_id": "alone"})], True)[
+        "known_size_of_another_record"
+    ]
     assert found["records"] == 3
     assert found["arc_error_without"] == pytest.approx((0.02 + 0.03 + 0.04) / 3)
     # A twentieth of the logarithm of what the known one was wrong by: the clean record's for both others, and the surer
@@ -105,9 +110,9 @@ def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored
 def test_silence_where_there_is_no_event_is_met_from_95_per_cent_up(
     scored: Callable[..., ScoredRecord], silent: int, met: bool
 ) -> None:
-    nothing = {"race": "none", "true_lag": math.nan, "extent_spacing": 0.0, "true_extent": 0.0}
+    nothing = {"race": "none", "lag": math.nan, "extent_spacing": 0.0, "extent": 0.0}
     unsized = {"outcome": "no_passes", "lag": math.nan, "extent": math.nan, "candidates": ()}
-    records = [scored(**nothing, **(unsized if k < silent else {})) for k in range(40)]
+    records = [scored(nothing, unsized if k < silent else {}) for k in range(40)]
     (figure,) = [one for one in summarise(records, True)["figures"] if one.name.startswith("abstention")]
     assert (figure.value, figure.count, figure.met) == (pytest.approx(silent / 40), 40, met)
 
@@ -116,14 +121,14 @@ def test_silence_where_there_is_no_event_is_met_from_95_per_cent_up(
 def test_the_lag_of_clean_records_is_met_up_to_5_per_cent_of_error(
     scored: Callable[..., ScoredRecord], error: float, met: bool
 ) -> None:
-    records = [scored(snr_db=math.inf, lag=0.004 * (1.0 + error))]
+    records = [scored({"snr_db": math.inf}, {"lag": 0.004 * (1.0 + error)})]
     (figure,) = [one for one in summarise(records, True)["figures"] if one.name == "lag error, clean"]
     assert (figure.value, figure.met) == (pytest.approx(error), met)
 
 
 def test_the_interval_of_a_mean_leaves_a_twentieth_out_at_either_end(scored: Callable[..., ScoredRecord]) -> None:
     values = np.random.default_rng(0).standard_normal(400)
-    found = mean_with_interval("error", values.tolist(), [scored(bearing_id=str(k)) for k in range(400)])
+    found = mean_with_interval("error", values.tolist(), [scored({"bearing_id": str(k)}) for k in range(400)])
     reach = 1.645 * values.std() / math.sqrt(400)  # of a normal distribution; 2000 draws tell quantiles to 4 %
     assert found["error_high"] - found["error"] == pytest.approx(reach, rel=0.1)
     assert found["error"] - found["error_low"] == pytest.approx(reach, rel=0.1)

@@ -1,16 +1,26 @@
-"""The noise in which the calibration hears the records."""
+"""What the calibration is fitted to: the noise of the records, and which pairs of candidates are their events."""
 
 from __future__ import annotations
 
 import math
-from types import SimpleNamespace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from datagen.sizing.training_rows import LEVELS_DB, Heard, _with_noise, trial
+from datagen.sizing.sized_records import SizedRecord
+from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Heard, _with_noise, trial
 from labels.spall_size.event_truth import EventTruth
+from labels.spall_size.evidence import Evidence, gather_evidence
+from labels.spall_size.situation import Situation
+
+Array = NDArray[np.float64]
+
+RATE = 65536.0
+LAG = 100.0 / RATE
+MACHINE = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
+SPACING = math.pi / 6.0  # of twelve balls
 
 
 def test_records_are_heard_in_noise_of_the_levels_of_the_ladder() -> None:
@@ -23,19 +33,73 @@ def test_records_are_heard_in_noise_of_the_levels_of_the_ladder() -> None:
     assert set(nearest.tolist()) == set(range(len(LEVELS_DB)))
 
 
-@pytest.mark.parametrize(("extent", "lag", "arc"), [(0.2, 30.0, 0.2), (0.2 + math.pi / 6.0, 30.0, 0.2)])
+@pytest.fixture(scope="module")
+def heard() -> tuple[Evidence, Array]:
+    """Bursts of 6 kHz, two a pass of the outer race, LAG apart: what is heard, and when the first of each begin."""
+    period = MACHINE.pass_periods()["outer"]
+    time, first = np.arange(32768) / RATE, np.arange(0.001, 0.48, period)
+    signal = 0.01 * np.random.default_rng(1).standard_normal(time.size)
+    for start in first:
+        for burst in (start, start + LAG):
+            since = np.maximum(time - burst, 0.0)
+            signal += np.exp(-since / 2e-4) * np.sin(2.0 * math.pi * 6000.0 * since)
+    evidence = gather_evidence(signal, RATE, MACHINE.pass_periods())
+    assert evidence is not None
+    assert evidence.race == "outer"
+    return evidence, first
+
+
+def record(first: Array, last: Array, extent: float) -> SizedRecord:
+    """A record of a spall of this extent (rad) on the outer race, with its events at these times (K,), s."""
+    labels = {"location": "outer", "extent": extent, "extent_spacing": extent / SPACING, "bearing_id": "b"}
+    labels |= {"speed_rpm": 1800.0, "bpfo": MACHINE.bearing().bpfo}
+    truth = EventTruth(first, last, np.zeros(first.size, dtype=np.bool_))
+    return SizedRecord(0, RATE, np.zeros((32768, 2)), None, labels, MACHINE, truth)
+
+
+@pytest.mark.parametrize("spacings", [0, 1])
 def test_whole_passes_are_taken_off_the_lag_and_as_many_spacings_off_the_arc(
-    monkeypatch: pytest.MonkeyPatch, extent: float, lag: float, arc: float
+    spacings: int, heard: tuple[Evidence, Array]
 ) -> None:
-    # Twelve balls; a pass lasts 100 samples, so a spall a spacing longer shows its exit 100 samples later.
-    monkeypatch.setattr("datagen.sizing.training_rows._quality", lambda *_: np.zeros(1))
-    late = 0.130 if extent > math.pi / 6.0 else 0.030
-    first = 0.1 * np.arange(1.0, 6.0)
-    labels = {"location": "outer", "extent": extent, "bearing_id": "b", "extent_spacing": 6.0 * extent / math.pi}
-    labels |= {"speed_rpm": 600.0, "bpfo": 1.0}
-    machine: Any = SimpleNamespace(bearing=lambda: SimpleNamespace(spacing=math.pi / 6.0))
-    truth = EventTruth(first, first + late, np.zeros(5, dtype=np.bool_))
-    sized: Any = SimpleNamespace(record=0, rate=1000.0, truth=truth, labels=labels, situation=machine)
-    seen: Any = SimpleNamespace(race="outer", mean=SimpleNamespace(period=100.0), pairs=SimpleNamespace(lag=first))
-    made = trial(sized, seen, Heard(np.zeros(1000), 0, True, True))
-    assert (made.lag, made.arc) == (pytest.approx(lag), pytest.approx(arc))
+    # A ball covers a spacing in a pass, so a spall a spacing longer shows its exit a pass later.
+    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    late = LAG + spacings * MACHINE.pass_periods()["outer"]
+    made = trial(record(first, first + late, 0.2 + spacings * SPACING), evidence, whole)
+    assert made.true_lag == pytest.approx(late * RATE)
+    assert made.lag == pytest.approx(LAG * RATE, abs=0.5)  # the period that was tracked is a fraction of a sample off
+    assert made.arc == pytest.approx(0.2)
+    assert made.asked == (spacings == 0)  # beyond 0.9 spacings no size must be told
+
+
+def test_the_pair_of_the_true_lag_at_the_true_place_is_the_best(heard: tuple[Evidence, Array]) -> None:
+    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    made = trial(record(first, first + LAG, 0.2), evidence, whole)
+    best = int(made.quality.argmax())
+    assert made.quality[best] > 0.9
+    assert evidence.pairs.lag[best] == pytest.approx(LAG * RATE, rel=0.02)
+    # Events of that lag half a pass away are none of the pairs that were heard.
+    away = first[:-1] + 0.5 * MACHINE.pass_periods()["outer"]
+    elsewhere = trial(record(away, away + LAG, 0.2), evidence, whole)
+    assert elsewhere.lag == pytest.approx(made.lag)
+    assert elsewhere.quality[best] == 0.0
+
+
+@pytest.mark.parametrize(("off", "wrong"), [(0.4, 0.0), (4.5, 4.0)])  # samples
+def test_half_a_sample_of_the_lag_is_no_error(off: float, wrong: float, heard: tuple[Evidence, Array]) -> None:
+    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    best = int(trial(record(first, first + LAG, 0.2), evidence, whole).quality.argmax())
+    lag = float(evidence.pairs.lag[best]) - off
+    made = trial(record(first, first + lag / RATE, 0.2), evidence, whole)
+    assert made.quality[best] == pytest.approx(math.exp(-wrong / lag / LAG_SCALE), rel=1e-6)
+
+
+def test_a_record_without_events_or_heard_on_the_wrong_race_has_no_pair_to_be_found(
+    heard: tuple[Evidence, Array],
+) -> None:
+    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    right = record(first, first + LAG, 0.2)
+    for one in (replace(right, truth=None), replace(right, labels=right.labels | {"location": "inner", "bpfi": 7.0})):
+        made = trial(one, evidence, whole)
+        assert math.isnan(made.lag)
+        assert math.isnan(made.arc)
+        assert not made.quality.any()

@@ -107,9 +107,10 @@ def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:
     rates = ", ".join(f"{rate:g}" for rate in sorted({trial.evidence.rate for trial in made}))
     programs = measured_on(*LEARNED_WITH)
     versions = ", ".join(f"{name} {programs[name]}" for name in ("python", *LEARNED_WITH))
+    features = program_hash("labels", "labels/spall_size")
     return (
         f"Fitted by datagen.sizing.fit to {len({(trial.bearing_id, trial.record) for trial in made})} records at "
-        f"{rates} Hz, the training and validation splits of {names}; features {program_hash('labels', 'labels/spall_size')}, {versions}."
+        f"{rates} Hz, the training and validation splits of {names}; features {features}, {versions}."
     )
 
 

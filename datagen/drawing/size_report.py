@@ -36,7 +36,7 @@ def draw_size_report(scores: SizeScores, summary: dict[str, Any]) -> Figure:
     dependences = {name: rows for name, rows in summary["by"].items() if name != "size, mm"}
     figure, axes = plt.subplots(4, 3, figsize=(11.5, 13.0), layout="constrained")
     panels = axes.ravel()
-    told = [one for one in scores.records if one.known_truth and one.scorable and one.found]
+    told = [one for one in scores.records if one.truth.known and one.scorable and one.found]
     _against_truth(panels[0], told, "lag")
     _against_truth(panels[1], told, "extent")
     _rules(panels[2], told)
@@ -50,8 +50,10 @@ def _against_truth(axes: Axes, told: list[ScoredRecord], what: str) -> None:
     for clean, colour, name in ((True, BLUE, "clean"), (False, ORANGE, "noisy")):
         own = [one for one in told if math.isinf(noise_level(one)) == clean]
         scale = 1e3 if what == "lag" else math.degrees(1.0)
-        true = np.array([getattr(one, f"true_{what}") for one in own]) * scale
-        axes.loglog(true, np.array([getattr(one, what) for one in own]) * scale, ".", color=colour, ms=4, label=name)
+        true = np.array([getattr(one.truth, what) for one in own]) * scale
+        axes.loglog(
+            true, np.array([getattr(one.told, what) for one in own]) * scale, ".", color=colour, ms=4, label=name
+        )
     if told:
         low, high = axes.get_xlim()
         axes.plot([low, high], [low, high], color=GREY, lw=0.8)
@@ -124,8 +126,8 @@ def _name_bins(axes: Axes, table: list[dict[str, Any]]) -> None:
 
 def _abstention(axes: Axes, records: list[ScoredRecord]) -> None:
     kinds = (
-        ([one.trust for one in records if one.known_truth and one.without_event], VERMILLION, "no event"),
-        ([one.trust for one in records if one.known_truth and one.scorable], BLUE, "to be told a size"),
+        ([one.told.trust for one in records if one.truth.known and one.without_event], VERMILLION, "no event"),
+        ([one.told.trust for one in records if one.truth.known and one.scorable], BLUE, "to be told a size"),
     )
     for values, colour, name in (kind for kind in kinds if kind[0]):
         axes.hist(values, bins=[k / 20.0 for k in range(21)], histtype="step", color=colour, label=name, density=True)

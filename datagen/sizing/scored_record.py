@@ -140,35 +140,3 @@ class ScoredRecord:
     def asked(self) -> bool:
         """True if an estimate could be asked for."""
         return self.told.outcome != NOT_ASKED
-
-    # The picture of a scored corpus reads these by name.
-
-    @property
-    def known_truth(self) -> bool:
-        """True if the ball passes of the record are known."""
-        return self.truth.known
-
-    @property
-    def true_lag(self) -> float:
-        """The true lag, s."""
-        return self.truth.lag
-
-    @property
-    def true_extent(self) -> float:
-        """The true extent, rad."""
-        return self.truth.extent
-
-    @property
-    def lag(self) -> float:
-        """The lag told, s."""
-        return self.told.lag
-
-    @property
-    def extent(self) -> float:
-        """The extent told, rad."""
-        return self.told.extent
-
-    @property
-    def trust(self) -> float:
-        """The trust told."""
-        return self.told.trust

@@ -11,10 +11,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from datagen.cards.toml_text import toml_text
-from datagen.recipes.distribution import Distribution
+from datagen.distributions.distribution import Distribution
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.recipe_schema import recipe_schema
-from datagen.recipes.settings import Table
+from datagen.settings.table import Table
 
 PAGE = Path(__file__).with_name("recipe_keys.md")
 HEAD = """# Every key of a recipe

@@ -18,7 +18,7 @@ from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
 from datagen.benchmark.options import Asked, Learning, Scoring
 from datagen.benchmark.rows import Reading, Rows, read_rows
-from datagen.benchmark.score_log import log_run, write_line
+from datagen.benchmark.score_log import log_run
 from datagen.benchmark.summary import RACES, summarise
 from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
 from datagen.benchmark.training import (
@@ -36,6 +36,7 @@ from datagen.benchmark.training import (
 from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
+from datagen.scored_runs import write_line
 from labels.classifier.alarm import Alarm
 
 if TYPE_CHECKING:

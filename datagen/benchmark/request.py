@@ -10,13 +10,13 @@ from pathlib import Path
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import ingredients_of
 from datagen.benchmark.options import FEATURES, WINDOWS, Asked, Learning, Scoring
-from datagen.benchmark.score_log import log_path
 from datagen.benchmark.trained import SAVE, is_saved
 from datagen.benchmark.training import SPEED_ERROR
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.files.places import require_file, require_results_folder
 from datagen.own_code import load_own
-from datagen.places import require_file, require_results_folder
+from datagen.scored_runs import log_path
 from labels.classifier.learners import LEARNERS
 
 INPUTS = (FEATURES, WINDOWS)

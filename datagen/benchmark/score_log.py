@@ -1,23 +1,15 @@
-"""The log of scoring runs on recordings: one line a run, appended in that corpus's own folder, never rewritten."""
+"""What the log of scoring runs says of a run of classifiers."""
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.model_scores import Scores
-from datagen.errors import BadInput
-from datagen.records.versions import program_versions
-
-NAME = "scored_runs.jsonl"
-
-
-def log_path(folder: Path) -> Path:
-    """Where the runs that scored the corpus `folder` are listed."""
-    return folder / NAME
+from datagen.scored_runs import write_line
+from datagen.versions import program_versions
 
 
 def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], models: dict[str, Scores]) -> None:
@@ -43,13 +35,3 @@ def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], 
         },
     }
     write_line(folder, line)
-
-
-def write_line(folder: Path, line: dict[str, Any]) -> None:
-    """Append one line to the log of a corpus; raises BadInput if that is impossible."""
-    try:
-        with log_path(folder).open("a", encoding="utf-8") as file:
-            file.write(json.dumps(line, default=str) + "\n")
-    except OSError as problem:
-        raise BadInput(f"runs on recordings are logged here, and it cannot be written: {problem.strerror}",
-                       str(log_path(folder))) from None  # fmt: skip

@@ -12,9 +12,9 @@ from typing import Any
 from datagen.benchmark.machines import Learned
 from datagen.benchmark.options import Learning
 from datagen.benchmark.training import Model
-from datagen.corpora.atomic import write_file
 from datagen.errors import BadInput
-from datagen.records.versions import measured_on, program_hash
+from datagen.files.atomic import write_file
+from datagen.versions import measured_on, program_hash
 from labels.classifier.rule import Rule
 
 FORMAT = "spallgen classifiers 1"

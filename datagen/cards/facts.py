@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.info import Info, corpus_info
 from datagen.corpora.manifest import Manifest
 from datagen.corpus import Corpus
+from datagen.inspection.info import Info, corpus_info
 
 if TYPE_CHECKING:
     import pandas

@@ -10,10 +10,10 @@ from datagen.cards.croissant import croissant_text, unstated
 from datagen.cards.facts import Facts, Kind, corpus_facts
 from datagen.cards.origin_text import origin_text
 from datagen.cards.vocabulary_table import vocabulary_table
-from datagen.corpora.atomic import write_results
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.places import require_folder
+from datagen.files.atomic import write_results
+from datagen.files.places import require_folder
 
 CARD, METADATA, VOCABULARY = "card.md", "croissant.json", "labels_bearing_datasets.csv"
 MOST_EXAMPLES = 6

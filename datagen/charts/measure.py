@@ -15,7 +15,7 @@ from datagen.charts.contestants import METHOD, Contestant, contestants
 from datagen.charts.response import Response, of_trace
 from datagen.charts.scenes import Subject
 from datagen.charts.scores import SCORED_FROM, Score, score
-from datagen.records.versions import measured_on
+from datagen.versions import measured_on
 from physics.integrators.method import NO_MODES
 from physics.integrators.methods import METHODS, REFERENCE
 from physics.ladder.models import SIMPLER_MODELS

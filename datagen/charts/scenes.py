@@ -11,7 +11,7 @@ import numpy as np
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe_files import shipped_recipes
-from datagen.recipes.spelling import suggestion
+from datagen.spelling import suggestion
 from physics.cage import draw_slip_knots
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.scene import Scene

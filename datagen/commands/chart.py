@@ -44,13 +44,14 @@ def chart(
 
 
 def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Path) -> tuple[list[Path], object]:
-    from datagen.charts.files import chart_folder, chart_table, write_files
     from datagen.charts.measure import measure
     from datagen.charts.scenes import find_subject
+    from datagen.charts.table import chart_table
+    from datagen.files.results import results_folder, write_files
     from datagen.runs.progress import steps_told
 
     subject = find_subject(source, record)
-    folder = chart_folder(out)
+    folder = results_folder(out)
     with steps_told() as tell:
         measured = measure(subject, quick, rounds, tell)
     from datagen.drawing.work_precision import work_precision_png
@@ -59,12 +60,12 @@ def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Pat
 
 
 def _stability(out: Path) -> tuple[list[Path], object]:
-    from datagen.charts.files import chart_folder, write_files
     from datagen.charts.stability import facts, stability_maps
     from datagen.drawing.stability_map import stability_sheets
+    from datagen.files.results import results_folder, write_files
     from datagen.runs.progress import steps_told
 
-    folder = chart_folder(out)
+    folder = results_folder(out)
     with steps_told() as tell:
         maps = stability_maps(tell)
     found = facts(maps)

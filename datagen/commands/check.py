@@ -9,7 +9,7 @@ import typer
 from datagen.commands.program import FAILED, CorpusFolder, JsonFile, command, complain, write_json
 
 if TYPE_CHECKING:
-    from datagen.corpora.check import Verdict
+    from datagen.inspection.check import Verdict
 
 
 @command("spallgen check out/quickstart")
@@ -19,7 +19,7 @@ def check(
     json_file: JsonFile = None,
 ) -> None:
     """Read a whole corpus and say everything that is wrong with it."""
-    from datagen.corpora.check import check_corpus
+    from datagen.inspection.check import check_corpus
 
     verdict = check_corpus(folder, remake)
     write_json(json_file, verdict)

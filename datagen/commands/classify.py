@@ -91,11 +91,11 @@ def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
     if out is not None:
         from datagen.benchmark.model_scores import report
         from datagen.benchmark.predictions import prediction_table
-        from datagen.charts.files import chart_folder, write_files
         from datagen.drawing.scores import scores_png
+        from datagen.files.results import results_folder, write_files
 
         table = prediction_table(results["tests"])
-        write_files(chart_folder(out), "report", scores_png(results), report(results), table)
+        write_files(results_folder(out), "report", scores_png(results), report(results), table)
     return results
 
 

@@ -8,8 +8,8 @@ from datagen.commands.program import CorpusFolder, JsonFile, command, show_table
 @command("spallgen info out/quickstart")
 def info(folder: CorpusFolder, json_file: JsonFile = None) -> None:
     """Show what a corpus holds: counts, balance, ranges, size, cost."""
-    from datagen.corpora.info import corpus_info
-    from datagen.tables import info_tables
+    from datagen.commands.tables import info_tables
+    from datagen.inspection.info import corpus_info
 
     found = corpus_info(folder)
     write_json(json_file, found)

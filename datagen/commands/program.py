@@ -13,7 +13,7 @@ import typer
 
 from datagen.commands.usage import Program
 from datagen.errors import BadInput
-from datagen.places import require_file
+from datagen.files.places import require_file
 from physics.outcome import SimulationFailed
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ Command = Callable[..., None]
 
 def _show_version(asked: bool) -> None:
     if asked:
-        from datagen.records.versions import program_versions
+        from datagen.versions import program_versions
 
         print(f"spallgen {program_versions()['spallgen']}")
         raise typer.Exit
@@ -105,8 +105,8 @@ def write_json(path: Path | None, result: Any) -> None:
     """Write a dataclass or a mapping as JSON; NaN becomes null."""
     if path is None:
         return
-    from datagen.corpora.atomic import write_file
-    from datagen.plain import plain_json
+    from datagen.files.atomic import write_file
+    from datagen.files.plain import plain_json
 
     write_file(path, plain_json(result).encode(), "--json")
 

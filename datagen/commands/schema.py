@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, write_json
-from datagen.places import require_file
+from datagen.files.places import require_file
 
 
 @command("spallgen schema --out recipe.schema.json")
@@ -17,7 +17,7 @@ def schema(
     json_file: JsonFile = None,
 ) -> None:
     """Write the JSON Schema of recipes: an editor completes, explains and checks keys with it."""
-    from datagen.corpora.atomic import write_file
+    from datagen.files.atomic import write_file
     from datagen.recipes.recipe_schema import recipe_schema, schema_text
 
     if out is not None:

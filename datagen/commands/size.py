@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
-from datagen.places import require_results_folder
+from datagen.files.places import require_results_folder
 
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
@@ -54,7 +54,9 @@ def size(
     scores = score_sizes(folder, estimator, load_known, split, workers, sizes)
     write_json(json_file, flat_scores(scores))
     if out is not None:
-        write_report(scores, out)
+        from datagen.drawing.size_report import size_report_png
+
+        write_report(scores, out, size_report_png(scores) if scores.summary is not None else None)
     _tell(scores)
     if out is not None:
         print(f"report, table and pictures are in {out}")

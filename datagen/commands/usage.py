@@ -13,7 +13,7 @@ import typer
 from typer.core import TyperGroup
 
 from datagen.errors import BadInput
-from datagen.recipes.spelling import nearest
+from datagen.spelling import nearest
 
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
 """What typer raises for any command line that it cannot read; some of its versions bring their own click."""

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.records.versions import program_versions
+from datagen.versions import program_versions
 from labels.schema import BAND_EDGES, LABELS, LAYERS, Label
 from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
 
 if TYPE_CHECKING:
     import xarray
 
-    from datagen.records.record import Record
+    from datagen.records.record import Record, profile_grid
 
 FORMAT = "spallgen corpus 1"
 SIMULATED, IMPORTED = "simulated", "imported"
@@ -138,11 +138,6 @@ def _coordinates(first: Record, columns: dict[str, Any]) -> dict[str, Any]:
             size = columns[owner.name].shape[owner.dims.index(dim)]
             known[dim] = profile_grid(size) if dim == "profile_angle" else np.arange(1, size + 1)
     return known
-
-
-def profile_grid(points: int) -> np.ndarray:
-    """Angles (points,) from −π to π, end excluded, rad."""
-    return -np.pi + 2.0 * np.pi / points * np.arange(points)
 
 
 def _pass_columns(records: Sequence[Record]) -> dict[str, Any]:

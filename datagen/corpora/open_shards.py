@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.netcdf import ONE_AT_A_TIME
 from datagen.corpora.reading import reading
+from datagen.files.netcdf import ONE_AT_A_TIME
 
 if TYPE_CHECKING:
     import netCDF4

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from datagen.corpora.atomic import write_atomically
 from datagen.corpora.format import Identity, content_hash
-from datagen.corpora.netcdf import netcdf_bytes
 from datagen.corpora.stated import UNREADABLE, amount, row, text, whole
+from datagen.files.atomic import write_atomically
+from datagen.files.netcdf import netcdf_bytes
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 

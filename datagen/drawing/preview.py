@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.atomic import write_atomically
 from datagen.corpora.manifest import manifest_path, read_manifest
 from datagen.errors import BadInput
-from datagen.places import require_file
+from datagen.files.atomic import write_atomically
+from datagen.files.places import require_file
 from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable

@@ -8,13 +8,13 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from datagen.corpora.atomic import write_results
 from datagen.drawing.style import png_of
 from datagen.errors import BadInput
+from datagen.files.atomic import write_results
+from datagen.files.places import require_results_folder
+from datagen.files.plain import plain_json
 from datagen.paper.chapter import Chapter
 from datagen.paper.tables import csv_text, page
-from datagen.places import require_results_folder
-from datagen.plain import plain_json
 
 CHAPTERS = {
     "5": "figure05_load_distribution",

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from datagen.recipes.settings import Table
+from datagen.settings.table import Table
 from physics.simulate import LARGEST_ACCURACY, SMALLEST_ACCURACY
 
 

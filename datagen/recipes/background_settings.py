@@ -6,9 +6,9 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from datagen.recipes.distributions import Distribution, Fixed, Uniform
+from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.recording_settings import RecordingSettings
-from datagen.recipes.settings import Between, Table, Whole, at_most_one, refuse
+from datagen.settings.table import Between, Table, Whole, at_most_one, refuse
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
 from physics.backgrounds.impulses import MOST_PER_SECOND
 from physics.backgrounds.pink import STEEPEST

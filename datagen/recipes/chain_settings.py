@@ -6,8 +6,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from datagen.recipes.distributions import Distribution, Fixed
-from datagen.recipes.settings import Between, Table, Whole
+from datagen.distributions.kinds import Distribution, Fixed
+from datagen.settings.table import Between, Table, Whole
 from physics.sensor.mode import HIGHEST_DAMPING
 from physics.sensor.mounting import HIGHEST_ORDER
 

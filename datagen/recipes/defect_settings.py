@@ -8,9 +8,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
-from datagen.recipes.distributions import Distribution, Fixed, Uniform
+from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.profile_table import ProfileTable
-from datagen.recipes.settings import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
+from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 
 EXTENTS = ("extent_deg", "extent_mm", "extent_spacing")
 ENTRY_TAPERS = ("entry_taper_deg", "entry_taper_share")

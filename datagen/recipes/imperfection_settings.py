@@ -6,9 +6,9 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from datagen.recipes.distributions import Distribution, Fixed, Uniform
+from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.machine_settings import Degrees, NotNegative
-from datagen.recipes.settings import Between, OneOf, Table, refuse
+from datagen.settings.table import Between, OneOf, Table, refuse
 
 Order = Annotated[int, Field(ge=1, le=2000)]
 

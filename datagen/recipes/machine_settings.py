@@ -6,8 +6,8 @@ from typing import Annotated
 
 from pydantic import model_validator
 
-from datagen.recipes.distributions import Distribution, Fixed
-from datagen.recipes.settings import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
+from datagen.distributions.kinds import Distribution, Fixed
+from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import SMALLEST_CONFORMITY
 from physics.catalog import BEARINGS, RIGS
 

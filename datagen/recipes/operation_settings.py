@@ -6,8 +6,8 @@ from typing import Annotated
 
 from pydantic import model_validator
 
-from datagen.recipes.distributions import Distribution, Fixed, Uniform
-from datagen.recipes.settings import Between, Table, at_most_one
+from datagen.distributions.kinds import Distribution, Fixed, Uniform
+from datagen.settings.table import Between, Table, at_most_one
 
 Degrees = Annotated[Distribution, Between()]
 ANY_ANGLE = Uniform(0.0, 360.0)

@@ -9,9 +9,9 @@ from pathlib import Path
 from pydantic import Field, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
-from datagen.csv_rows import read_csv_rows
 from datagen.errors import BadInput
-from datagen.recipes.settings import Table
+from datagen.files.csv_rows import read_csv_rows
+from datagen.settings.table import Table
 
 COLUMNS = ("angle_deg", "depth_um")
 FOLDER = "folder"

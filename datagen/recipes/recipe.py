@@ -11,23 +11,23 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
-from datagen.corpora.netcdf import COMPRESSIONS, NO_LZ4
+from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
+from datagen.files.netcdf import COMPRESSIONS, NO_LZ4
 from datagen.recipes.accuracy_settings import AccuracySettings
 from datagen.recipes.background_settings import BackgroundSettings
 from datagen.recipes.chain_settings import ChainSettings
 from datagen.recipes.defect_settings import DefectSettings
-from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.imperfection_settings import ImperfectionSettings
 from datagen.recipes.machine_settings import MachineSettings
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.profile_table import FOLDER
-from datagen.recipes.recipe_errors import bad_recipe
 from datagen.recipes.recipe_files import find_recipe
 from datagen.recipes.record_order import Place, machines, place_by_part, place_interleaved
 from datagen.recipes.sampling_limits import require_sampled_fast_enough
-from datagen.recipes.settings import Between, OneOf, Table, refuse
-from datagen.recipes.toml_file import read_toml
+from datagen.settings.problems import bad_settings
+from datagen.settings.table import Between, OneOf, Table, refuse
+from datagen.settings.toml_file import read_toml
 from labels.envelope import holds_a_line
 from physics.scene import CONTACT_LAWS
 
@@ -276,7 +276,7 @@ def parse_recipe(content: dict[str, Any], path: Path, text: str = "") -> Recipe:
     try:
         recipe = Recipe.model_validate(content, context={FOLDER: path.parent})
     except ValidationError as error:
-        wrong = bad_recipe(error, Recipe, path, text)
+        wrong = bad_settings(error, Recipe, path, text)
     if wrong is not None:  # raised out here it has no context, which would not survive a way between processes
         raise wrong
     recipe._source = str(path)

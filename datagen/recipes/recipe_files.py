@@ -1,24 +1,14 @@
-"""Where recipes are found: as a file or folder first, then among the datasets that come with spallgen.
-
-A wheel holds the repository's `datasets` folder as `datagen/datasets` (pyproject.toml maps it there, so that nothing is
-copied by hand); in a checkout the folder is found beside the packages.
-"""
+"""Where recipes are found: as a file or folder first, then among the datasets that come with spallgen."""
 
 from __future__ import annotations
 
 from pathlib import Path, PurePosixPath
 
-import datagen
 from datagen.errors import BadInput
-from datagen.recipes.spelling import suggestion
+from datagen.files.places import dataset_folders
+from datagen.spelling import suggestion
 
 FILE_NAME = "recipe.toml"
-
-
-def dataset_folders() -> list[Path]:
-    """Folders that may hold the datasets that come with spallgen: the wheel's, then the checkout's."""
-    package = Path(datagen.__file__).resolve().parent
-    return [package / "datasets", package.parent / "datasets"]
 
 
 def shipped_recipes() -> dict[str, Path]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic.json_schema import GenerateJsonSchema
 
-from datagen.recipes.distribution import Distribution
+from datagen.distributions.distribution import Distribution
 from datagen.recipes.recipe import Recipe
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"

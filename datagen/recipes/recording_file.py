@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.recordings.formats.arrays import Arrays, choose
-from datagen.recordings.formats.reading import read_arrays
-from datagen.recordings.formats.wav_file import RATE_NAME
-from datagen.recordings.settings import CsvLayout
+from datagen.formats.arrays import Arrays, choose
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import read_arrays
+from datagen.formats.wav_file import RATE_NAME
 
 MOST_CHANNELS = 2
 

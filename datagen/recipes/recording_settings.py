@@ -13,12 +13,12 @@ from pydantic import Field, ValidationError, ValidationInfo, model_validator
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
+from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
-from datagen.recipes.distributions import Distribution, Fixed
+from datagen.formats.csv_layout import CsvLayout
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recording_file import read_recording
-from datagen.recipes.settings import Between, Table
-from datagen.recordings.settings import CsvLayout
+from datagen.settings.table import Between, Table
 
 Channel = Annotated[str, Field(min_length=1)]
 LEARNT = ("sha256", "samples", "rate_hz")

@@ -7,13 +7,13 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
 from datagen.recipes.background_settings import BackgroundSettings
 from datagen.recipes.chain_settings import ChainSettings
-from datagen.recipes.distributions import Distribution, Fixed
-from datagen.recipes.recipe_errors import dotted
-from datagen.recipes.settings import possible_words
-from datagen.recipes.toml_lines import Location, line_of
+from datagen.settings.problems import dotted
+from datagen.settings.table import possible_words
+from datagen.settings.toml_lines import Location, line_of
 from physics.catalog import RIGS
 
 if TYPE_CHECKING:

@@ -14,20 +14,20 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from datagen.corpora.atomic import TEMPORARY_SUFFIX
 from datagen.corpora.format import IMPORTED, Identity, data_hash, format_hash
 from datagen.corpora.index import write_index
 from datagen.corpora.manifest import Manifest, write_manifest
 from datagen.corpora.shard import finished_shards, write_shard
 from datagen.errors import BadInput
-from datagen.places import require_folder
+from datagen.files.atomic import TEMPORARY_SUFFIX
+from datagen.files.places import require_folder
 from datagen.recordings.dataset import imported_dataset
 from datagen.recordings.listing import Listing, Request, list_requests
 from datagen.recordings.recorded import Key, Recorded, read_recording
 from datagen.recordings.source import remembered_files, source_hash
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
-from datagen.records.versions import program_hash, program_versions
+from datagen.versions import program_hash, program_versions
 from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:

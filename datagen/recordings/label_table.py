@@ -8,11 +8,11 @@ from typing import Any, get_args
 
 from pydantic import ValidationError
 
-from datagen.csv_rows import read_csv_rows
 from datagen.errors import BadInput
-from datagen.recipes.recipe_errors import bad_recipe
-from datagen.recipes.spelling import suggestion
+from datagen.files.csv_rows import read_csv_rows
 from datagen.recordings.settings import RecordingSettings
+from datagen.settings.problems import bad_settings
+from datagen.spelling import suggestion
 
 FILE_COLUMN = "file"
 NOT_COLUMNS = ("csv", "channel", "tach", "envelope_band_hz", "notes")
@@ -75,7 +75,7 @@ def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], pla
     try:
         checked = RecordingSettings.model_validate(settings | ({"notes": notes} if notes else {}))
     except ValidationError as error:
-        raise bad_recipe(error, RecordingSettings, place, "") from None
+        raise bad_settings(error, RecordingSettings, place, "") from None
     return TableRow(place, files, checked.given())
 
 

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.formats.placeholders import without_ending
+from datagen.formats.reading import file_format
+from datagen.formats.wav_file import RATE_NAME
 from datagen.recipes.recipe import FEWEST_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
-from datagen.recordings.formats.reading import file_format
-from datagen.recordings.formats.wav_file import RATE_NAME
 from datagen.recordings.listing import Request
-from datagen.recordings.placeholders import without_ending
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
 from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, field_validator, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, Field, model_validator
 
-from datagen.csv_rows import UTF_8
-from datagen.recipes.settings import Table, at_most_one, refuse
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import FORMATS
 from datagen.recordings.values import RANGES, FromVariable, finite_notes, number, word
+from datagen.settings.table import Table, at_most_one, refuse
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
-ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
-FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 # Balls of bearings are no smaller: less is a length in m.
@@ -50,40 +48,6 @@ class Tach(Table):
     """Level that a pulse rises through, in the channel's own unit; half-way between its extremes if not given."""
     rate_hz: Annotated[float, Field(ge=RANGES["rate_hz"].low, le=RANGES["rate_hz"].high)] | None = None
     """Sampling rate of the pulses, if not that of the vibration."""
-
-
-class CsvLayout(Table):
-    """How a text table is laid out."""
-
-    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
-    """Character between cells; a space stands for any run of blanks."""
-    decimal: Annotated[str, Field(min_length=1, max_length=1)] = "."
-    """Decimal sign."""
-    header: bool = True
-    """True if a line of column names comes first; without it the columns are called "1", "2", …"""
-    skip_lines: Annotated[int, Field(ge=0)] = 0
-    """Lines to leave out at the start."""
-    encoding: str = UTF_8
-    """Encoding of the text, as Python calls it: utf-8, latin-1, utf-16, …"""
-
-    @model_validator(mode="after")
-    def _delimiter_can_delimit(self) -> CsvLayout:
-        if self.delimiter in '"\r\n':
-            raise refuse(
-                "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
-            )
-        if self.delimiter == self.decimal:
-            raise refuse("decimal sign and delimiter are the same", "delimiter", "another character than in decimal")
-        return self
-
-    @field_validator("encoding")
-    @classmethod
-    def _encoding_is_known(cls, encoding: str) -> str:
-        try:
-            "".encode(encoding)
-        except (LookupError, ValueError):
-            raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ENCODINGS}) from None
-        return encoding
 
 
 class BearingNumbers(Table):

@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 
 from datagen.corpora.shard import file_hash
 from datagen.errors import BadInput
+from datagen.formats.arrays import Arrays, NoVariable, choose, chosen
+from datagen.formats.csv_file import Columns
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.placeholders import filled, place_without_ending
+from datagen.formats.reading import read_arrays
 from datagen.recipes.recipe import FEWEST_SAMPLES
-from datagen.recordings.formats.arrays import Arrays, NoVariable, choose, chosen
-from datagen.recordings.formats.csv_file import Columns
-from datagen.recordings.formats.reading import read_arrays
 from datagen.recordings.listing import Request
-from datagen.recordings.placeholders import filled, place_without_ending
 from datagen.recordings.sample_times import rate_of
-from datagen.recordings.settings import CsvLayout
 from datagen.recordings.values import RANGES, FromVariable, in_range
 
 Array = NDArray[np.float64]

@@ -8,12 +8,12 @@ from typing import Annotated, Any
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from datagen.errors import BadInput
-from datagen.recipes.recipe_errors import bad_recipe
-from datagen.recipes.settings import Table, refuse
-from datagen.recipes.toml_file import read_toml
 from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
+from datagen.settings.problems import bad_settings
+from datagen.settings.table import Table, refuse
+from datagen.settings.toml_file import read_toml
 
 Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
 
@@ -113,6 +113,6 @@ def parse_spec(content: dict[str, Any], path: Path, text: str = "") -> Spec:
     try:
         spec = Spec.model_validate(content)
     except ValidationError as error:
-        raise bad_recipe(error, Spec, path, text) from None
+        raise bad_settings(error, Spec, path, text) from None
     spec._source = path
     return spec

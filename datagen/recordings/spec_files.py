@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from datagen.errors import BadInput
-from datagen.recipes.recipe_files import dataset_folders
-from datagen.recipes.spelling import suggestion
+from datagen.files.places import dataset_folders
+from datagen.spelling import suggestion
 
 
 def shipped_specs() -> dict[str, Path]:

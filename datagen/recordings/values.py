@@ -8,8 +8,8 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
-from datagen.recipes.settings import Between, Table, refuse
-from datagen.recipes.spelling import suggestion
+from datagen.settings.table import Between, Table, refuse
+from datagen.spelling import suggestion
 
 # Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
 RANGES = {

@@ -7,20 +7,20 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
-from datagen.corpora.atomic import locked
 from datagen.corpora.format import Identity, format_hash
 from datagen.corpora.manifest import manifest_path, read_manifest
-from datagen.corpora.netcdf import check_compression
 from datagen.errors import BadInput
-from datagen.places import require_folder
+from datagen.files.atomic import locked
+from datagen.files.netcdf import check_compression
+from datagen.files.places import require_folder
 from datagen.recipes.recipe import Recipe
-from datagen.records.versions import program_hash
 from datagen.runs.plan import plan_shards, selection
 from datagen.runs.progress import Reporter, Silence
 from datagen.runs.requirements import require_memory, require_possible_rates, require_room
 from datagen.runs.run import Run, Summary
 from datagen.runs.task import kernels_loading_in_workers
 from datagen.runs.workers import Engine, engaged, nobody
+from datagen.versions import program_hash
 
 
 def generate(

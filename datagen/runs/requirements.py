@@ -11,11 +11,11 @@ from pathlib import Path
 from datagen.corpora.manifest import Span, manifest_path
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
-from datagen.recipes.toml_lines import Location, place_in_file
 from datagen.runs.plan import PlannedShard, stored_bytes
 from datagen.runs.progress import for_people
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.settings.toml_lines import Location, place_in_file
 from physics.integrators.propagator import reach
 from physics.motion import motion_model
 from physics.outcome import SimulationFailed

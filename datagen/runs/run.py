@@ -10,17 +10,17 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from datagen.corpora.atomic import NO_SPACE, sweep_temporaries, write_atomically
 from datagen.corpora.format import Identity
 from datagen.corpora.index import write_index
 from datagen.corpora.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
 from datagen.corpora.shard import Failure, Sidecar, finished_shards
+from datagen.files.atomic import NO_SPACE, sweep_temporaries, write_atomically
 from datagen.recipes.recipe import Recipe
-from datagen.records.versions import program_versions
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
 from datagen.runs.progress import Reporter, for_people
 from datagen.runs.task import make_shard, warm_kernels
 from datagen.runs.workers import WorkerLost, run_tasks
+from datagen.versions import program_versions
 
 ATTEMPTS_TOGETHER = 2
 LONGEST_TASK_BASE = 600.0

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
+from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, DefectSettings, SpallSettings
-from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.profile_table import ProfileTable
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from datagen.distributions.kinds import Distribution
 from datagen.optional import if_given
 from datagen.recipes.background_settings import (
     BackgroundSettings,
@@ -13,7 +14,6 @@ from datagen.recipes.background_settings import (
     PinkSettings,
     ShaftSettings,
 )
-from datagen.recipes.distributions import Distribution
 from datagen.recipes.recording_settings import RecordingSettings
 from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.draw import Draw

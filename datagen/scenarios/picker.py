@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from datagen.recipes.distributions import Balanced, Distribution, Fixed
+from datagen.distributions.kinds import Balanced, Distribution, Fixed
 from datagen.scenarios.turns import Turns
 
 DEGREES_PER_RADIAN = math.degrees(1.0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from datagen.errors import BadInput
-from datagen.recipes.toml_lines import line_of_setting, text_of
+from datagen.settings.toml_lines import line_of_setting, text_of
 
 if TYPE_CHECKING:
     from datagen.recipes.recipe import Part, Recipe

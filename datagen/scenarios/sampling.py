@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from datagen.distributions.kinds import Distribution, Fixed
 from datagen.optional import if_given
-from datagen.recipes.distributions import Distribution, Fixed
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.record_order import Place

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from datagen.recipes.distributions import Balanced
+from datagen.distributions.kinds import Balanced
 
 CODES = 2**32
 MOST_OPTIONS = 1024

@@ -19,18 +19,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.atomic import write_file
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import read_manifest
 from datagen.errors import BadInput
-from datagen.places import OUT, require_file
-from datagen.records.versions import measured_on, program_hash
+from datagen.files.atomic import write_file
+from datagen.files.places import OUT, require_file
 from datagen.sizing.committee import FOLDS
 from datagen.sizing.cross_fit import CrossFit
 from datagen.sizing.fit_limits import most_doubt, reach
 from datagen.sizing.fit_stages import fit_doubt, fit_guess, fit_pair_score, fit_rank
 from datagen.sizing.training_rows import Trial, trials
 from datagen.sizing.trial_columns import TrialColumns
+from datagen.versions import measured_on, program_hash
 from labels.spall_size.calibration import Calibration, Judgement
 
 Array = NDArray[np.float64]

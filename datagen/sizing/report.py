@@ -6,16 +6,16 @@ import csv
 import io
 from pathlib import Path
 
-from datagen.corpora.atomic import write_results
-from datagen.plain import plain_json
+from datagen.files.atomic import write_results
+from datagen.files.plain import plain_json
 from datagen.sizing.flat_rows import flat_row, flat_scores
 from datagen.sizing.score import SizeScores
 
 LISTS = ("candidates", "candidates_deg", "candidates_mm")
 
 
-def write_report(scores: SizeScores, folder: Path) -> None:
-    """Write `size_report.json`, `estimates.csv` and, where the truth is known, `size_report.png` into `folder`.
+def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> None:
+    """Write `size_report.json`, `estimates.csv` and, if there is a `picture`, `size_report.png` into `folder`.
 
     BadInput if that cannot be.
     """
@@ -23,10 +23,8 @@ def write_report(scores: SizeScores, folder: Path) -> None:
         "size_report.json": plain_json(flat_scores(scores)).encode(),
         "estimates.csv": estimates_csv(scores).encode(),
     }
-    if scores.summary is not None:
-        from datagen.drawing.size_report import size_report_png
-
-        files["size_report.png"] = size_report_png(scores)
+    if picture is not None:
+        files["size_report.png"] = picture
     write_results(folder, files)
 
 

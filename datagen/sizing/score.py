@@ -9,10 +9,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from datagen.benchmark.score_log import write_line
 from datagen.corpora.index import read_index
 from datagen.errors import BadInput
-from datagen.records.versions import program_versions
+from datagen.scored_runs import write_line
 from datagen.sizing.estimators import find_estimator
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
@@ -21,6 +20,7 @@ from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.sized_records import SizedRecord, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 from datagen.sizing.summary import summarise
+from datagen.versions import program_versions
 from labels.schema import SPLITS
 
 ALL = "all"

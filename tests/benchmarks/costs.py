@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 
 from datagen.marked_tables import write_marked
-from datagen.records.versions import in_words, measured_on
+from datagen.versions import in_words, measured_on
 from physics.reference_scenes import reference_scene
 from physics.scene import Scene
 from physics.simulate import simulate

@@ -22,10 +22,10 @@ from datagen.benchmark.verdicts import judge
 from datagen.corpus import Corpus
 from datagen.marked_tables import write_marked
 from datagen.recipes.recipe import load_recipe
-from datagen.records.versions import in_words, measured_on
 from datagen.runs.generate import generate
 from datagen.sizing.estimators import default_estimator
 from datagen.sizing.sized_records import sized_records
+from datagen.versions import in_words, measured_on
 
 ROOT = Path(__file__).resolve().parents[2]
 LEARNED_FROM = 160

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.marked_tables import write_marked
-from datagen.records.versions import in_words, measured_on
+from datagen.versions import in_words, measured_on
 from physics.integrators.methods import MARCHES, METHODS
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene

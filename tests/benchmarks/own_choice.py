@@ -26,9 +26,9 @@ from numpy.typing import NDArray
 
 from datagen.charts.contestants import ACCURACIES, SUBSTEPS
 from datagen.recipes.recipe import load_recipe
-from datagen.records.versions import measured_on
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.sampling import draw_scenario
+from datagen.versions import measured_on
 from physics.outcome import SimulationFailed
 from physics.scene import Scene
 from physics.simulate import simulate

@@ -23,11 +23,11 @@ from threadpoolctl import threadpool_limits
 
 from datagen.marked_tables import write_marked
 from datagen.recipes.recipe import Recipe, Store, load_recipe
-from datagen.records.versions import in_words, measured_on
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard
 from datagen.runs.workers import Engine
+from datagen.versions import in_words, measured_on
 from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]

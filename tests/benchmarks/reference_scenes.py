@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from datagen.marked_tables import write_marked
-from datagen.records.versions import in_words, measured_on
+from datagen.versions import in_words, measured_on
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.response.periodic import METHOD as REPEATED
 from physics.simulate import simulate

@@ -12,11 +12,11 @@ import pytest
 from datagen.charts import contestants as entrants
 from datagen.charts import measure as measuring
 from datagen.charts import stability
-from datagen.charts.files import COLUMNS, chart_table
 from datagen.charts.measure import Run, at_error, measure
 from datagen.charts.response import of_states, of_trace
 from datagen.charts.scenes import find_subject
 from datagen.charts.scores import Score, score
+from datagen.charts.table import COLUMNS, chart_table
 from datagen.cli import app
 from datagen.drawing.stability_map import draw_sheet, kind, kinds, stability_sheets
 from datagen.drawing.style import house_style, plt
@@ -28,7 +28,7 @@ from datagen.drawing.work_precision import (
     work_precision_png,
 )
 from datagen.errors import BadInput
-from datagen.plain import plain_json
+from datagen.files.plain import plain_json
 from datagen.runs.progress import steps_told
 from physics.integrators.methods import METHODS
 from physics.integrators.rivals.general_purpose import (
@@ -306,7 +306,7 @@ def test_a_full_disk_is_one_line_that_names_the_folder(monkeypatch, tmp_path, sm
         raise OSError(errno.ENOSPC, "No space left on device", str(path))
 
     monkeypatch.setattr(measuring, "measure", lambda *_: small_chart)
-    monkeypatch.setattr("datagen.corpora.atomic.write_atomically", full)
+    monkeypatch.setattr("datagen.files.atomic.write_atomically", full)
     code, _, told = run_command("chart", "F1", "--out", tmp_path)
     assert code == 2
     assert "cannot write here: No space left on device" in told

@@ -10,8 +10,8 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
-from datagen.plain import plain_json
-from datagen.records.versions import program_versions
+from datagen.files.plain import plain_json
+from datagen.versions import program_versions
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = (

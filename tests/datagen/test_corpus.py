@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora.info import corpus_info
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.inspection.info import corpus_info
 from datagen.recipes.recipe import Recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine

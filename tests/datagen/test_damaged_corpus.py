@@ -11,10 +11,10 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
-from datagen.corpora.check import check_corpus
 from datagen.corpora.shard import shard_path
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
 
 
 def cut_short(path: Path) -> None:
@@ -79,7 +79,7 @@ def test_a_shard_that_may_not_be_read_is_named(copy: Path, monkeypatch: pytest.M
     monkeypatch.setattr("netCDF4.Dataset", forbidden)
     with pytest.raises(BadInput, match=r"shard_000000\.nc: you may not read this shard"):
         Corpus(copy).waveform(0)
-    monkeypatch.setattr("datagen.corpora.check.file_hash", forbidden)
+    monkeypatch.setattr("datagen.inspection.check.file_hash", forbidden)
     verdict = check_corpus(copy)
     assert "shards/shard_000000.nc: you may not read it; change its permissions" in verdict.problems
     assert verdict.remedy == ""

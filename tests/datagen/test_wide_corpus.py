@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from datagen.recipes.distributions import NAMES
+from datagen.distributions.kinds import NAMES
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.recipes.recipe_files import shipped_recipes
 from datagen.scenarios.sampling import draw_scenario

@@ -14,7 +14,6 @@ from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
 from datagen.benchmark.rows import Reading, RecordRows, record_rows, windows
-from datagen.benchmark.score_log import log_path, write_line
 from datagen.benchmark.training import (
     TrainingSet,
     train_rule,
@@ -28,6 +27,7 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
+from datagen.scored_runs import log_path, write_line
 from labels.features.table import FEATURE_NAMES
 
 

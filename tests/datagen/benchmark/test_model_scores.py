@@ -1,7 +1,7 @@
 """Reports hold the scores of a model as plain numbers, and only those that apply."""
 
 from datagen.benchmark.model_scores import Bounds, Calibration, ConditionScores, MinusRule, report
-from datagen.plain import plain_json
+from datagen.files.plain import plain_json
 from labels.classifier.scores import Interval
 
 OF_ALL = [

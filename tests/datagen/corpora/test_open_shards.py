@@ -19,8 +19,8 @@ from xarray.backends import NetCDF4DataStore
 from datagen.corpora.open_shards import OpenShards, _open_files
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.recordings.formats.reading import read_arrays
-from datagen.recordings.settings import CsvLayout
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import read_arrays
 from datagen.sizing.sized_records import sized_records
 
 HELD = 0.2  # s: ample for a thread that does not wait

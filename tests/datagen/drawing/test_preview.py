@@ -14,7 +14,7 @@ from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet
 from datagen.drawing.style import house_style, plt
 from datagen.drawing.time_panels import _lanes, draw_close_up, draw_spectrogram, vertical_modes
 from datagen.errors import BadInput
-from datagen.plain import plain_json
+from datagen.files.plain import plain_json
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine

@@ -63,7 +63,7 @@ def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path):
 
 
 def test_a_folder_that_cannot_be_written_into_is_bad_input(tmp_path, monkeypatch):
-    monkeypatch.setattr("datagen.places._writable", lambda folder: False)
+    monkeypatch.setattr("datagen.files.places._writable", lambda folder: False)
     with pytest.raises(BadInput, match="cannot write into"):
         write_book(tmp_path, ["6"], report=lambda title: None)
     assert list(tmp_path.iterdir()) == []
@@ -73,7 +73,7 @@ def test_a_disk_that_fills_up_is_bad_input_that_names_the_folder(tmp_path, monke
     def full(path, data):
         raise OSError(errno.ENOSPC, "No space left on device", str(path))
 
-    monkeypatch.setattr("datagen.corpora.atomic.write_atomically", full)
+    monkeypatch.setattr("datagen.files.atomic.write_atomically", full)
     code, _, told = run("--out", tmp_path, "--figures", "6")
     assert code == 2
     assert "No space left on device" in told

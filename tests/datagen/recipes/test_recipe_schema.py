@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from datagen.recipes.distributions import NAMES
+from datagen.distributions.kinds import NAMES
 from datagen.recipes.recipe_files import shipped_recipes
 from datagen.recipes.recipe_schema import recipe_schema, schema_text
 

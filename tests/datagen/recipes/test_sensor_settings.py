@@ -11,8 +11,8 @@ from scipy.io import savemat, wavfile
 from typer.testing import CliRunner
 
 from datagen.cli import app
+from datagen.distributions.kinds import Fixed
 from datagen.errors import BadInput
-from datagen.recipes.distributions import Fixed
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 
 BASE = """name = "try"

@@ -13,9 +13,9 @@ import scipy.io
 from scipy.io import wavfile
 
 from datagen.errors import BadInput
-from datagen.recordings.formats.arrays import choose
-from datagen.recordings.formats.reading import read_arrays
-from datagen.recordings.settings import CsvLayout
+from datagen.formats.arrays import choose
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import read_arrays
 
 SAMPLES = np.random.default_rng(2).standard_normal(2000)
 

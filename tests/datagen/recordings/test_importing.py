@@ -15,12 +15,12 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora.check import check_corpus
-from datagen.corpora.info import corpus_info
 from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
+from datagen.inspection.info import corpus_info
 from labels.envelope import band_envelope
 from labels.schema import LABEL
 

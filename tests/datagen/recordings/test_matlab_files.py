@@ -13,9 +13,9 @@ import scipy.io
 
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.recordings.formats.arrays import Arrays, choose
-from datagen.recordings.formats.reading import read_arrays
-from datagen.recordings.settings import CsvLayout
+from datagen.formats.arrays import Arrays, choose
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import read_arrays
 
 SPEED, VIBRATION = np.full(80, 900.0), np.random.default_rng(3).standard_normal(320)
 CHANNELS = [("speed", SPEED), ("vibration_1", VIBRATION)]

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from datagen.corpora.check import check_corpus
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
 from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.shaft_speed import is_steady, shaft_angle, tach_speed

@@ -12,8 +12,8 @@ import scipy.io
 from typer.testing import CliRunner
 
 from datagen.cli import app
-from datagen.corpora.check import check_corpus
 from datagen.corpus import Corpus
+from datagen.inspection.check import check_corpus
 from datagen.recordings.label_table import read_label_table
 from datagen.recordings.spec_files import find_spec, shipped_specs
 

@@ -10,9 +10,9 @@ import pytest
 
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.recordings.formats import csv_file
-from datagen.recordings.formats.reading import read_arrays
-from datagen.recordings.settings import CsvLayout
+from datagen.formats import csv_file
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import read_arrays
 
 Bring = Callable[..., Corpus]
 SPEC = '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\nrate_hz = 1000\ny = "a"\n'

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from datagen.corpora.check import check_corpus
 from datagen.corpus import Corpus
+from datagen.inspection.check import check_corpus
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.records.record import make_record
 from datagen.runs.generate import generate

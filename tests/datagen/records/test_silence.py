@@ -9,8 +9,8 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
-from datagen.corpora.check import _relative_difference, check_corpus
 from datagen.corpus import Corpus
+from datagen.inspection.check import _relative_difference, check_corpus
 from datagen.recipes.recipe import parse_recipe
 from datagen.records.record import make_record
 from datagen.scenarios.sampling import draw_scenario

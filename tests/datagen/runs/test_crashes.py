@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from datagen.corpora.check import check_corpus
+from datagen.inspection.check import check_corpus
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine

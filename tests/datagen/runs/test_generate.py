@@ -17,11 +17,11 @@ import datagen.corpora.index
 import datagen.corpora.manifest
 import datagen.corpora.shard
 import datagen.runs.run
-from datagen.corpora.atomic import write_atomically
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import read_manifest
 from datagen.corpora.shard import finished_shards, shard_path, sidecar_path
 from datagen.errors import BadInput
+from datagen.files.atomic import write_atomically
 from datagen.recipes.recipe import Recipe
 from datagen.runs.generate import generate
 from datagen.runs.plan import plan_shards

@@ -172,7 +172,7 @@ def test_a_file_that_cannot_be_finished_leaves_the_old_one(
     monkeypatch.setattr(fit, "trials", lambda *_: [])
     monkeypatch.setattr(TrialColumns, "of", classmethod(lambda *_: columns()))
     monkeypatch.setattr(fit, "fit_calibration", lambda *_: default_estimator().calibration)
-    monkeypatch.setattr("datagen.corpora.atomic.os.fsync", full)
+    monkeypatch.setattr("datagen.files.atomic.os.fsync", full)
     (tmp_path / "c.npz").write_text("old")
     assert fit.main([str(small_ladder), "--out", str(tmp_path / "c.npz")]) == 2
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("c.npz", "old")]

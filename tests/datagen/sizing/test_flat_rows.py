@@ -10,7 +10,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from datagen.plain import plain_json
+from datagen.files.plain import plain_json
 from datagen.sizing.flat_rows import flat_row, flat_scores
 from datagen.sizing.report import estimates_csv
 from datagen.sizing.score import SizeScores

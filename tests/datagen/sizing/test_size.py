@@ -183,7 +183,7 @@ def test_a_report_that_cannot_be_finished_ends_with_2_and_leaves_the_old_one(
     def full(path: Path, data: bytes) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("datagen.corpora.atomic.write_atomically", full)
+    monkeypatch.setattr("datagen.files.atomic.write_atomically", full)
     (tmp_path / "estimates.csv").write_text("old")
     code, _, complaint = run("size", sized_corpus, "--split", "all", "--out", tmp_path)
     assert code == 2

@@ -1,0 +1,114 @@
+"""Results as tables for a terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rich.table import Table
+
+from datagen.corpora.reading import AGAIN
+from datagen.runs.progress import for_people
+
+if TYPE_CHECKING:
+    from datagen.inspection.info import Info
+
+
+def info_tables(info: Info) -> list[Table]:
+    """The facts of a corpus, as `spallgen info` shows them."""
+    crossed = [_crossed(info, title) for title in info.crossed]
+    return [_summary(info), _counts(info), *crossed, *([_refused(info)] if info.refused else []), _ranges(info)]
+
+
+def _summary(info: Info) -> Table:
+    table = Table(title=f"{info.name}: {info.title}" if info.title else info.name, show_header=False)
+    present = info.records - sum(info.missing_files.values())
+    rows = {
+        "records": f"{present} of {info.asked} asked for; the recipe has {info.recipe_records}",
+        **({"missing": _missing(info)} if info.missing_files else {}),
+        "could not be made": str(info.failed),
+        "virtual bearings": _bearings(info),
+        "outside the model's range": f"{info.outside_validity} records",
+        "shards": f"{info.shards}, together {for_people(info.bytes)}, {info.record_bytes / 1e6:.2f} MB a record",
+        "length": f"{info.signal_seconds:.1f} s of signal",
+        "cost": f"{info.worker_seconds:.1f} s of one worker, {info.record_seconds:.2f} s a record, "
+        f"{info.made_per_second:.1f} times real time",
+        "recipe, model, format, program": ", ".join(value or "(none)" for value in info.identity.values()),
+        "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),
+    }
+    for name, text in rows.items():
+        table.add_row(name, text)
+    return table
+
+
+def _missing(info: Info) -> str:
+    """The shards that are gone, the first three by name, and how to mend it."""
+    names = list(info.missing_files)
+    said = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    return f"{said}, with {sum(info.missing_files.values())} records, which all else here still counts: {AGAIN}"
+
+
+def _bearings(info: Info) -> str:
+    by_split = ", ".join(f"{split} {count}" for split, count in info.bearings_in_split.items())
+    return f"{info.bearings} ({by_split})"
+
+
+def _counts(info: Info) -> Table:
+    table = Table("label", "records by value", title="balance")
+    for name, counts in info.counts.items():
+        table.add_row(name, ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items()))
+    return table
+
+
+def _crossed(info: Info, title: str) -> Table:
+    """Records by two labels, with the share of each row."""
+    rows = info.crossed[title]
+    columns = list(dict.fromkeys(value for counts in rows.values() for value in counts))
+    table = Table(title.split(" x ")[0], title=f"records by {title.replace(' x ', ' and ')}")
+    for heading in (*columns, "all", "share"):
+        table.add_column(heading, justify="right")
+    for value, counts in rows.items():
+        total = sum(counts.values())
+        numbers = (str(counts.get(column, "")) for column in columns)
+        table.add_row(value, *numbers, str(total), f"{total / max(info.records, 1):.1%}")
+    return table
+
+
+def _refused(info: Info) -> Table:
+    table = Table("parameter", title="impossible draws, drawn again")
+    for heading in ("refused", "per record"):
+        table.add_column(heading, justify="right")
+    table.add_column("for example")
+    for what, refused in info.refused.items():
+        table.add_row(what, str(refused.count), f"{refused.count / max(info.records, 1):.3f}", refused.example)
+    return table
+
+
+def _ranges(info: Info) -> Table:
+    table = Table("label", "unit", title="ranges")
+    for heading in ("smallest", "median", "largest", "not applicable"):
+        table.add_column(heading, justify="right")
+    for name, found in info.ranges.items():
+        numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
+        table.add_row(name, found.unit, *numbers, str(found.missing or ""))
+    return table
+
+
+def catalog_tables() -> list[Table]:
+    """Every number of the catalogue with its source, a table for each bearing and rig."""
+    from physics.catalog import catalog_rows
+
+    tables: dict[tuple[str, str], Table] = {}
+    for row in catalog_rows():
+        if (row.kind, row.name) not in tables:
+            titles = ("quantity", "value", "unit", "source", "note")
+            tables[row.kind, row.name] = Table(*titles, title=f"{row.kind} {row.name}")
+        source = f"{row.source} (assumed)" if row.assumed and row.source != "assumed" else row.source
+        tables[row.kind, row.name].add_row(row.quantity, f"{row.value:.6g}", row.unit, source, row.note)
+    return list(tables.values())
+
+
+def catalog_data() -> list[dict[str, Any]]:
+    """Every number of the catalogue with its source, for other programs."""
+    from physics.catalog import catalog_rows
+
+    return [row._asdict() for row in catalog_rows()]

@@ -1,0 +1,81 @@
+"""Where results are to go, refused before any work if they cannot be put there; nothing is left there by asking."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+import datagen
+from datagen.errors import BadInput
+
+OUT = "--out"
+MANIFEST = "manifest.json"
+
+
+def require_folder(folder: Path, field: str = OUT) -> None:
+    """Raise BadInput if `folder` can neither be written into nor made."""
+    try:
+        os.lstat(folder)
+    except (FileNotFoundError, NotADirectoryError):
+        pass  # it is to be made, or what is in its way is found below
+    except OSError as problem:
+        raise BadInput(problem.strerror or str(problem), field=field, value=str(folder)) from None
+    nearest = next(path for path in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(path))
+    if not nearest.is_dir():
+        raise BadInput(
+            f"{nearest} is in the way and no folder", field=field, value=str(folder), allowed="a new or existing folder"
+        )
+    if not _writable(nearest):
+        raise BadInput(
+            f"cannot write into {nearest}", field=field, value=str(folder), allowed="a folder that you may write into"
+        )
+
+
+def require_results_folder(folder: Path, field: str = OUT) -> None:
+    """Raise BadInput if results cannot be put into `folder`, or would be mixed with the files of a corpus there."""
+    require_folder(folder, field)
+    if (folder / MANIFEST).is_file():
+        problem = "this is the folder of a corpus, and results would be mixed with its files"
+        raise BadInput(problem, field=field, value=str(folder), allowed="a folder of its own")
+
+
+def require_file(path: Path, field: str = OUT) -> None:
+    """Raise BadInput if no file can be put at `path`; one that is there may be written over."""
+    allowed = "a file in an existing folder that you may write into"
+    try:
+        problem = _against_file(path)
+    except OSError as error:
+        problem = error.strerror or str(error)
+    if problem:
+        raise BadInput(problem, field=field, value=str(path), allowed=allowed)
+
+
+def _against_file(path: Path) -> str:
+    parent = path.absolute().parent
+    if path.is_dir():
+        return "this is a folder"
+    if not parent.is_dir():
+        return "no such folder"
+    if path.exists() and not path.is_file():  # a pipe or a terminal is written to as it is
+        return "" if os.access(path, os.W_OK) else "cannot write to it"
+    return "" if _writable(parent) else f"cannot write into {parent}"
+
+
+def _writable(folder: Path) -> bool:
+    """True if a file can be made in `folder`, which permissions alone do not tell; none is left there."""
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+def dataset_folders() -> list[Path]:
+    """Folders that may hold the datasets that come with spallgen: the wheel's, then the checkout's.
+
+    A wheel holds the repository's `datasets` folder as `datagen/datasets` (pyproject.toml maps it there, so that
+    nothing is copied by hand); in a checkout the folder is found beside the packages.
+    """
+    package = Path(datagen.__file__).resolve().parent
+    return [package / "datasets", package.parent / "datasets"]

@@ -1,0 +1,76 @@
+"""The arrays of a recording's file by name, and the choice of one of them as a SPEC writes it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.formats.placeholders import filled
+from datagen.spelling import suggestion
+
+Arrays = Mapping[str, NDArray[Any]]
+INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
+MOST_NAMES = 12
+ONLY_NAME = "data"
+
+
+class NoVariable(BadInput):
+    """The file has no variable of that name."""
+
+
+def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
+    """The array that `wish` names (see `chosen`), without dimensions of length 1; raises BadInput."""
+    name, places = chosen(arrays, wish, path, field)
+    found = np.asarray(arrays[name])
+    if places is None:
+        return found.squeeze()
+    try:
+        return np.asarray(found[tuple(_place(part) for part in places.split(","))])
+    except (IndexError, ValueError):
+        shape = "x".join(map(str, found.shape))
+        problem, allowed = f"{name} is an array of {shape} numbers", 'as in "NAME[:,0]" or "NAME[0,2]"'
+        raise BadInput(problem, str(path), field, wish, allowed) from None
+
+
+def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
+    """Name of the array that `wish` means, and the places to take of it if it says so; raises BadInput.
+
+    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; what stands in
+    braces is filled in (see `filled`); "NAME[:,2]" takes one column of a table, counted from 0.
+    """
+    text = filled(wish, path, field)
+    for alternative in text.split("|"):
+        found = _named(arrays, alternative.strip(), path, field)
+        if found is not None:
+            return found
+    names = sorted(arrays)
+    if not names:
+        raise NoVariable("the file holds no numbers", str(path), field, text)
+    shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
+    raise NoVariable(f"the file has no such variable{suggestion(text, names)}", str(path), field, text, shown)
+
+
+def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:
+    indexed = None if wish in arrays else INDEXED.fullmatch(wish)
+    name = indexed["name"] if indexed else wish
+    # Brackets mean themselves: they count the elements of MATLAB's arrays of structures and cells.
+    pattern = name.replace("[", "[[]")
+    known = [name] if name in arrays else [one for one in arrays if _is_pattern(name) and fnmatchcase(one, pattern)]
+    if len(known) > 1:
+        raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
+    return (known[0], indexed["places"] if indexed else None) if known else None
+
+
+def _is_pattern(name: str) -> bool:
+    return "*" in name or "?" in name
+
+
+def _place(part: str) -> int | slice:
+    return slice(None) if part.strip() == ":" else int(part)

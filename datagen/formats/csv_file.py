@@ -1,0 +1,129 @@
+"""Tables of text: one column a channel."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.files.csv_rows import BLANKS, NotText, Row, open_text, read_csv_rows
+from datagen.formats.csv_layout import CsvLayout
+
+Array = NDArray[np.float64]
+
+
+class Columns(dict[str, Array]):
+    """The columns of a table by name, NaN where a cell is no number: one is refused for them only where it is used.
+
+    `odd` holds line and text of the first cell of each column that is no finite number.
+    """
+
+    def __init__(self, columns: dict[str, Array], odd: dict[str, tuple[int, str]]) -> None:
+        super().__init__(columns)
+        self.odd = odd
+
+
+def read_csv(path: Path, layout: CsvLayout) -> Columns:
+    """The columns of a text table by name ("1", "2", … without a header); raises BadInput with the line."""
+    try:
+        clean = _clean_table(path, layout)
+        if clean is not None:
+            return clean
+        return _columns(path, layout, read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding))
+    except NotText:
+        raise BadInput(
+            "is no text in this encoding", str(path), "csv.encoding", layout.encoding,
+            'that of the file, such as "latin-1" or "utf-16"',
+        ) from None  # fmt: skip
+
+
+def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
+    """The columns of a table of nothing but finite numbers below its header, ten times as fast; None of any other.
+
+    A delimiter may end each row: the last column is then empty.
+    """
+    rows = read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding, most=1 + layout.header)
+    if len(rows) <= layout.header:
+        return None
+    line, cells = rows[-1]
+    last = len(cells) - 1
+    converters: dict[int | str, Callable[[str], float]] | None = (
+        {last: _nothing} if last and not cells[last].strip() else None
+    )
+    try:
+        with open_text(path, layout.encoding) as file, warnings.catch_warnings(action="ignore"):
+            table = np.loadtxt(
+                _lines(file, layout.decimal), delimiter=None if layout.delimiter == BLANKS else layout.delimiter,
+                comments=None, skiprows=rows[0][0] if layout.header else layout.skip_lines, ndmin=2,
+                converters=converters,
+            )  # fmt: skip
+    except (ValueError, TypeError):
+        return None
+    names = _names(path, rows[0], layout, table.shape[1])
+    if len(names) != table.shape[1] or not np.isfinite(table[:, :last] if converters else table).all():
+        return None
+    odd = {names[last]: (line, cells[last])} if converters else {}
+    return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd)
+
+
+def _nothing(cell: str) -> float:
+    if cell.strip():
+        raise ValueError(cell)
+    return math.nan
+
+
+def _lines(lines: Iterator[str], decimal: str) -> Iterator[str]:
+    return lines if decimal == "." else (line.replace(decimal, ".") for line in lines)
+
+
+def _names(path: Path, head: Row, layout: CsvLayout, width: int) -> list[str]:
+    if not layout.header:
+        return [str(column) for column in range(1, width + 1)]
+    names = [name.strip() for name in head[1]]
+    twice = next((name for name in names if name and names.count(name) > 1), None)
+    if twice is not None:
+        raise BadInput(
+            "this column is there twice", f"{path}, line {head[0]}", twice,
+            allowed='different names, or csv = {header = false, skip_lines = …}, which calls the columns "1", "2", …',
+        )  # fmt: skip
+    return names
+
+
+def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
+    """The columns of any table, cell by cell."""
+    if not rows:
+        return Columns({}, {})
+    names = _names(path, rows[0], layout, len(rows[0][1]))
+    if layout.header:
+        rows = rows[1:]
+    for line, row in rows:
+        if len(row) != len(names):
+            raise BadInput(f"{len(row)} cells, but the table has {len(names)} columns", f"{path}, line {line}")
+    columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
+    first = {name: int(np.argmin(np.isfinite(numbers))) for name, numbers in columns.items() if numbers.size}
+    odd = {
+        name: (rows[k][0], rows[k][1][names.index(name)])
+        for name, k in first.items()
+        if not math.isfinite(columns[name][k])
+    }
+    return Columns(columns, odd)
+
+
+def _numbers(cells: list[str], decimal: str) -> Array:
+    texts = np.array(cells if decimal == "." else [cell.replace(decimal, ".") for cell in cells], dtype=np.str_)
+    try:
+        return texts.astype(np.float64)
+    except ValueError:
+        return np.array([_number(text) for text in texts.tolist()])
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")

@@ -1,0 +1,47 @@
+"""How a text table is laid out, as SPECs and recipes say it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, field_validator, model_validator
+from pydantic_core import PydanticCustomError
+
+from datagen.files.csv_rows import UTF_8
+from datagen.settings.table import Table, refuse
+
+ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
+
+
+class CsvLayout(Table):
+    """How a text table is laid out."""
+
+    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
+    """Character between cells; a space stands for any run of blanks."""
+    decimal: Annotated[str, Field(min_length=1, max_length=1)] = "."
+    """Decimal sign."""
+    header: bool = True
+    """True if a line of column names comes first; without it the columns are called "1", "2", …"""
+    skip_lines: Annotated[int, Field(ge=0)] = 0
+    """Lines to leave out at the start."""
+    encoding: str = UTF_8
+    """Encoding of the text, as Python calls it: utf-8, latin-1, utf-16, …"""
+
+    @model_validator(mode="after")
+    def _delimiter_can_delimit(self) -> CsvLayout:
+        if self.delimiter in '"\r\n':
+            raise refuse(
+                "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
+            )
+        if self.delimiter == self.decimal:
+            raise refuse("decimal sign and delimiter are the same", "delimiter", "another character than in decimal")
+        return self
+
+    @field_validator("encoding")
+    @classmethod
+    def _encoding_is_known(cls, encoding: str) -> str:
+        try:
+            "".encode(encoding)
+        except (LookupError, ValueError):
+            raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ENCODINGS}) from None
+        return encoding

@@ -1,0 +1,113 @@
+"""MATLAB's .mat files: version 4 to 7 by scipy, 7.3, which is an HDF5 file, by h5py."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.formats.arrays import Arrays
+
+HDF5_MARK = b"\x89HDF\r\n\x1a\n"
+USER_BLOCK = 512
+NUMBERS = "iufb"
+Found = dict[str, NDArray[Any]]
+
+
+def read_mat(path: Path) -> Arrays:
+    """Every numeric variable of a .mat file; raises BadInput.
+
+    A field F of a structure S is called "S.F". Of an array of structures, and of a cell array C, the elements are
+    counted from 0, column by column: "S[2].F", "C[2]".
+    """
+    with path.open("rb") as file:
+        start = file.read(USER_BLOCK + len(HDF5_MARK))
+    return _read_hdf5(path) if start[USER_BLOCK:] == HDF5_MARK else _read_old(path)
+
+
+def _element(name: str, index: int, size: int) -> str:
+    return name if size == 1 else f"{name}[{index}]"
+
+
+def _read_old(path: Path) -> Arrays:
+    import scipy.io
+
+    try:
+        content = scipy.io.loadmat(path)
+    except Exception as problem:  # scipy raises whatever the damaged bytes lead it to
+        raise BadInput(f"cannot be read as a .mat file: {problem}", str(path)) from None
+    found: Found = {}
+    for name, value in content.items():
+        if not name.startswith("__"):
+            _collect(found, name, np.asarray(value))
+    return found
+
+
+def _collect(found: Found, name: str, value: NDArray[Any]) -> None:
+    if value.dtype.names is not None:
+        for index, element in enumerate(value.ravel(order="F")):
+            for field in value.dtype.names:
+                _collect(found, f"{_element(name, index, value.size)}.{field}", np.asarray(element[field]))
+    elif value.dtype.kind == "O":
+        for index, element in enumerate(value.ravel(order="F")):
+            if isinstance(element, np.ndarray):
+                _collect(found, _element(name, index, value.size), element)
+    elif value.dtype.kind in NUMBERS:
+        found[name] = value
+
+
+def _read_hdf5(path: Path) -> Arrays:
+    import h5py
+
+    try:
+        with h5py.File(path) as file:
+            return dict(_of_group(file, ""))
+    except Exception as problem:  # h5py too
+        raise BadInput(
+            f"cannot be read as a .mat file of version 7.3: {problem}; save it in MATLAB with -v7", str(path)
+        ) from None
+
+
+def _of_group(group: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
+    """The numeric variables of a structure, or of the whole file, by name.
+
+    Each field of an array of structures is a list of references, as a cell array is, but is of no class.
+    """
+    import h5py
+
+    for field, item in group.items():
+        inner = f"{name}.{field}" if name else field
+        if field.startswith("#"):
+            continue
+        if name and _refers(item) and "MATLAB_class" not in item.attrs:
+            for index, target in enumerate(item[...].ravel()):
+                yield from _of_item(group.file[target], f"{name}[{index}].{field}")
+        elif isinstance(item, h5py.Group):
+            yield from _of_group(item, inner)
+        else:
+            yield from _of_item(item, inner)
+
+
+def _of_item(item: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
+    """The numbers of a variable or cell array; MATLAB writes an array's dimensions in reverse order."""
+    import h5py
+
+    if isinstance(item, h5py.Group):
+        yield from _of_group(item, name)
+    elif _refers(item):
+        for index, target in enumerate(item[...].ravel()):
+            yield from _of_item(item.file[target], _element(name, index, item.size))
+    elif item.dtype.kind in NUMBERS and item.attrs.get("MATLAB_class") != b"char":
+        # Of an empty array the file holds the dimensions instead.
+        empty = bool(item.attrs.get("MATLAB_empty", 0))
+        yield name, np.zeros(0) if empty else np.asarray(item[...]).T
+
+
+def _refers(item: Any) -> bool:
+    import h5py
+
+    return isinstance(item, h5py.Dataset) and h5py.check_ref_dtype(item.dtype) is not None

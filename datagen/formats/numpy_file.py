@@ -1,0 +1,53 @@
+"""NumPy's .npy and .npz files; Python objects in them are refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.errors import BadInput
+from datagen.formats.arrays import ONLY_NAME, Arrays
+
+
+class _Members(Mapping[str, NDArray[Any]]):
+    """The members of an .npz file, each read when it is asked for."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        with np.load(path) as file:
+            self.names = tuple(file.files)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self.names:
+            raise KeyError(name)
+        try:
+            with np.load(self.path) as file:
+                return np.asarray(file[name])
+        except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
+            raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+
+def read_npz(path: Path) -> Arrays:
+    """The members of an .npz file by name; raises BadInput."""
+    try:
+        return _Members(path)
+    except Exception as problem:  # as above
+        raise BadInput(f"cannot be read as an .npz file: {problem}", str(path)) from None
+
+
+def read_npy(path: Path) -> Arrays:
+    """The one array of an .npy file, called "data"; raises BadInput."""
+    try:
+        return {ONLY_NAME: np.asarray(np.load(path, mmap_mode="r"))}
+    except Exception as problem:  # as above
+        raise BadInput(f"cannot be read as an .npy file: {problem}", str(path)) from None

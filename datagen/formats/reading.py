@@ -1,0 +1,45 @@
+"""Opening a recording's file by its format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from datagen.errors import BadInput
+from datagen.formats.arrays import Arrays
+from datagen.formats.csv_file import read_csv
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.mat_file import read_mat
+from datagen.formats.netcdf_file import read_netcdf
+from datagen.formats.numpy_file import read_npy, read_npz
+from datagen.formats.wav_file import read_wav
+
+FORMATS = ("mat", "npz", "npy", "csv", "wav", "nc")
+ENDINGS = {"txt": "csv", "tsv": "csv", "cdf": "nc", "nc4": "nc", "h5": "nc", "hdf5": "nc", "wave": "wav"}
+READERS: dict[str, Callable[[Path], Arrays]] = {
+    "mat": read_mat,
+    "npz": read_npz,
+    "npy": read_npy,
+    "wav": read_wav,
+    "nc": read_netcdf,
+}
+
+
+def file_format(path: Path, stated: str | None) -> str:
+    """The format that is `stated`, or that the file's ending says; raises BadInput if it says none."""
+    ending = path.suffix.lower().removeprefix(".")
+    kind = stated or ENDINGS.get(ending, ending)
+    if kind not in FORMATS:
+        raise BadInput("the file's ending says no known format", str(path), "format", ending, ", ".join(FORMATS))
+    return kind
+
+
+def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
+    """The arrays of a file whose format is `stated` or follows from its ending; raises BadInput."""
+    kind = file_format(path, stated)
+    try:
+        return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
+    except FileNotFoundError:
+        raise BadInput("no such file", str(path)) from None
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror or problem}", str(path)) from None

@@ -1,0 +1,41 @@
+"""Wave files: linear samples of 8 to 64 bits or floats; whole numbers become shares of full scale."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from datagen.errors import BadInput
+from datagen.formats.arrays import ONLY_NAME, Arrays
+
+RATE_NAME = "rate_hz"
+# What scipy warns of a file that is shorter than its header says; other warnings are of chunks that hold no samples.
+EARLY_END = "EOF prematurely"
+
+
+def read_wav(path: Path) -> Arrays:
+    """The samples of a wave file as "data" (T,) or (T, C), whole numbers as -1 to 1, and "rate_hz"; raises BadInput."""
+    from scipy.io import wavfile
+
+    try:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always", wavfile.WavFileWarning)
+            rate, samples = wavfile.read(path)
+    except Exception as problem:  # whatever the damaged bytes lead scipy to
+        raise BadInput(
+            f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
+        ) from None
+    early = next((str(one.message) for one in told if EARLY_END in str(one.message)), "")
+    if early:
+        raise BadInput(f"the file breaks off: {early}", str(path))
+    return {ONLY_NAME: _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
+
+
+def _full_scale(samples: np.ndarray) -> np.ndarray:
+    if samples.dtype.kind == "f":
+        return samples
+    if samples.dtype.kind == "u":
+        return (samples.astype(np.float64) - 128.0) / 128.0
+    return samples / -float(np.iinfo(samples.dtype).min)

@@ -1,0 +1,280 @@
+"""Checking a corpus: every byte, every array, every label, and that its scenarios still give its records."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.corpora.format import FORMAT, content_hash, format_hash
+from datagen.corpora.index import LABEL_COLUMNS, read_index
+from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
+from datagen.corpora.reading import READ_ERRORS, unspeakable
+from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
+from datagen.errors import BadInput
+from datagen.files.netcdf import ONE_AT_A_TIME
+from datagen.inspection.conformity import violations
+from datagen.inspection.manifest_check import differences, recipe_of
+from datagen.versions import program_hash
+from labels.schema import UNKNOWN
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from datagen.corpus import Corpus
+
+LARGEST_DIFFERENCE = 1e-3
+FORBIDDEN = "you may not read it; change its permissions"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a check found: `problems` are sentences (none: all is well).
+
+    `damaged` are files that are not what was written, `remedy` a sentence on how to mend that (empty: none).
+    `remade` are the records simulated again (none with other physics than theirs), `largest_difference` the largest
+    RMS difference of their acceleration from what is stored, relative to its RMS.
+    """
+
+    folder: str
+    shards: int
+    records: int
+    imported: bool
+    remade: tuple[int, ...]
+    largest_difference: float
+    problems: tuple[str, ...]
+    damaged: tuple[str, ...] = ()
+    remedy: str = ""
+
+    @property
+    def sound(self) -> bool:
+        """True if nothing is wrong."""
+        return not self.problems
+
+
+def check_corpus(folder: Path, remake: int = 0) -> Verdict:
+    """Read the whole corpus in `folder`, say everything that is wrong, and simulate `remake` of its records again.
+
+    Raises BadInput if the folder holds no corpus, or one of another format.
+    """
+    manifest = read_manifest(folder)
+    if manifest.identity.format_hash != format_hash():
+        raise BadInput(f"made by another version of the format than this program's ({FORMAT})", str(folder))
+    check = _Check(folder, manifest)
+    check.files()
+    for sidecar in check.sidecars:
+        check.shard(sidecar)
+    check.whole()
+    check.remake(remake)
+    return Verdict(
+        str(folder), len(check.sidecars), len(check.records), manifest.imported, tuple(check.remade),
+        check.difference, tuple(check.problems), tuple(check.damaged), check.remedy(),
+    )  # fmt: skip
+
+
+class _Check:
+    """The problems found so far, and what the parts of a corpus say of each other."""
+
+    def __init__(self, folder: Path, manifest: Manifest) -> None:
+        self.folder, self.manifest = folder, manifest
+        self.problems: list[str] = []
+        self.damaged: list[str] = []
+        self.sidecars: list[Sidecar] = []
+        self.records: set[int] = set()
+        self.remade: list[int] = []
+        self.difference = 0.0
+        self.index = self._read_index()
+        self.recipe, problems = recipe_of(manifest, folder)
+        self.problems += problems
+
+    def _read_index(self) -> pandas.DataFrame | None:
+        try:
+            return read_index(self.folder)
+        except BadInput as problem:
+            self.problems.append(str(problem))
+            return None
+
+    def files(self) -> None:
+        """Read every sidecar, and find files that do not belong together."""
+        shards = self.folder / "shards"
+        for path in sorted(shards.glob("*.json")):
+            sidecar = read_sidecar(path)
+            if sidecar is None:
+                self.damaged.append(str(path.relative_to(self.folder)))
+                self.problems.append(f"{self.damaged[-1]}: cannot be read")
+            else:
+                self.sidecars.append(sidecar)
+        known = {shard_path(self.folder, sidecar.shard) for sidecar in self.sidecars if sidecar.records}
+        for path in sorted({*shards.glob("*.nc")} - known):
+            self.damaged.append(str(path.relative_to(self.folder)))
+            self.problems.append(f"{self.damaged[-1]}: unfinished, there is no sidecar that vouches for it")
+        listed = {entry.file for entry in self.manifest.shards}
+        for path in sorted(known):
+            name = path.relative_to(self.folder).as_posix()
+            if name not in listed:
+                self.problems.append(f"manifest.json: {name} is not listed")
+            listed.discard(name)
+        self.problems += [f"{name}: missing, but listed in manifest.json" for name in sorted(listed)]
+
+    def shard(self, sidecar: Sidecar) -> None:
+        """Find everything wrong with one shard."""
+        if not sidecar.records:
+            return
+        entry = shard_entry(sidecar, self.folder)
+        dataset, damage = _opened(shard_path(self.folder, sidecar.shard), sidecar)
+        if damage and damage != [FORBIDDEN]:
+            self.damaged.append(entry.file)
+        for sentence in (*damage, *self._wrong_shard(sidecar, dataset)):
+            self.problems.append(f"{entry.file}: {sentence}")
+        if entry not in self.manifest.shards:
+            self.problems.append(f"{entry.file}: manifest.json says other things of it than its sidecar")
+        twice = self.records.intersection(sidecar.records)
+        if twice:
+            self.problems.append(f"{entry.file}: record {min(twice)} is in another shard too")
+        self.records.update(sidecar.records)
+
+    def _wrong_shard(self, sidecar: Sidecar, dataset: xarray.Dataset | None) -> Iterator[str]:
+        if sidecar.identity != self.manifest.identity:
+            yield "made from another recipe, physics or format than the manifest states"
+        if dataset is None:
+            return
+        yield from violations(dataset)
+        yield from self._missing_signals(dataset)
+        yield from self._wrong_labels(sidecar, dataset)
+        yield from self._wrong_scenarios(dataset)
+
+    def _missing_signals(self, dataset: xarray.Dataset) -> Iterator[str]:
+        from datagen.runs.plan import signals_of_every_record
+
+        for name in signals_of_every_record(self.recipe) if self.recipe else ():
+            if name not in dataset:
+                yield f"{name} is missing, but the recipe asks for it"
+
+    def _wrong_labels(self, sidecar: Sidecar, dataset: xarray.Dataset) -> Iterator[str]:
+        if label_columns(dataset) != sidecar.labels:
+            yield "its labels are not those of its sidecar"
+        if self.index is None:
+            return
+        name = shard_entry(sidecar, self.folder).file
+        rows = self.index.iloc[self._rows_of_shard.get(name, [])].sort_values("position")
+        stated = {c: [None if value != value else value for value in rows[c].tolist()] for c in LABEL_COLUMNS}
+        if stated != sidecar.labels or rows["position"].tolist() != list(range(len(sidecar.records))):
+            yield "index.csv says other things of its records"
+
+    @cached_property
+    def _rows_of_shard(self) -> Mapping[Hashable, NDArray[np.int64]]:
+        """Places of the rows of the index by shard."""
+        return {} if self.index is None else self.index.groupby("shard").indices
+
+    def _wrong_scenarios(self, dataset: xarray.Dataset) -> Iterator[str]:
+        from datagen.scenarios.sampling import draw_scenario
+
+        if self.recipe is None or not self.recipe.drawable or self.manifest.identity.program_hash != program_hash():
+            return
+        for record, text in zip(dataset["record"].values.tolist(), dataset["scenario"].values, strict=True):
+            if draw_scenario(self.recipe, record).to_json() != str(text):
+                yield f"the recipe gives another scenario for record {record} than is stored"
+                return
+
+    def remedy(self) -> str:
+        """How to mend the damaged shards, empty if there are none."""
+        if not self.damaged:
+            return ""
+        if self.manifest.imported:
+            return "to mend it, delete this folder and import the recordings again"
+        there = [name for name in self.damaged if (self.folder / name).exists()]
+        first = f"delete {', '.join(there)} and " if there else ""
+        own = self.manifest.identity.program_hash == program_hash()
+        version = "" if own else ", by the version of spallgen that made this corpus"
+        return f"to mend it, {first}run `spallgen generate` again with the same recipe and --out {self.folder}{version}"
+
+    def whole(self) -> None:
+        """Find what is wrong between the shards: records missing or twice, machines in two splits."""
+        asked = {record for start, stop in self.manifest.asked for record in range(start, stop)}
+        failed = {failure.record for failure in self.manifest.failed}
+        missing = asked - self.records - failed
+        if missing:
+            self.problems.append(
+                f"{len(missing)} of {len(asked)} records asked for are missing, the first {min(missing)}"
+            )
+        self.problems += differences(self.manifest, self.folder, self.sidecars)
+        if failed & asked:
+            self.problems.append(f"{len(failed & asked)} records could not be made; failed.jsonl says why")
+        if self.index is None:
+            return
+        if set(self.index["record"]) != self.records or not self.index["record"].is_unique:
+            self.problems.append("index.csv does not list every record of the shards once")
+        known = self.index[self.index["bearing_id"] != UNKNOWN]
+        splits = known.groupby("bearing_id")["split"].nunique()
+        if (splits > 1).any():
+            self.problems.append(f"the records of bearing {splits.idxmax()} are in more than one split")
+
+    def remake(self, count: int) -> None:
+        """Simulate `count` records, spread over the corpus, again from their stored scenarios and compare."""
+        from datagen.corpus import Corpus
+        from physics._jit import fingerprint
+
+        if not count or not self.records or self.problems or self.manifest.identity.model_hash != fingerprint():
+            return  # imported recordings have no model and so end here too
+        ordered = sorted(self.records)
+        with Corpus(self.folder) as corpus:
+            for place in np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int)):
+                self._remake_one(corpus, ordered[place])
+
+    def _remake_one(self, corpus: Corpus, record: int) -> None:
+        from datagen.records.record import make_record
+        from datagen.scenarios.scenario import Scenario
+        from physics.outcome import SimulationFailed
+
+        stored = corpus.waveform(record).astype(np.float64)
+        try:
+            again = make_record(Scenario.from_json(str(corpus.waveform(record, "scenario")))).acceleration
+        except (BadInput, SimulationFailed) as problem:
+            self.problems.append(f"record {record} cannot be simulated again from its scenario: {problem}")
+            return
+        difference = _relative_difference(again.astype(np.float64), stored)
+        self.remade.append(record)
+        self.difference = max(self.difference, difference)
+        if not difference <= LARGEST_DIFFERENCE:
+            self.problems.append(
+                f"record {record} simulated again from its scenario differs by {difference:.2g} of its RMS; "
+                f"allowed: {LARGEST_DIFFERENCE:g}"
+            )
+
+
+def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[str]]:
+    """What a shard's file holds, None if it cannot be read, and in what it differs from what was written."""
+    import xarray
+
+    if not path.is_file():
+        return None, ["missing"]
+    found = []
+    try:
+        if file_hash(path) != sidecar.sha256:
+            found.append("its bytes have changed since it was written (SHA-256 differs)")
+        with ONE_AT_A_TIME, xarray.open_dataset(path, engine="netcdf4") as opened:
+            dataset = opened.load()
+        if content_hash(dataset) != sidecar.content:
+            found.append("its arrays are not those that were written")
+    except UnicodeEncodeError:
+        raise unspeakable(path) from None
+    except PermissionError:
+        return None, [FORBIDDEN]
+    except READ_ERRORS as problem:
+        return None, [*found, f"cannot be read: {problem}"]
+    return dataset, found
+
+
+def _relative_difference(again: NDArray[np.float64], stored: NDArray[np.float64]) -> float:
+    """RMS difference of a signal made again from the stored one over the latter's RMS; silence agrees with silence."""
+    difference, level = np.sqrt(np.mean((again - stored) ** 2)), np.sqrt(np.mean(stored**2))
+    if not difference:
+        return 0.0
+    return float(difference / level) if level else math.inf

@@ -1,0 +1,1 @@
+"""Settings in TOML, of recipes and of import SPECs: tables with ranges, and clear messages about what is wrong."""

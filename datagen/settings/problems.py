@@ -1,0 +1,136 @@
+"""From pydantic's list of errors to one clear line about the first of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from datagen.errors import BadInput
+from datagen.settings.toml_lines import Location, line_of
+from datagen.spelling import suggestion
+
+MOST_LISTED = 16
+SCALARS = ("str", "float", "int", "bool")
+EXPECTED = {
+    "string_type": "a text in quotes",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "bool_type": "true or false",
+    "tuple_type": "a list (a list of tables has double brackets: [[part]])",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+    "dict_type": "a table",
+    "finite_number": "a finite number",
+    "greater_than": "above {gt}",
+    "greater_than_equal": "at least {ge}",
+    "less_than_equal": "at most {le}",
+    "literal_error": "{expected}",
+    "string_too_short": "at least {min_length} character",
+    "string_too_long": "at most {max_length} characters",
+    "too_short": "at least {min_length}",
+    "too_long": "at most {max_length}",
+    "string_pattern_mismatch": "letters, digits, - and _, starting with a letter or digit",
+}
+
+
+def bad_settings(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
+    """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
+    errors: list[dict[str, Any]] = [dict(one) for one in error.errors()]
+    own = [one for one in errors if not _follows(one, errors)]
+    first = min(own, key=lambda one: (one["type"] != "extra_forbidden", _is_other_kind(one)))
+    context = first.get("ctx", {})
+    location = _place(first) + ((context["field"],) if context.get("field") else ())
+    line = line_of(text, location)
+    return BadInput(
+        _problem(first, location, model),
+        f"{path}, line {line}" if line else str(path),
+        dotted(location),
+        _value(first, location, context.get("field", "")),
+        _allowed(first, [one for one in errors if _place(one) == _place(first)]),
+    )
+
+
+def _place(one: dict[str, Any]) -> Location:
+    """Where the setting is, without the names of the kinds of value that pydantic tried there."""
+    return tuple(step for step in one["loc"] if isinstance(step, int) or not _is_kind(step))
+
+
+def _is_kind(step: str | int) -> bool:
+    return isinstance(step, str) and (step in SCALARS or step[:1].isupper())
+
+
+def _is_other_kind(one: dict[str, Any]) -> bool:
+    """True if a table was tried as a single value, which says less than what is wrong in the table."""
+    return isinstance(one["input"], dict) and any(step in SCALARS for step in one["loc"][-1:])
+
+
+def _follows(one: dict[str, Any], errors: list[dict[str, Any]]) -> bool:
+    """True of a list that counts as too short because what stands in it is wrong."""
+    size = len(one["loc"])
+    return one["type"] == "too_short" and any(more["loc"][:size] == one["loc"] != more["loc"] for more in errors)
+
+
+def _allowed(first: dict[str, Any], alike: list[dict[str, Any]]) -> str:
+    """What is allowed; where several kinds of value were tried at the place, all of them."""
+    kinds = alike if any(map(_is_kind, first["loc"][-1:])) else [first]
+    contexts = [(one["type"], one.get("ctx", {})) for one in kinds]
+    words = [context.get("allowed") or EXPECTED.get(kind, "").format(**context) for kind, context in contexts]
+    return " or ".join(dict.fromkeys(word for word in words if word))
+
+
+def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) -> str:
+    kind = first["type"]
+    if kind == "missing":
+        return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
+    if kind == "extra_forbidden":
+        known = _keys_beside(location, model)
+        hint = suggestion(str(location[-1]), known)
+        listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
+        return f"unknown key{hint}{listed}"
+    misplaced = _settings_beside(first, location, model) if kind == "distribution" else []
+    if misplaced:
+        place = dotted((*location[:-1], misplaced[0]))
+        return f"{', '.join(misplaced)}: a setting of its own, written beside it as {place}"
+    problem = first.get("ctx", {}).get("problem")
+    return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
+
+
+def _value(first: dict[str, Any], location: Location, field: str) -> object:
+    if first["type"] in ("missing", "extra_forbidden"):
+        return None
+    given = first["input"]
+    if not field:
+        return None if isinstance(given, BaseModel) or location == ("part",) else given
+    value = given.get(field) if isinstance(given, dict) else None
+    return None if field == "part" else value
+
+
+def _settings_beside(first: dict[str, Any], location: Location, model: type[BaseModel]) -> list[str]:
+    """Keys of a value that was to be a distribution, if all of them are names of settings beside it."""
+    keys = list(map(str, first["input"])) if isinstance(first["input"], dict) else []
+    return keys if set(keys) <= set(_keys_beside(location, model)) else []
+
+
+def _keys_beside(location: Location, model: type[BaseModel]) -> list[str]:
+    table = model
+    for step in location[:-1]:
+        if isinstance(step, str):
+            table = _table_type(table.model_fields[step].annotation) or table
+    return list(table.model_fields)
+
+
+def _table_type(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for inner in get_args(annotation) if (found := _table_type(inner))), None)
+
+
+def dotted(location: Location) -> str:
+    """The setting at `location` as a message names it: part[2].defect.depth_um."""
+    text = ""
+    for step in location:
+        text += f"[{step + 1}]" if isinstance(step, int) else f".{step}" if text else step
+    return text

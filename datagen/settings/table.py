@@ -1,0 +1,180 @@
+"""Kinds of setting in a recipe: numbers, whole numbers and words, each fixed or drawn, each with what is allowed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from datagen.distributions.kinds import (
+    Choice,
+    Distribution,
+    DistributionError,
+    Fixed,
+    Normal,
+    distribution_schema,
+    parse_distribution,
+)
+from datagen.spelling import suggestion
+
+
+class Table(BaseModel):
+    """A table of a recipe: unknown keys are refused and nothing changes after reading."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, use_attribute_docstrings=True)
+
+
+class _Setting:
+    """Annotation of a `Distribution` field: says which stated values are allowed, to pydantic and to JSON Schema."""
+
+    def allowed(self) -> str:
+        """What is allowed, in words."""
+        raise NotImplementedError
+
+    def accepts(self, value: Any) -> bool:
+        """True if a stated value is allowed."""
+        raise NotImplementedError
+
+    def normal_form(self, distribution: Distribution) -> Distribution:
+        """The distribution as it is kept; raises DistributionError if its kind is not allowed."""
+        return distribution
+
+    def confined(self, distribution: Distribution) -> Distribution:
+        """The distribution without its tails where these are not allowed."""
+        return distribution
+
+    def value_schema(self) -> dict[str, Any]:
+        """JSON Schema of one value."""
+        raise NotImplementedError
+
+    def parse(self, value: object) -> Distribution:
+        """The checked distribution of what a recipe says; raises PydanticCustomError."""
+        if isinstance(value, Distribution):
+            return value
+        try:
+            distribution = self.normal_form(parse_distribution(value))
+            for stated in distribution.stated():
+                if not self.accepts(stated):
+                    raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": self._hint(stated)})
+            return self.confined(distribution)
+        except DistributionError as error:
+            told = {"problem": str(error), "allowed": self.allowed()}
+            raise PydanticCustomError("distribution", "{problem}", told) from None
+
+    def _hint(self, value: object) -> str:
+        return self.allowed()
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        write: Callable[[Distribution], object] = lambda distribution: distribution.to_toml()  # noqa: E731
+        return core_schema.no_info_plain_validator_function(
+            self.parse, serialization=core_schema.plain_serializer_function_ser_schema(write)
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"setting": self.allowed()} | distribution_schema(self.value_schema())
+
+
+@dataclass(frozen=True)
+class Between(_Setting):
+    """A number from `low` to `high`; `above` excludes `low` itself. A normal distribution is cut off there."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    above: bool = False
+
+    def allowed(self) -> str:
+        if self.low == -math.inf:
+            return "a number" if self.high == math.inf else f"a number up to {self.high:g}"
+        bottom = f"a number above {self.low:g}" if self.above else f"a number from {self.low:g}"
+        return bottom + (f" to {self.high:g}" if self.high < math.inf else "")
+
+    def accepts(self, value: Any) -> bool:
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return False
+        return self.low <= value <= self.high and not (self.above and value == self.low)
+
+    def normal_form(self, distribution: Distribution) -> Distribution:
+        if isinstance(distribution, Fixed) and type(distribution.value) is int:
+            return Fixed(float(distribution.value))
+        if isinstance(distribution, Choice):
+            options = tuple(float(v) if type(v) is int else v for v in distribution.options)
+            return replace(distribution, options=options)
+        return distribution
+
+    def confined(self, distribution: Distribution) -> Distribution:
+        return distribution.within(self.low, self.high) if isinstance(distribution, Normal) else distribution
+
+    def value_schema(self) -> dict[str, Any]:
+        schema: dict[str, Any] = {"type": "number"}
+        if self.low > -math.inf:
+            schema["exclusiveMinimum" if self.above else "minimum"] = self.low
+        return schema | ({"maximum": self.high} if self.high < math.inf else {})
+
+
+@dataclass(frozen=True)
+class Whole(_Setting):
+    """A whole number from `low` to `high`, fixed or chosen from a list."""
+
+    low: int
+    high: int
+
+    def allowed(self) -> str:
+        return f"a whole number from {self.low} to {self.high}"
+
+    def accepts(self, value: Any) -> bool:
+        return type(value) is int and self.low <= value <= self.high
+
+    def normal_form(self, distribution: Distribution) -> Distribution:
+        if not isinstance(distribution, Fixed | Choice):
+            raise DistributionError("a whole number is fixed or drawn by choice or balanced")
+        return distribution
+
+    def value_schema(self) -> dict[str, Any]:
+        return {"type": "integer", "minimum": self.low, "maximum": self.high}
+
+
+@dataclass(frozen=True)
+class OneOf(_Setting):
+    """One of a closed list of words (or small numbers), fixed or chosen from several."""
+
+    options: tuple[str | int | bool, ...]
+
+    def allowed(self) -> str:
+        return ", ".join(str(option) for option in self.options)
+
+    def accepts(self, value: Any) -> bool:
+        return any(type(option) is type(value) and option == value for option in self.options)
+
+    def normal_form(self, distribution: Distribution) -> Distribution:
+        if not isinstance(distribution, Fixed | Choice):
+            raise DistributionError("a word is fixed or drawn by choice or balanced")
+        return distribution
+
+    def _hint(self, value: object) -> str:
+        return self.allowed() + suggestion(str(value), [str(option) for option in self.options])
+
+    def value_schema(self) -> dict[str, Any]:
+        return {"enum": list(self.options)}
+
+
+def possible_words(distribution: Distribution) -> tuple[Any, ...]:
+    """Every value a word setting can take (of weight above zero)."""
+    weights = getattr(distribution, "weights", ())
+    stated = distribution.stated()
+    return tuple(v for k, v in enumerate(stated) if not weights or weights[k] > 0.0)
+
+
+def refuse(problem: str, field: str = "", allowed: str = "") -> PydanticCustomError:
+    """The error of a table whose settings do not go together; `field` names the one to point at."""
+    return PydanticCustomError("settings", "{problem}", {"problem": problem, "field": field, "allowed": allowed})
+
+
+def at_most_one(table: BaseModel, *fields: str) -> None:
+    """Raise PydanticCustomError if more than one of these settings is given."""
+    given = [field for field in fields if getattr(table, field) is not None]
+    if len(given) > 1:
+        raise refuse(f"{' and '.join(given)} say the same thing twice", given[1], f"only one of {', '.join(fields)}")

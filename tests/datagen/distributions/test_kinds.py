@@ -1,0 +1,169 @@
+"""Distributions: their quantile functions against closed forms and scipy.stats, and what is refused."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from datagen.distributions.kinds import (
+    DISTRIBUTIONS,
+    Balanced,
+    DistributionError,
+    Fixed,
+    Normal,
+    distribution_schema,
+    parse_distribution,
+)
+
+EXAMPLES: list[Any] = [
+    5.0,
+    "outer",
+    {"uniform": [2.0, 8.0]},
+    {"log_uniform": [0.1, 10.0]},
+    {"normal": [5.0, 1.0]},
+    {"normal": [5.0, 1.0], "low": 4.0},
+    {"normal": [5.0, 1.0], "low": 9.0, "high": 9.5},
+    {"choice": ["outer", "inner"], "weights": [3.0, 1.0]},
+    {"choice": [1, 2, "both"]},
+    {"balanced": ["healthy", "line"], "weights": [1.0, 2.0]},
+]
+PROBABILITIES = (0.0, 1e-12, 0.1, 0.25, 0.5, 0.9, 1.0 - 2.0**-53)
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_a_distribution_written_back_to_toml_reads_as_itself(example: Any) -> None:
+    distribution = parse_distribution(example)
+    assert parse_distribution(distribution.to_toml()) == distribution
+    assert distribution.to_toml() == example
+
+
+@pytest.mark.parametrize(
+    ("example", "reference"),
+    [
+        ({"uniform": [2, 8]}, stats.uniform(2, 6)),
+        ({"log_uniform": [0.1, 10]}, stats.loguniform(0.1, 10)),
+        ({"normal": [5, 2]}, stats.norm(5, 2)),
+        ({"normal": [5, 2], "low": 4}, stats.truncnorm(-0.5, math.inf, 5, 2)),
+        ({"normal": [5, 2], "high": 3}, stats.truncnorm(-math.inf, -1.0, 5, 2)),
+        ({"normal": [0, 1], "low": 4, "high": 5}, stats.truncnorm(4, 5)),
+    ],
+)
+def test_the_quantile_is_that_of_scipy(example: dict[str, Any], reference: Any) -> None:
+    distribution = parse_distribution(example)
+    for probability in (1e-6, 0.1, 0.25, 0.5, 0.9, 0.999):
+        found = distribution.quantile(probability)
+        assert found == pytest.approx(
+            reference.ppf(probability), rel=1e-9
+        )  # both round a few times in double precision
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_no_probability_below_one_leaves_what_the_recipe_states(example: Any) -> None:
+    distribution = parse_distribution(example)
+    stated = distribution.stated()
+    for probability in PROBABILITIES:
+        value = distribution.quantile(probability)
+        if isinstance(value, float):
+            assert math.isfinite(value)
+            if not isinstance(distribution, Normal):
+                assert min(stated) <= value <= max(stated)
+        else:
+            assert value in stated
+
+
+@given(st.floats(0.0, 1.0, exclude_max=True), st.floats(0.0, 1.0, exclude_max=True))
+def test_quantiles_never_fall(one: float, other: float) -> None:
+    low, high = sorted((one, other))
+    for example in EXAMPLES[2:7]:
+        distribution = parse_distribution(example)
+        assert distribution.quantile(low) <= distribution.quantile(high)
+
+
+def test_a_draw_is_the_quantile_of_one_number_of_the_generator() -> None:
+    for example in EXAMPLES:
+        distribution = parse_distribution(example)
+        generator = np.random.default_rng(3)
+        drawn, after = distribution.draw(generator), generator.random()
+        reference = np.random.default_rng(3)
+        assert drawn == distribution.quantile(float(reference.random()))
+        assert after == reference.random()
+
+
+def test_weights_are_shares_and_a_weight_of_zero_is_never_drawn() -> None:
+    choice = parse_distribution({"choice": ["a", "b", "c", "d"], "weights": [0, 3, 1, 0]})
+    assert [choice.quantile(p) for p in (0.0, 0.74, 0.76, 1.0 - 2.0**-53)] == ["b", "b", "c", "c"]
+
+
+def test_equal_choices_come_equally_often() -> None:
+    choice = parse_distribution({"choice": [1, 2, 3, 4]})
+    drawn = [choice.quantile((k + 0.5) / 400) for k in range(400)]
+    assert [drawn.count(value) for value in (1, 2, 3, 4)] == [100] * 4
+
+
+def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight() -> None:
+    balanced = Balanced(("a", "b", "c"), (1.0, 0.0, 3.0))
+    assert balanced.block == 4
+    for seed in range(5):
+        assert sorted(balanced.shuffled(np.random.default_rng(seed))) == [0, 2, 2, 2]
+
+
+def test_a_bare_value_takes_its_number_too_so_that_fixing_a_setting_moves_no_other() -> None:
+    generator = np.random.default_rng(0)
+    Fixed(1.0).draw(generator)
+    reference = np.random.default_rng(0)
+    reference.random()
+    assert generator.random() == reference.random()
+
+
+@pytest.mark.parametrize(
+    ("example", "message"),
+    [
+        ({"uniform": [8, 2]}, "the smaller number comes first"),
+        ({"uniform": [2, 2]}, "the smaller number comes first"),
+        ({"uniform": [2]}, "a list of two numbers"),
+        ({"uniform": 2}, "a list of two numbers"),
+        ({"uniform": [1, "2"]}, "a finite number"),
+        ({"uniform": [1, True]}, "a finite number"),
+        ({"uniform": [1, math.inf]}, "a finite number"),
+        ({"log_uniform": [0, 1]}, "must be above 0"),
+        ({"normal": [1, -2]}, "standard deviation must be above 0"),
+        ({"normal": [1, 2], "low": 3, "high": 2}, "low must be below high"),
+        ({"normal": [1, 2], "low": 30}, "less than one draw in a million"),
+        ({"normal": [1, 2], "lo": 0}, 'did you mean "low"'),
+        ({"choice": []}, "at least one value"),
+        ({"choice": [[1], 2]}, "plain values"),
+        ({"choice": [1, 2], "weights": [1]}, "one weight each"),
+        ({"choice": [1, 2], "weights": [0, 0]}, "their sum must be above 0"),
+        ({"choice": [1, 2], "weights": [-1, 2]}, "below 0"),
+        ({"choice": [1, 2], "weights": 3}, "a list of numbers"),
+        ({"balanced": ["a", "b"], "weights": [0.5, 1]}, "whole numbers"),
+        ({"balanced": ["a", "b"], "weights": [1, 1000]}, "add up to 1001: balanced takes at most 1000"),
+        ({"balanced": ["a", "b"], "weight": [1, 2]}, 'did you mean "weights"'),
+        ({"unifrom": [1, 2]}, 'did you mean "uniform"'),
+        ({"balance": [1, 2]}, 'did you mean "balanced"'),
+        ({"truncated_normal": [1, 2]}, 'did you mean "normal"'),
+        ({"uniform": [1, 2], "normal": [1, 2]}, "give one of"),
+        ({}, "give one of"),
+        (math.nan, "neither a finite number"),
+        ([1, 2], "neither a finite number"),
+        (None, "neither a finite number"),
+    ],
+)
+def test_a_badly_written_distribution_is_refused_with_what_is_wrong(example: Any, message: str) -> None:
+    with pytest.raises(DistributionError, match=message):
+        parse_distribution(example)
+
+
+def test_the_schema_of_a_number_names_every_distribution_and_that_of_a_word_only_lists() -> None:
+    number = distribution_schema({"type": "number"})["anyOf"]
+    names = [next(iter(option["properties"])) for option in number[1:]]
+    assert names == [kind.keys[0] for kind in DISTRIBUTIONS]
+    word = distribution_schema({"enum": ["a", "b"]})["anyOf"]
+    assert word[0] == {"enum": ["a", "b"]}
+    assert [next(iter(option["properties"])) for option in word[1:]] == ["choice", "balanced"]

@@ -1,0 +1,101 @@
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from datagen.errors import BadInput
+from datagen.files.atomic import locked, sweep_temporaries, write_atomically, write_file
+
+ROOT = Path(__file__).parents[3]
+
+
+def test_a_file_written_atomically_replaces_the_old_one_and_leaves_nothing_beside_it(tmp_path: Path) -> None:
+    write_atomically(tmp_path / "a", b"old")
+    write_atomically(tmp_path / "a", b"new")
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("a", b"new")]
+
+
+def test_a_full_disk_leaves_the_old_file_and_no_part_of_the_new_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(descriptor: int) -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    write_atomically(tmp_path / "a", b"old")
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="no space"):
+        write_atomically(tmp_path / "a", b"new")
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("a", b"old")]
+
+
+def test_a_writer_killed_at_any_moment_leaves_a_whole_file(tmp_path: Path) -> None:
+    script = (
+        "import sys; from pathlib import Path; from datagen.files.atomic import write_atomically\n"
+        "k = 0\n"
+        "while True:\n"
+        "    k = (k + 1) % 256\n"
+        f"    write_atomically(Path({str(tmp_path)!r}) / 'a', bytes([k]) * 3_000_000)\n"
+    )
+    for pause in (0.0, 0.003, 0.01, 0.017):
+        process = subprocess.Popen([sys.executable, "-c", script], cwd=ROOT)
+        (tmp_path / "a").unlink(missing_ok=True)
+        while not (tmp_path / "a").exists():
+            time.sleep(0.001)
+        time.sleep(pause)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        content = (tmp_path / "a").read_bytes()
+        assert len(content) == 3_000_000
+        assert len(set(content)) == 1
+    sweep_temporaries(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
+def test_sweeping_deletes_temporaries_and_nothing_else(tmp_path: Path) -> None:
+    for name in (".shard_000001.nc.host.7.part", "shard_000001.nc", ".lock", "notes.part"):
+        (tmp_path / name).write_bytes(b"x")
+    assert sweep_temporaries(tmp_path) == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".lock", "notes.part", "shard_000001.nc"]
+
+
+def test_a_folder_in_use_is_refused_until_its_holder_dies(tmp_path: Path) -> None:
+    script = (
+        "import time; from pathlib import Path; from datagen.files.atomic import locked\n"
+        f"with locked(Path({str(tmp_path)!r})):\n"
+        "    print('held', flush=True); time.sleep(60)\n"
+    )
+    holder = subprocess.Popen([sys.executable, "-c", script], cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    assert holder.stdout is not None
+    assert holder.stdout.readline() == "held\n"
+    with pytest.raises(BadInput, match="another run"), locked(tmp_path):
+        pass
+    holder.kill()
+    holder.wait()
+    holder.stdout.close()
+    with locked(tmp_path):
+        pass
+
+
+def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        write_file(pipe, b"as it is", "--save")
+        assert os.read(reader, 100) == b"as it is"
+    finally:
+        os.close(reader)
+    assert pipe.is_fifo()
+    assert [path.name for path in tmp_path.iterdir()] == ["pipe"]
+
+
+def test_a_file_that_cannot_be_written_is_told_with_its_option(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="--save: cannot write this file: No such file or directory"):
+        write_file(tmp_path / "absent" / "model", b"", "--save")

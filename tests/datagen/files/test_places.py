@@ -1,0 +1,128 @@
+"""Places for results that cannot be: refused in one message before any work."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.errors import BadInput
+from datagen.files.places import require_file, require_folder
+
+FOLDERS = {
+    "generate": ("generate", "RECIPE", "--out", "PLACE"),
+    "report": ("report", "CORPUS", "--out", "PLACE"),
+    "size": ("size", "CORPUS", "--out", "PLACE"),
+    "paper": ("paper", "--out", "PLACE"),
+    "chart": ("chart", "G1", "--out", "PLACE"),
+    "classify": ("classify", "--train", "CORPUS", "--test", "CORPUS", "--out", "PLACE"),
+}
+WORK = (
+    "datagen.runs.run.Run.make",
+    "datagen.cards.report.corpus_facts",
+    "datagen.sizing.score.score_sizes",
+    "datagen.paper.book.import_module",
+    "datagen.charts.measure.measure",
+    "datagen.benchmark.classify.run",
+    "datagen.records.record.make_record",
+)
+
+
+@pytest.fixture
+def refused(tiny_recipe, tiny_corpus, monkeypatch):
+    """Function (arguments, place) → the message of a command that must end with 2 before any work."""
+
+    def worked(*_: object, **__: object) -> None:
+        raise AssertionError("this was to be refused before any work")
+
+    for name in WORK:
+        monkeypatch.setattr(name, worked)
+
+    def run(arguments: tuple[str, ...], place: Path) -> str:
+        words = {"RECIPE": tiny_recipe, "CORPUS": tiny_corpus, "PLACE": place}
+        done = CliRunner().invoke(app, [str(words.get(part, part)) for part in arguments], catch_exceptions=False)
+        assert done.exit_code == 2
+        assert done.stderr.count("\n") == 1
+        return done.stderr
+
+    return run
+
+
+@pytest.mark.parametrize("command", ["size", "paper", "chart", "classify"])
+def test_results_are_not_put_among_the_files_of_a_corpus(command, refused, copy):
+    before = sorted(copy.rglob("*"))
+    told = refused(FOLDERS[command], copy)
+    assert f'--out = "{copy}": this is the folder of a corpus' in told
+    assert told.endswith("allowed: a folder of its own\n")
+    assert sorted(copy.rglob("*")) == before
+
+
+@pytest.mark.parametrize("command", FOLDERS)
+def test_a_file_is_no_folder(command, refused, tmp_path):
+    (tmp_path / "file").write_text("mine")
+    for place in (tmp_path / "file", tmp_path / "file" / "below"):
+        assert f'--out = "{place}": {tmp_path / "file"} is in the way and no folder' in refused(FOLDERS[command], place)
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+@pytest.mark.parametrize("command", FOLDERS)
+def test_a_folder_that_may_not_be_written_into_is_refused(command, refused, tmp_path, monkeypatch):
+    monkeypatch.setattr("datagen.files.places._writable", lambda folder: False)
+    assert f"cannot write into {tmp_path}" in refused(FOLDERS[command], tmp_path / "out")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("place", ["a folder", "nowhere/results.json", "locked/results.json"])
+@pytest.mark.parametrize(
+    "arguments",
+    [("preview", "RECIPE", "--out", "PLACE"), ("catalog", "--json", "PLACE"), ("schema", "--out", "PLACE")],
+    ids=lambda arguments: arguments[0],
+)
+def test_a_place_for_a_file_is_looked_at_first(arguments, place, refused, tmp_path, monkeypatch):
+    for folder in ("a folder", "a folder.png", "locked"):
+        (tmp_path / folder).mkdir()
+    monkeypatch.setattr("datagen.files.places._writable", lambda folder: "locked" not in str(folder))
+    if arguments[0] == "preview":
+        place = place.removesuffix(".json") + ".png"
+    words = {"a": "this is a folder", "nowhere": "no such folder", "locked": "cannot write into"}
+    told = refused(arguments, tmp_path / place)
+    assert words[place.replace("/", " ").split(" ")[0]] in told
+    assert "allowed: a file in an existing folder that you may write into" in told
+
+
+def test_a_name_too_long_for_a_file_is_refused(tmp_path):
+    for require in (require_folder, require_file):
+        with pytest.raises(BadInput, match="File name too long"):
+            require(tmp_path / ("x" * 300))
+
+
+def test_a_terminal_and_a_file_that_is_there_are_places(tmp_path):
+    (tmp_path / "old.json").write_text("{}")
+    require_file(tmp_path / "old.json")
+    require_file(Path("/dev/null"))
+
+
+def test_whether_a_folder_takes_files_is_found_by_trying_and_nothing_is_left(tmp_path, monkeypatch):
+    require_folder(tmp_path / "new")
+    require_file(tmp_path / "new.json")
+    assert list(tmp_path.iterdir()) == []
+
+    def full(**_: object) -> None:
+        raise OSError(30, "Read-only file system")
+
+    monkeypatch.setattr("datagen.files.places.tempfile.TemporaryFile", full)
+    with pytest.raises(BadInput, match="cannot write into"):
+        require_folder(tmp_path / "new")
+
+
+def test_a_place_that_may_not_even_be_looked_at_ends_with_2(tmp_path, monkeypatch):
+    def forbidden(path):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr("datagen.recipes.recipe.find_recipe", forbidden)
+    command = ["generate", str(tmp_path / "r.toml"), "--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, command, catch_exceptions=False)
+    assert done.exit_code == 2
+    assert done.stderr == f"error: {tmp_path / 'r.toml'}: Permission denied; allowed: what you may read and write\n"

@@ -1,0 +1,159 @@
+from __future__ import annotations
+
+import struct
+import wave
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+import scipy.io
+
+from datagen.errors import BadInput
+from datagen.formats.arrays import NoVariable, choose, chosen
+from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.reading import read_arrays
+
+PLAIN = CsvLayout()
+
+
+def test_variables_and_fields_of_structures_of_a_mat_file_come_by_name(tmp_path: Path) -> None:
+    column = np.arange(20.0)[:, None]
+    scipy.io.savemat(tmp_path / "a.mat", {"top": column, "bearing": {"gs": column * 2.0, "sr": 97656.0}, "text": "no"})
+    arrays = read_arrays(tmp_path / "a.mat", None, PLAIN)
+    assert set(arrays) == {"top", "bearing.gs", "bearing.sr"}
+    assert np.array_equal(choose(arrays, "bearing.gs", tmp_path / "a.mat", "y"), np.arange(20.0) * 2.0)
+
+
+def test_a_mat_file_of_version_7_3_is_read_with_its_dimensions_in_matlabs_order(tmp_path: Path) -> None:
+    with netCDF4.Dataset(tmp_path / "a.h5", "w") as file:
+        file.createDimension("columns", 2)
+        file.createDimension("rows", 30)
+        file.createVariable("both", "f8", ("columns", "rows"))[...] = np.arange(60.0).reshape(2, 30)
+        group = file.createGroup("bearing")
+        group.createVariable("gs", "f8", ("columns", "rows"))[...] = np.arange(60.0).reshape(2, 30) + 0.5
+    header = b"MATLAB 7.3 MAT-file".ljust(512, b"\0")
+    (tmp_path / "a.mat").write_bytes(header + (tmp_path / "a.h5").read_bytes())
+    arrays = read_arrays(tmp_path / "a.mat", None, PLAIN)
+    assert np.array_equal(choose(arrays, "both[:,1]", tmp_path / "a.mat", "y"), np.arange(30.0, 60.0))
+    assert arrays["bearing.gs"].shape == (30, 2)
+
+
+def test_members_of_npz_and_the_array_of_npy_are_read_without_pickles(tmp_path: Path) -> None:
+    counts = np.arange(-5, 25, dtype=np.int16)
+    np.savez(tmp_path / "a.npz", **{"97_DE": counts, "2003.10.22": np.stack([counts, counts + 1], axis=1)})
+    arrays = read_arrays(tmp_path / "a.npz", None, PLAIN)
+    assert choose(arrays, "97_DE", tmp_path, "y").dtype == np.int16
+    assert np.array_equal(choose(arrays, "2003.10.22[:,1]", tmp_path, "y"), counts + 1)
+    np.save(tmp_path / "b.npy", counts)
+    assert np.array_equal(read_arrays(tmp_path / "b.npy", None, PLAIN)["data"], counts)
+    np.save(tmp_path / "c.npy", np.array([{}], dtype=object), allow_pickle=True)
+    with pytest.raises(BadInput, match=r"c\.npy: cannot be read as an \.npy file"):
+        read_arrays(tmp_path / "c.npy", None, PLAIN)
+
+
+@pytest.mark.parametrize(
+    ("text", "layout", "name"),
+    [
+        ("t,acc [g]\n0,1.5\n1,-2\n", PLAIN, "acc [g]"),
+        ("made by hand\nt;a\n0;1,5\n1;-2\n", CsvLayout(delimiter=";", decimal=",", skip_lines=1), "a"),
+        ("0.0   1.5\n1.0  -2\n", CsvLayout(delimiter=" ", header=False), "2"),
+        ("0\t1.5\n1\t-2\n", CsvLayout(delimiter="\t", header=False), "2"),
+    ],
+)
+def test_columns_of_text_tables_are_read_however_they_are_laid_out(
+    text: str, layout: CsvLayout, name: str, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    assert read_arrays(tmp_path / "a.csv", None, layout)[name].tolist() == [1.5, -2.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "layout", "told"),
+    [
+        ("a,b\n\n1,2\n\n3\n", PLAIN, "line 5: 1 cells, but the table has 2 columns"),
+        ("by hand\n\n1,2\n3\n", CsvLayout(header=False, skip_lines=1), "line 4: 1 cells"),
+        ("0 1\n\n  \n2\n", CsvLayout(header=False, delimiter=" "), "line 4: 1 cells"),
+        ("\na,a\n1,2\n", PLAIN, "line 2: a: this column is there twice"),
+        ('a,b\n1,2\n3,"4\n5,6\n7,8\n', PLAIN, "line 3: not a row of a CSV table: unexpected end of data"),
+        ("a,b\n1," + "2" * 200_000 + "\n", PLAIN, "line 2: not a row of a CSV table: field larger than field limit"),
+    ],
+    ids=["blank", "skipped", "blanks", "head", "unclosed quote", "endless cell"],
+)
+def test_a_line_of_a_text_table_that_is_wrong_is_named_by_its_number_in_the_file(
+    text: str, layout: CsvLayout, told: str, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(BadInput) as problem:
+        read_arrays(tmp_path / "a.csv", None, layout)
+    assert str(problem.value).startswith(f"{tmp_path / 'a.csv'}, {told}")
+
+
+def test_a_file_without_an_ending_is_read_by_the_stated_format(tmp_path: Path) -> None:
+    (tmp_path / "2003.10.22.12.14.13").write_text("1\t2\n3\t4\n")
+    layout = CsvLayout(delimiter="\t", header=False)
+    assert read_arrays(tmp_path / "2003.10.22.12.14.13", "csv", layout)["1"].tolist() == [1.0, 3.0]
+    with pytest.raises(BadInput, match=r'format = "13": the file.s ending says no known format; allowed: mat, npz'):
+        read_arrays(tmp_path / "2003.10.22.12.14.13", None, layout)
+
+
+def test_whole_numbers_of_a_wave_file_become_shares_of_full_scale(tmp_path: Path) -> None:
+    with wave.open(str(tmp_path / "a.wav"), "wb") as file:
+        file.setnchannels(2)
+        file.setsampwidth(2)
+        file.setframerate(8000)
+        file.writeframes(struct.pack("<6h", 0, 1, -32768, 2, 16384, 3))
+    arrays = read_arrays(tmp_path / "a.wav", None, PLAIN)
+    assert choose(arrays, "data[:,0]", tmp_path, "y").tolist() == [0.0, -1.0, 0.5]
+    assert arrays["rate_hz"] == 8000.0
+    with wave.open(str(tmp_path / "b.wav"), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(1)
+        file.setframerate(8000)
+        file.writeframes(bytes([128, 0, 192]))
+    assert read_arrays(tmp_path / "b.wav", None, PLAIN)["data"].tolist() == [0.0, -1.0, 0.5]
+
+
+def test_a_netcdf_variable_is_scaled_by_its_own_attributes(tmp_path: Path) -> None:
+    with netCDF4.Dataset(tmp_path / "a.nc", "w") as file:
+        file.createDimension("time", 4)
+        packed = file.createVariable("acc", "i2", ("time",), fill_value=-9)
+        packed.scale_factor = 0.5
+        packed.set_auto_maskandscale(False)
+        packed[...] = np.array([2, 4, -6, -9], dtype=np.int16)
+    values = read_arrays(tmp_path / "a.nc", None, PLAIN)["acc"]
+    assert values[:3].tolist() == [1.0, 2.0, -3.0]
+    assert np.isnan(values[3])
+
+
+@pytest.mark.parametrize("ending", ["mat", "npz", "npy", "wav", "nc"])
+def test_a_file_of_other_bytes_than_its_ending_says_is_refused_with_its_name(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"a.{ending}"
+    path.write_bytes(b"this is not it, whatever it is " * 40)
+    with pytest.raises(BadInput, match=rf"a\.{ending}: cannot be read as an? .*file"):
+        read_arrays(path, None, PLAIN)
+
+
+def test_a_wave_file_of_compressed_sound_is_refused(tmp_path: Path) -> None:
+    body = struct.pack("<4sIHHIIHH", b"fmt ", 16, 7, 1, 8000, 8000, 1, 8) + struct.pack("<4sI", b"data", 4) + b"abcd"
+    (tmp_path / "a.wav").write_bytes(struct.pack("<4sI4s", b"RIFF", 4 + len(body), b"WAVE") + body)
+    with pytest.raises(BadInput, match=r"a\.wav: cannot be read as a wave file: .*MULAW.*; allowed: linear PCM"):
+        read_arrays(tmp_path / "a.wav", None, PLAIN)
+
+
+def test_the_name_of_a_variable_may_hold_the_files_number_and_alternatives() -> None:
+    arrays = {"X098_DE_time": np.zeros(3), "X099_DE_time": np.ones(3)}
+    assert chosen(arrays, "X{number:03}_DE_time|X*_DE_time", Path("99.mat"), "y")[0] == "X099_DE_time"
+    only = {"X173_DE_time": np.zeros(3)}
+    assert chosen(only, "X{number:03}_DE_time|X*_DE_time", Path("174_0.mat"), "y")[0] == "X173_DE_time"
+    with pytest.raises(BadInput, match="fits 2 variables: X098_DE_time, X099_DE_time"):
+        chosen(arrays, "X*_DE_time", Path("99.mat"), "y")
+
+
+def test_an_absent_variable_is_refused_with_the_names_that_are_there() -> None:
+    with pytest.raises(
+        NoVariable, match=r'99\.mat: y = "X099_FE": .*did you mean "X099_DE"\?; allowed: X099RPM, X099_DE'
+    ):
+        chosen({"X099_DE": np.zeros(3), "X099RPM": np.zeros(1)}, "X{number:03}_FE", Path("99.mat"), "y")
+    with pytest.raises(BadInput, match=r'y = "a\[:,3\]": a is an array of 4x2 numbers'):
+        choose({"a": np.zeros((4, 2))}, "a[:,3]", Path("a.npy"), "y")

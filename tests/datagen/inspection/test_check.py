@@ -1,0 +1,182 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+from datagen.corpora.format import content_hash
+from datagen.corpora.shard import file_hash, label_columns, shard_path, sidecar_path
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.files.atomic import write_atomically
+from datagen.files.netcdf import netcdf_bytes
+from datagen.inspection.check import check_corpus
+from datagen.recipes.recipe import Recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
+
+Change = Callable[[xarray.Dataset], xarray.Dataset]
+
+
+def forge(folder: Path, shard: int, change: Change) -> None:
+    """Rewrite a shard, its sidecar and the manifest so that all hashes agree with the changed contents."""
+    path = shard_path(folder, shard)
+    with xarray.open_dataset(path) as opened:
+        dataset = change(opened.load())
+    path.write_bytes(netcdf_bytes(dataset, "zlib"))
+    sidecar = json.loads(sidecar_path(folder, shard).read_text())
+    manifest = json.loads((folder / "manifest.json").read_text())
+    entry = next(entry for entry in manifest["shards"] if entry["file"].endswith(path.name))
+    new = {"bytes": path.stat().st_size, "sha256": file_hash(path), "content": content_hash(dataset)}
+    sidecar_path(folder, shard).write_text(json.dumps(sidecar | new | {"labels": label_columns(dataset)}))
+    entry.update(new)
+    manifest["bytes"] = sum(entry["bytes"] for entry in manifest["shards"])
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+
+
+def only_problem(folder: Path) -> str:
+    problems = check_corpus(folder).problems
+    assert len(problems) == 1, problems
+    return problems[0]
+
+
+def test_a_corpus_as_it_was_made_is_sound_and_its_scenarios_give_its_records_again(tiny_corpus: Path) -> None:
+    verdict = check_corpus(tiny_corpus, remake=3)
+    assert verdict.problems == ()
+    assert verdict.records == 14
+    assert verdict.remade == (0, 6, 13)
+    assert verdict.largest_difference == 0.0
+
+
+def test_a_check_that_is_interrupted_leaves_no_file_open(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    closed: list[Path] = []
+    monkeypatch.setattr("datagen.records.record.make_record", interrupted)
+    monkeypatch.setattr(Corpus, "close", lambda corpus: closed.append(corpus.folder))
+    with pytest.raises(KeyboardInterrupt):
+        check_corpus(tiny_corpus, remake=1)
+    assert closed == [tiny_corpus]
+
+
+@pytest.mark.parametrize("share", [0.1, 0.35, 0.6, 0.85])
+def test_one_flipped_bit_anywhere_in_a_shard_is_found(copy: Path, share: float) -> None:
+    path = shard_path(copy, 2)
+    content = bytearray(path.read_bytes())
+    content[int(share * len(content))] ^= 16
+    path.write_bytes(content)
+    problems = check_corpus(copy).problems
+    assert any("shard_000002.nc: its bytes have changed" in sentence for sentence in problems)
+
+
+def test_a_shard_cut_short_is_found(copy: Path) -> None:
+    path = shard_path(copy, 2)
+    path.write_bytes(path.read_bytes()[:-1000])
+    assert any("its bytes have changed" in sentence for sentence in check_corpus(copy).problems)
+
+
+def test_a_missing_shard_and_one_without_sidecar_are_found(copy: Path) -> None:
+    shard_path(copy, 0).unlink()
+    sidecar_path(copy, 1).unlink()
+    problems = " / ".join(check_corpus(copy).problems)
+    assert "shard_000000.nc: missing" in problems
+    assert "shard_000001.nc: unfinished, there is no sidecar that vouches for it" in problems
+    assert "records asked for are missing" in problems
+
+
+def test_a_value_that_is_not_finite_is_found(copy: Path) -> None:
+    def spoil(dataset: xarray.Dataset) -> xarray.Dataset:
+        dataset["envelope"][0, 5] = np.nan
+        return dataset
+
+    forge(copy, 1, spoil)
+    assert only_problem(copy) == "shards/shard_000001.nc: envelope has 1 values that are not finite"
+
+
+def test_a_label_that_differs_from_the_index_is_found(copy: Path) -> None:
+    def relabel(dataset: xarray.Dataset) -> xarray.Dataset:
+        dataset["load_n"][0] = 1.0
+        return dataset
+
+    forge(copy, 1, relabel)
+    assert only_problem(copy) == "shards/shard_000001.nc: index.csv says other things of its records"
+
+
+def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
+    def rewrite(dataset: xarray.Dataset) -> xarray.Dataset:
+        texts = dataset["scenario"].values.astype(object)
+        texts[0] = texts[0].replace('"W":346.0', '"W":346.5')
+        return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
+
+    forge(copy, 0, rewrite)
+    assert "the recipe gives another scenario for record 0" in only_problem(copy)
+
+
+def test_a_signal_that_its_scenario_does_not_give_is_found(copy: Path) -> None:
+    def amplify(dataset: xarray.Dataset) -> xarray.Dataset:
+        dataset["acceleration"] = dataset["acceleration"] * np.float32(1.01)
+        return dataset.assign(acceleration=dataset["acceleration"].assign_attrs(units="m s-2", long_name="a"))
+
+    forge(copy, 0, amplify)
+    assert check_corpus(copy).sound
+    problems = check_corpus(copy, remake=1).problems
+    assert len(problems) == 1
+    assert "record 0 simulated again from its scenario differs by 0.0099 of its RMS" in problems[0]
+
+
+def test_an_index_with_a_lost_row_is_found(copy: Path) -> None:
+    lines = (copy / "index.csv").read_text().splitlines()
+    (copy / "index.csv").write_text("\n".join(lines[:-1]) + "\n")
+    problems = " / ".join(check_corpus(copy).problems)
+    assert "index.csv does not list every record of the shards once" in problems
+
+
+def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
+    text = (copy / "manifest.json").read_text()
+    write_atomically(copy / "manifest.json", text.replace('"seed": 7', '"seed": 8').encode())
+    assert "its recipe is not the one whose hash it states" in only_problem(copy)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        ("name", "other", "name or recipe_records are not those of its recipe"),
+        ("recipe_records", 99, "name or recipe_records are not those of its recipe"),
+        ("asked", [], "records are there that it says nobody asked for"),
+        ("bytes", 5, "bytes is not what the sidecars of the shards add up to"),
+        ("seconds", 1e9, "seconds is not what the sidecars of the shards add up to"),
+        ("refused", {"machine: fill": {"count": 3, "example": "why"}}, "refused is not what the sidecars"),
+        ("failed", [{"record": 3, "reason": "why"}], "failed is not what the sidecars"),
+    ],
+)
+def test_a_manifest_that_says_other_things_than_the_shards_is_found(
+    copy: Path, name: str, value: object, told: str
+) -> None:
+    manifest = json.loads((copy / "manifest.json").read_text()) | {name: value}
+    (copy / "manifest.json").write_text(json.dumps(manifest))
+    assert f"manifest.json: {told}" in " / ".join(check_corpus(copy).problems)
+
+
+def test_a_folder_without_manifest_is_no_corpus(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match=r"no manifest\.json"):
+        check_corpus(tmp_path)
+
+
+def test_a_bearing_in_two_splits_is_found(copy: Path) -> None:
+    lines = [line.split(",") for line in (copy / "index.csv").read_text().splitlines()]
+    bearing, split = lines[0].index("bearing_id"), lines[0].index("split")
+    moved = next(row for row in lines[1:] if [other[bearing] for other in lines].count(row[bearing]) > 1)
+    moved[split] = "test" if moved[split] == "train" else "train"
+    (copy / "index.csv").write_text("".join(f"{','.join(row)}\n" for row in lines))
+    assert f"the records of bearing {moved[bearing]} are in more than one split" in check_corpus(copy).problems
+
+
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_record_that_could_not_be_made_is_told_once_and_is_not_missing(tiny: Recipe, tmp_path: Path) -> None:
+    assert not generate(tiny, tmp_path / "out", limit=4, engine=Engine(workers=1)).complete
+    assert only_problem(tmp_path / "out") == "1 records could not be made; failed.jsonl says why"

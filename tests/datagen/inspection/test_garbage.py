@@ -1,0 +1,166 @@
+"""Manifests and indices that are none: what is wrong in words, never a Python exception's text."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from datagen.cli import app
+from datagen.corpora.index import index_path, read_index
+from datagen.corpora.manifest import manifest_path
+from datagen.corpora.shard import sidecar_path
+from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
+
+PYTHON = re.compile(r"Error|Traceback|\(\)|object|None|NoneType|\['")
+MANIFESTS = {
+    "": "no JSON from line 1, column 1 on",
+    "{\n": "no JSON from line 2, column 1 on",
+    "hello": "no JSON from line 1, column 1 on",
+    "[]": "its entries are not those of this format",
+    "{}": 'it lacks "name"',
+    '{"name": "a", "identity": {}}': "its entries are not those of this format",
+    "null": "its entries are not those of this format",
+    "\x00\xff": "no text",
+}
+
+
+def told_by(command: str, folder: Path) -> str:
+    done = CliRunner().invoke(app, [command, str(folder)], catch_exceptions=False)
+    assert done.exit_code == 2
+    assert done.stderr.count("\n") == 1
+    assert not PYTHON.search(done.stderr), done.stderr
+    return done.stderr
+
+
+@pytest.mark.parametrize("text", MANIFESTS)
+def test_a_manifest_that_is_none_is_told_in_words(text: str, tmp_path: Path) -> None:
+    manifest_path(tmp_path).write_bytes(text.encode("latin-1"))
+    for command in ("info", "check", "report"):
+        told = told_by(command, tmp_path)
+        assert f"{manifest_path(tmp_path)}: not a manifest of a corpus: {MANIFESTS[text]}" in told
+
+
+@pytest.mark.parametrize("key", ["recipe", "shards", "asked", "refused", "bytes"])
+def test_a_manifest_that_lacks_a_key_or_holds_nonsense_says_so(key: str, copy: Path) -> None:
+    content = json.loads(manifest_path(copy).read_text())
+    for strange in ("x", [7], None):
+        manifest_path(copy).write_text(json.dumps(content | {key: strange}))
+        assert "its entries are not those of this format" in told_by("info", copy)
+    del content[key]
+    manifest_path(copy).write_text(json.dumps(content))
+    assert f'it lacks "{key}"' in told_by("info", copy)
+
+
+@pytest.mark.parametrize(
+    ("key", "strange"),
+    [
+        ("bytes", float("inf")),
+        ("recipe_records", float("inf")),
+        ("asked", [[0, float("inf")]]),
+        ("name", 1),
+        ("identity", {"recipe_hash": 1, "model_hash": "", "format_hash": "", "program_hash": ""}),
+        ("made_with", {"numpy": 2}),
+        ("seconds", "long"),
+    ],
+)
+def test_numbers_and_texts_of_a_manifest_are_such(key: str, strange: object, copy: Path) -> None:
+    content = json.loads(manifest_path(copy).read_text())
+    manifest_path(copy).write_text(json.dumps(content | {key: strange}))
+    for command in ("info", "check", "report"):
+        assert f"{manifest_path(copy)}: not a manifest of a corpus" in told_by(command, copy)
+
+
+def test_a_manifest_nested_without_end_is_told(copy: Path) -> None:
+    manifest_path(copy).write_text("[" * 100_000)
+    assert "it is nested too deeply" in told_by("check", copy)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"shard": float("inf")},
+        {"shard": 1e308},
+        {"records": [[]]},
+        {"bytes": True},
+        {"seconds": -1.0},
+        {"sha256": None},
+    ],
+)
+def test_a_sidecar_that_is_none_is_damage(change: dict[str, object], copy: Path) -> None:
+    path = sidecar_path(copy, 0)
+    path.write_text(json.dumps(json.loads(path.read_text()) | change))
+    assert "shards/shard_000000.json" in check_corpus(copy).damaged
+
+
+INDICES = {
+    "an empty file": (lambda text: "", 'it lacks the column "record" and'),
+    "no table": (lambda text: "hello\nworld\n", 'it lacks the column "record" and'),
+    "a lost column": (lambda text: text.replace("bridged", "bridge", 1), 'it lacks the column "bridged";'),
+    "a short row": (lambda text: text + "1,2\n", "index.csv, line 16: not the index of a corpus: 2 cells, but"),
+    "a word for a number": (lambda text: text.replace("420.0", "fast", 1), 'speed_rpm = "fast" is no number'),
+    "a word for a truth": (lambda text: text.replace("False", "no", 1), 'bridged = "no" is no True or False'),
+    "a word for a count": (lambda text: text.replace("\n0,", "\nzero,", 1), 'record = "zero" is no whole number'),
+    "a record twice": (
+        lambda text: text + text.splitlines()[1] + "\n",
+        "line 16: not the index of a corpus: record = 0 is",
+    ),
+    "a shard elsewhere": (
+        lambda text: text.replace("shards/shard_000000.nc", "../x.nc"),
+        "shard = ../x.nc is no place",
+    ),
+    "a place before the first": (lambda text: text.replace(".nc,0", ".nc,-1", 1), "position = -1 is no place"),
+    "bytes": (lambda text: text.replace("gearbox", "\xff", 1), "no table of text"),
+}
+
+
+@pytest.mark.parametrize("case", INDICES)
+def test_an_index_that_is_none_is_told_in_words_with_what_to_do(case: str, copy: Path) -> None:
+    change, expected = INDICES[case]
+    text = index_path(copy).read_text()
+    assert change(text) != text
+    index_path(copy).write_bytes(change(text).encode("latin-1"))
+    told = told_by("info", copy)
+    assert expected in told
+    assert "delete it and generate again into the same folder" in told
+    with pytest.raises(BadInput):
+        read_index(copy)
+
+
+def test_a_place_beyond_its_shard_is_told_of_the_index_and_not_of_the_shard(copy: Path, tmp_path: Path) -> None:
+    text = index_path(copy).read_text()
+    index_path(copy).write_text(text.replace(".nc,1", ".nc,99", 1))
+    done = CliRunner().invoke(app, ["preview", str(copy), "--record", "1", "--out", str(tmp_path / "a.png")])
+    assert done.exit_code == 2
+    assert "index.csv places a record beyond the end of this shard" in done.stderr
+
+
+def test_records_asked_for_beyond_the_recipe_are_no_manifest(copy: Path) -> None:
+    content = json.loads(manifest_path(copy).read_text())
+    manifest_path(copy).write_text(json.dumps(content | {"asked": [[0, 10**15]]}))
+    assert "its entries are not those of this format" in told_by("check", copy)
+
+
+@pytest.mark.parametrize("command", ["info", "check", "report", "size"])
+def test_what_is_no_corpus_is_told_apart(command: str, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder").mkdir()
+    assert "no such folder" in told_by(command, tmp_path / "nowhere")
+    if command != "report":  # whose own folder would lie in it, which is said first
+        assert "this is no folder" in told_by(command, tmp_path / "file")
+    assert "so it is no corpus, or an interrupted one" in told_by(command, tmp_path / "folder")
+
+
+def test_a_preview_of_neither_corpus_nor_recipe_says_so(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["preview", str(tmp_path), "--out", str(tmp_path / "a.png")], catch_exceptions=False)
+    assert done.exit_code == 2
+    assert "neither a corpus (manifest.json) nor a recipe (recipe.toml) is in this folder" in done.stderr
+
+
+def test_a_record_that_is_not_there_is_told_with_those_that_are(tiny_corpus: Path, tmp_path: Path) -> None:
+    command = ["preview", str(tiny_corpus), "--record", "99", "--out", str(tmp_path / "a.png")]
+    assert "record = 99: not in this corpus; allowed: 0 to 13" in CliRunner().invoke(app, command).stderr

@@ -1,0 +1,145 @@
+"""What `info` says of a corpus: balance, splits by bearing, cost, and what was refused on the way."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from datagen.commands.tables import info_tables
+from datagen.corpora.manifest import read_manifest
+from datagen.inspection.info import Info, corpus_info
+from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
+from datagen.scenarios.redraw import Redraw, Refused, add_refused, count_refused
+from datagen.scenarios.sampling import draw_scenario
+from labels.schema import LABELS
+
+RECIPE = """
+name = "refusing"
+seed = 3
+[signal]
+rate_hz = 32768
+duration_s = 0.02
+[store]
+records_per_shard = 3
+[[part]]
+name = "p"
+records = 12
+records_per_machine = 2
+machine.rig = "gearbox"
+machine.ball_diameter_mm = {uniform = [8, 12]}
+[part.defect]
+condition = {balanced = ["healthy", "line"]}
+extent_deg = {uniform = [20, 40]}
+depth_um = 10
+"""
+
+
+@pytest.fixture(scope="module")
+def recipe(tmp_path_factory: pytest.TempPathFactory) -> Recipe:
+    """A recipe of which about half of all machines and spalls cannot be."""
+    path = tmp_path_factory.mktemp("recipe") / "refusing.toml"
+    path.write_text(RECIPE)
+    return load_recipe(path)
+
+
+@pytest.fixture(scope="module")
+def folder(recipe: Recipe, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Its corpus."""
+    out = tmp_path_factory.mktemp("corpus") / "refusing"
+    assert generate(recipe, out, engine=Engine(workers=1)).complete
+    return out
+
+
+@pytest.fixture(scope="module")
+def info(folder: Path) -> Info:
+    return corpus_info(folder)
+
+
+def test_every_refused_draw_counts_once_by_its_parameter(recipe: Recipe, info: Info) -> None:
+    scenarios = [draw_scenario(recipe, record) for record in range(recipe.count)]
+    seen = {
+        (redraw.scope, scenario.seeds.machine if redraw.scope == "machine" else scenario.record, redraw.attempt): redraw
+        for scenario in scenarios
+        for redraw in scenario.redraws
+    }
+    expected = Counter(f"{redraw.scope}: {redraw.field}" for redraw in seen.values())
+    assert {what: refused.count for what, refused in info.refused.items()} == expected
+    assert set(expected) == {"machine: ball_diameter", "record: extent"}
+    assert "do not fit" in info.refused["machine: ball_diameter"].example
+
+
+def test_the_manifest_keeps_the_refused_draws(folder: Path, info: Info) -> None:
+    assert read_manifest(folder).refused == info.refused
+    written = json.loads((folder / "manifest.json").read_text())["refused"]
+    assert written["record: extent"]["count"] == info.refused["record: extent"].count
+
+
+def test_records_are_counted_by_condition_location_and_split(info: Info) -> None:
+    assert info.crossed["condition x location"] == {"healthy": {"none": 6}, "line": {"outer": 6}}
+    by_split = info.crossed["condition x split"]
+    assert {condition: sum(counts.values()) for condition, counts in by_split.items()} == {"healthy": 6, "line": 6}
+    assert by_split["healthy"] == by_split["line"]  # the split is by machine, and each machine has one of both
+    assert sum(info.bearings_in_split.values()) == info.bearings == 6
+
+
+def test_cost_and_size_are_given_a_record(info: Info) -> None:
+    assert info.record_seconds == info.worker_seconds / 12
+    assert info.record_bytes == info.bytes / 12
+    assert info.record_bytes > 0
+    assert info.signal_seconds == pytest.approx(12 * 655 / 32768)  # 0.02 s in whole samples
+    assert info.made_per_second * info.worker_seconds == pytest.approx(info.signal_seconds)
+
+
+def test_every_numeric_label_has_its_range(info: Info) -> None:
+    columns = {column for label in LABELS if label.dtype in ("float64", "int64") for column in label.columns}
+    absent = {"snr_db", "snr_band_db", "mounting_cutoff_hz", "recorder_step"}
+    assert columns - set(info.ranges) == absent  # these records have no background, no mounting and no recorder
+    assert 20 < info.ranges["extent"].largest * 57.29577951308232 < 40
+
+
+def test_the_middle_of_a_range_is_that_of_the_records_in_order(recipe: Recipe, info: Info) -> None:
+    # Half of the records are healthy, so the middle of their extents lies between 0 and the smallest spall.
+    spalls = [draw_scenario(recipe, record).scene.spalls for record in range(recipe.count)]
+    smallest = min(spall.extent for own in spalls for spall in own)
+    assert info.ranges["extent"].smallest == 0.0
+    assert info.ranges["extent"].median == pytest.approx(smallest / 2.0, rel=1e-9)
+
+
+def test_the_tables_show_what_was_refused_and_how_it_is_balanced(info: Info) -> None:
+    console = Console(width=160, record=True, file=io.StringIO())
+    for table in info_tables(info):
+        console.print(table)
+    text = console.export_text()
+    for words in ("impossible draws", "machine: ball_diameter", "records by condition and location", "50.0%", "train"):
+        assert words in text
+
+
+def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:
+    one = count_refused([Redraw("record", 0, "extent", "too long"), Redraw("record", 1, "extent", "longer")])
+    other = count_refused([Redraw("machine", 0, "", "no idea"), Redraw("record", 0, "extent", "far too long")])
+    assert add_refused([one, other]) == {
+        "record: extent": Refused(3, "too long"),
+        "machine: other": Refused(1, "no idea"),
+    }
+    assert list(add_refused([other, one])) == ["record: extent", "machine: other"]  # the most frequent first
+
+
+def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(copy: Path) -> None:
+    assert corpus_info(copy).missing_files == {}
+    entry = read_manifest(copy).shards[1]
+    (copy / entry.file).unlink()
+    found = corpus_info(copy)
+    assert found.missing_files == {entry.file: entry.records}
+    shown = io.StringIO()
+    console = Console(file=shown, width=300)
+    for table in info_tables(found):
+        console.print(table)
+    assert f"{14 - entry.records} of 14 asked for" in shown.getvalue()
+    assert f"{entry.file}, with {entry.records} records, which all else here still counts: generate" in shown.getvalue()

@@ -1,0 +1,58 @@
+"""Line numbers of settings in a TOML text."""
+
+from __future__ import annotations
+
+import pytest
+
+from datagen.settings.toml_lines import line_of, line_of_setting
+
+TEXT = '''name = "x"
+summary = """
+seed = 3
+"""
+seed = 4
+
+[[part]]
+records = 1
+[part.defect]  # of the first
+depth_um = 1
+[[part.wave]]
+order = 2
+[[part.wave]]
+order = 3
+
+[[part]]
+machine.rig = "fan"
+operation = {speed_rpm = 1}
+[[part.wave]]
+order = 4
+'''
+
+
+@pytest.mark.parametrize(
+    ("location", "line"),
+    [
+        (("seed",), 5),
+        (("part",), 7),
+        (("part", 0, "records"), 8),
+        (("part", 0, "defect", "depth_um"), 10),
+        (("part", 0, "wave", 0, "order"), 12),
+        (("part", 0, "wave", 1, "order"), 14),
+        (("part", 1, "machine", "rig"), 17),
+        (("part", 1, "operation", "speed_rpm"), 18),
+        (("part", 1, "wave", 0, "order"), 20),
+        (("part", 1, "missing"), 16),
+        (("nothing",), None),
+    ],
+)
+def test_a_setting_or_its_innermost_table_is_found_on_its_line(
+    location: tuple[str | int, ...], line: int | None
+) -> None:
+    assert line_of(TEXT, location) == line
+
+
+def test_a_setting_is_found_by_the_beginning_of_its_key_and_else_by_its_table() -> None:
+    assert line_of_setting(TEXT, ("part", 0), "depth") == line_of(TEXT, ("part", 0, "defect", "depth_um"))
+    assert line_of_setting(TEXT, ("part", 1), "depth") == line_of(TEXT, ("part", 1))
+    assert line_of_setting(TEXT, ("part", 1), "") == line_of(TEXT, ("part", 1))
+    assert line_of_setting(TEXT, ("none",), "depth") is None

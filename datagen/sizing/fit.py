@@ -37,6 +37,7 @@ Array = NDArray[np.float64]
 
 SPLITS = ("train", "validation")
 BAD_INPUT = 2
+FEATURE_CODE = ("labels", "labels/spall_size", "labels/spall_size/columns", "labels/spall_size/signal")
 LEARNED_WITH = ("numpy", "scipy", "scikit-learn")
 
 
@@ -107,7 +108,7 @@ def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:
     rates = ", ".join(f"{rate:g}" for rate in sorted({trial.evidence.rate for trial in made}))
     programs = measured_on(*LEARNED_WITH)
     versions = ", ".join(f"{name} {programs[name]}" for name in ("python", *LEARNED_WITH))
-    features = program_hash("labels", "labels/spall_size")
+    features = program_hash(*FEATURE_CODE)
     return (
         f"Fitted by datagen.sizing.fit to {len({(trial.bearing_id, trial.record) for trial in made})} records at "
         f"{rates} Hz, the training and validation splits of {names}; features {features}, {versions}."

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.table import (
+from labels.spall_size.columns.table import (
     LEADING_COLUMNS,
     LEADING_COLUMNS_WITH_LOAD,
     PAIR_COLUMNS,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
-from labels.spall_size.mean_pass import Channel, MeanPass
+from labels.spall_size.signal.mean_pass import Channel, MeanPass
 
 Array = NDArray[np.float64]
 Ranked = list[tuple[float, float]]

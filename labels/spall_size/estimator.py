@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.alignment import LEAST_WEIGHT
 from labels.spall_size.calibration import Calibration, Judgement
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.measurement import Measurement, leading_pairs, measure
+from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
 

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
-from labels.spall_size.mean_pass import MeanPass, mean_pass
-from labels.spall_size.noise_floor import log_noise_share
+from labels.spall_size.columns.table import pair_rows
 from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
-from labels.spall_size.pass_track import PassTrack, track_passes
-from labels.spall_size.prewhitening import prewhitened
-from labels.spall_size.table import pair_rows
+from labels.spall_size.signal.alignment import Alignment, aligned
+from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
+from labels.spall_size.signal.noise_floor import log_noise_share
+from labels.spall_size.signal.pass_track import PassTrack, track_passes
+from labels.spall_size.signal.prewhitening import prewhitened
 
 Array = NDArray[np.float64]
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.choice import LEADING
+from labels.spall_size.columns.choice import LEADING
+from labels.spall_size.columns.table import chosen_row, leading_rows
 from labels.spall_size.evidence import Evidence
 from labels.spall_size.leading import LeadingView
 from labels.spall_size.pairs import Pairs
 from labels.spall_size.situation import Situation
-from labels.spall_size.table import chosen_row, leading_rows
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.mean_pass import MeanPass
-from labels.spall_size.running_energy import RunningEnergy
+from labels.spall_size.signal.mean_pass import MeanPass
+from labels.spall_size.signal.running_energy import RunningEnergy
 
 Array = NDArray[np.float64]
 

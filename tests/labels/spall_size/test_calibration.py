@@ -14,7 +14,7 @@ from labels.spall_size.calibration import (
     Judgement,
     MisfitCalibration,
 )
-from labels.spall_size.table import PAIR_COLUMNS
+from labels.spall_size.columns.table import PAIR_COLUMNS
 from labels.spall_size.trees import Trees
 
 

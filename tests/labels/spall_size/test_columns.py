@@ -5,16 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from labels.spall_size.alignment import Alignment
-from labels.spall_size.choice import LEADING
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.leading import LeadingView
-from labels.spall_size.mean_pass import MeanPass
-from labels.spall_size.measurement import leading_pairs, measure
-from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
-from labels.spall_size.pass_track import PassTrack
-from labels.spall_size.situation import Situation
-from labels.spall_size.table import (
+from labels.spall_size.columns.choice import LEADING
+from labels.spall_size.columns.table import (
     LEADING_COLUMNS,
     LEADING_COLUMNS_WITH_LOAD,
     PAIR_COLUMNS,
@@ -23,6 +15,14 @@ from labels.spall_size.table import (
     leading_rows,
     pair_rows,
 )
+from labels.spall_size.evidence import Evidence
+from labels.spall_size.leading import LeadingView
+from labels.spall_size.measurement import leading_pairs, measure
+from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
+from labels.spall_size.signal.alignment import Alignment
+from labels.spall_size.signal.mean_pass import MeanPass
+from labels.spall_size.signal.pass_track import PassTrack
+from labels.spall_size.situation import Situation
 
 PERIOD, ENTRY, EXIT, LAG = 400.0, -80.0, 0.0, 80.0
 FACTS = RecordFacts(1.5, True, 0.7, 2.5, -3.0)

@@ -6,16 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from labels.spall_size.alignment import Alignment
 from labels.spall_size.calibration import SMALLEST_SPREAD, Calibration, Guess, Judgement
+from labels.spall_size.columns.table import PAIR_COLUMNS
 from labels.spall_size.estimator import ONSET, SizeEstimator
 from labels.spall_size.evidence import Evidence
-from labels.spall_size.mean_pass import MeanPass
 from labels.spall_size.pairs import Pairs
-from labels.spall_size.pass_track import PassTrack
+from labels.spall_size.signal.alignment import Alignment
+from labels.spall_size.signal.mean_pass import MeanPass
+from labels.spall_size.signal.pass_track import PassTrack
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeOutcome
-from labels.spall_size.table import PAIR_COLUMNS
 
 GEARBOX = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
 RATE, PERIOD = 1000.0, 100.0

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from labels.spall_size.alignment import Alignment, aligned
 from labels.spall_size.candidates import candidate_places
-from labels.spall_size.event_shapes import event_shapes
+from labels.spall_size.columns.event_shapes import event_shapes
+from labels.spall_size.columns.table import PAIR_COLUMNS
 from labels.spall_size.evidence import _predictability, gather_evidence
-from labels.spall_size.mean_pass import MeanPass, mean_pass
-from labels.spall_size.pass_track import CELLS, PassTrack, track_passes
-from labels.spall_size.prewhitening import prewhitened
-from labels.spall_size.running_energy import RunningEnergy
-from labels.spall_size.table import PAIR_COLUMNS
+from labels.spall_size.signal.alignment import Alignment, aligned
+from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
+from labels.spall_size.signal.pass_track import CELLS, PassTrack, track_passes
+from labels.spall_size.signal.prewhitening import prewhitened
+from labels.spall_size.signal.running_energy import RunningEnergy
 
 RATE = 65536.0
 PERIOD = 0.011

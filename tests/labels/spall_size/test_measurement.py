@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labels.spall_size.choice import LEADING
+from labels.spall_size.columns.choice import LEADING
 from labels.spall_size.measurement import DISTINCT, leading_order
 from labels.spall_size.pairs import Pairs
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from labels.spall_size.noise_floor import CLEANEST, log_noise_share
+from labels.spall_size.signal.noise_floor import CLEANEST, log_noise_share
 
 
 def resonance(size=65536):

@@ -8,28 +8,28 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size import (
+from labels.spall_size.columns import (
     choice,
     event_profiles,
     event_shapes,
-    pair_length,
-    pair_levels,
-    pair_likeness,
-    pair_load,
-    pair_motion,
-    pair_record,
-    pair_rivals,
+    length,
+    levels,
+    likeness,
+    load,
+    motion,
+    record,
+    rivals,
 )
 from labels.spall_size.leading import LeadingView
 from labels.spall_size.pairs import Array, PairView
 
-PAIR_GROUPS = (pair_record, pair_levels, pair_likeness, pair_motion, event_shapes)
-LEADING_GROUPS = (event_profiles, pair_rivals, pair_length)
+PAIR_GROUPS = (record, levels, likeness, motion, event_shapes)
+LEADING_GROUPS = (event_profiles, rivals, length)
 PAIR_COLUMNS: tuple[str, ...] = tuple(name for group in PAIR_GROUPS for name in group.NAMES)
 """Of every pair of candidates."""
 LEADING_COLUMNS: tuple[str, ...] = (*PAIR_COLUMNS, *(name for group in LEADING_GROUPS for name in group.NAMES))
 """Of a leading pair of a record whose load or Hertz factor is not known."""
-LEADING_COLUMNS_WITH_LOAD: tuple[str, ...] = (*LEADING_COLUMNS, *pair_load.NAMES)
+LEADING_COLUMNS_WITH_LOAD: tuple[str, ...] = (*LEADING_COLUMNS, *load.NAMES)
 """Of a leading pair of a record whose load and Hertz factor are known."""
 ROW_COLUMNS: tuple[str, ...] = (*LEADING_COLUMNS, *choice.NAMES)
 """Of the pair that is taken for the events, load or Hertz factor not known."""
@@ -52,7 +52,7 @@ def leading_rows(view: LeadingView) -> Array:
         found |= group.measure(view)
     if not view.situation.load_known:
         return np.column_stack([found[name] for name in LEADING_COLUMNS])
-    found |= pair_load.measure(view, found)
+    found |= load.measure(view, found)
     return np.column_stack([found[name] for name in LEADING_COLUMNS_WITH_LOAD])
 
 

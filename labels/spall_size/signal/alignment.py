@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import fftconvolve
 
-from labels.spall_size.pass_track import CELLS, PassTrack
+from labels.spall_size.signal.pass_track import CELLS, PassTrack
 
 Array = NDArray[np.float64]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.mean_pass import Channel, MeanPass
 from labels.spall_size.pairs import EVENTS, Array, PairView
-from labels.spall_size.running_energy import ENERGY_FLOOR
+from labels.spall_size.signal.mean_pass import Channel, MeanPass
+from labels.spall_size.signal.running_energy import ENERGY_FLOOR
 
 AT_ANCHOR = 1.0
 """Samples: an event nearer to the anchor than this is the anchor."""

@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 
 from labels.spall_size.leading import Array, LeadingView
-from labels.spall_size.mean_pass import Channel
 from labels.spall_size.pairs import EVENTS
-from labels.spall_size.running_energy import RunningEnergy
+from labels.spall_size.signal.mean_pass import Channel
+from labels.spall_size.signal.running_energy import RunningEnergy
 
 EDGES = (-0.5, -0.35, -0.25, -0.17, -0.1, -0.05, -0.02, 0.02, 0.05, 0.1, 0.17, 0.25, 0.35, 0.5)
 """Lags from an event at which one window ends and the next begins."""

@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from labels.spall_size.mean_pass import Channel, MeanPass
 from labels.spall_size.pairs import EVENTS, Array, PairView
-from labels.spall_size.running_energy import ENERGY_FLOOR, RunningEnergy
+from labels.spall_size.signal.mean_pass import Channel, MeanPass
+from labels.spall_size.signal.running_energy import ENERGY_FLOOR, RunningEnergy
 
 REACHES = (1.5, 3.0, 6.0, 12.0, 24.0, 48.0, 96.0)
 """Samples from a candidate at which windows end; the first is half the width of its core."""

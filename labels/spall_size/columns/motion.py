@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.mean_pass import MeanPass
 from labels.spall_size.pairs import Array, PairView
+from labels.spall_size.signal.mean_pass import MeanPass
 
 AFTER = 1.5
 """Lags from the entry up to which the sway after the exit is averaged, a period at most."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.mean_pass import Channel
 from labels.spall_size.pairs import EVENTS, Array, PairView
+from labels.spall_size.signal.mean_pass import Channel
 
 LEAST_BESIDE = 2.0
 """Samples by which the windows before and after an event reach beyond its core at least."""

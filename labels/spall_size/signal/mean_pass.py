@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from labels.spall_size.alignment import Alignment
+from labels.spall_size.signal.alignment import Alignment
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.pair_rivals import NEAR, SAME
+from labels.spall_size.columns.rivals import NEAR, SAME
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from labels.spall_size.leading import Array, LeadingView
-from labels.spall_size.mean_pass import Channel
+from labels.spall_size.signal.mean_pass import Channel
 from labels.spall_size.static_release import release_arc, static_compression
 
 LEAST_PRESSED = 1e-9

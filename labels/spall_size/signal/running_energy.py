@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.mean_pass import Channel, MeanPass
+from labels.spall_size.signal.mean_pass import Channel, MeanPass
 
 Array = NDArray[np.float64]
 

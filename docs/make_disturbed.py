@@ -22,7 +22,7 @@ from scipy.signal import resample_poly
 
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.rows import Reading, RecordRows, Rows, record_rows
-from datagen.benchmark.summary import RACES, race_balance
+from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Tested, judge
 from datagen.corpus import Corpus
@@ -30,6 +30,7 @@ from datagen.errors import BadInput
 from datagen.marked_tables import write_marked
 from datagen.scored_runs import write_line
 from labels.variables import SHAFT_ANGLE
+from physics.bearing import RACES
 
 if TYPE_CHECKING:
     import pandas

@@ -16,11 +16,12 @@ import numpy as np
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.machines import learned_machines, unseen_records
 from datagen.benchmark.rows import read_rows
-from datagen.benchmark.summary import RACES, race_balance
+from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Tested, judge
 from datagen.corpus import Corpus
 from datagen.scored_runs import write_line
+from physics.bearing import RACES
 
 DRAWS, SHARE, SEED = 5, 0.8, 100
 ODD = ("197", "198", "199", "174", "201")

@@ -17,6 +17,7 @@ from scipy.stats import binomtest
 
 from datagen.marked_tables import write_marked
 from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, paired_difference
+from physics.bearing import RACES
 
 PAGE = Path(__file__).with_name("transfer.md")
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
@@ -50,7 +51,7 @@ def calibration(scores: dict[str, Any]) -> str:
 def without_odd(test: dict[str, Any], model: str) -> str:
     """Balanced accuracy over outer and inner without the odd records, whose envelopes disagree with their label."""
     shares = []
-    for race in ("outer", "inner"):
+    for race in RACES:
         own = [entry for entry in test["predictions"] if entry["truth"] == race and entry["recording"] not in ODD]
         if own:
             shares.append(sum(entry[model]["location"] == race for entry in own) / len(own))
@@ -174,7 +175,7 @@ def called(
         for test in report["tests"]
         if test["imported"] == imported
         for entry in test["predictions"]
-        if entry["truth"] in ("outer", "inner") and entry["recording"] not in ODD
+        if entry["truth"] in RACES and entry["recording"] not in ODD
         for model in models
     ]
     truth, own, bearing = zip(*rows, strict=True)

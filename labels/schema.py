@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from physics.bearing import RACES
 from physics.spall import PROFILES
 
 CONDITIONS = ("healthy", "line", "extended")
-LOCATIONS = ("none", "outer", "inner")
+LOCATIONS = ("none", *RACES)
 # The same as physics.scene.CONTACT_LAWS, as a test holds; to import that would load scipy with the table of labels.
 CONTACT_LAWS = ("paper", "no_tension")
 SPLITS = ("train", "validation", "test")

@@ -10,13 +10,13 @@ from labels.classifier.classes import joint_class
 from labels.features.kinematics import Kinematics, bearing_kinematics
 from labels.schema import LOCATIONS, UNKNOWN
 
-RPM = 60.0
+RPM_PER_HZ = 60.0
 
 
 def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
     """Kinematics of the record with these labels: from its geometry, or from its orders; None if it says neither, or no
     speed."""
-    speed = _number(labels, "speed_rpm") / RPM
+    speed = _number(labels, "speed_rpm") / RPM_PER_HZ
     if not speed > 0.0:
         return None
     balls, pitch, ball = (_number(labels, name) for name in ("balls", "pitch_diameter", "ball_diameter"))

@@ -25,8 +25,8 @@ from labels.classifier.scores import (
     paired_difference,
 )
 from labels.features.conditioning import Array
-from labels.features.modulation import RACES
 from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
+from physics.bearing import RACES
 
 AGAINST = ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")
 CALIBRATION_DRAWS = 500

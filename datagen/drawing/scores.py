@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, plt, png_of
+from physics.bearing import RACES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +53,7 @@ def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
     """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals; false alarms where
     there are no faults."""
     title = f"{Path(test['corpus']).name}: {test['records']} records"
-    if not any(test["locations"][race] for race in ("outer", "inner")):
+    if not any(test["locations"][race] for race in RACES):
         alarms = (f"{name}: {said.false_alarms} of {said.healthy}" for name, said in test["models"].items())
         say(axes, title, "no faults to score\n\nfalse alarms\n" + "\n".join(alarms))
         return

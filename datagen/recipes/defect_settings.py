@@ -11,6 +11,7 @@ from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.profile_table import ProfileTable
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
+from physics.bearing import RACES
 
 EXTENTS = ("extent_deg", "extent_mm", "extent_spacing")
 ENTRY_TAPERS = ("entry_taper_deg", "entry_taper_share")
@@ -73,7 +74,7 @@ class DefectSettings(SpallSettings):
 
     condition: Annotated[Distribution, OneOf(("healthy", "line", "extended"))]
     """healthy, line (shorter than the ball spacing) or extended (at least the ball spacing)."""
-    race: Annotated[Distribution, OneOf(("outer", "inner"))] = Fixed("outer")
+    race: Annotated[Distribution, OneOf(RACES)] = Fixed("outer")
     """The defective race."""
     profile: Annotated[Distribution, OneOf(("tukey", "ball_path", "table"))] = Fixed("tukey")
     """How the path of the ball's centre follows from the settings."""

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.machine_settings import Degrees, NotNegative
 from datagen.settings.table import Between, OneOf, Table, refuse
+from physics.bearing import RACES
 
 Order = Annotated[int, Field(ge=1, le=2000)]
 
@@ -16,7 +17,7 @@ Order = Annotated[int, Field(ge=1, le=2000)]
 class WavinessSettings(Table):
     """Harmonics of one race: order by order a drawn amplitude, which falls with the order."""
 
-    race: Annotated[Distribution, OneOf(("outer", "inner"))]
+    race: Annotated[Distribution, OneOf(RACES)]
     """The wavy race."""
     orders: tuple[Order, Order] = Field(strict=False)
     """First and last order (waves round the race)."""

@@ -9,9 +9,8 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.recordings.settings import MOST_BALLS, BearingNumbers
 from datagen.recordings.source import Source
-from labels.features.modulation import RACES
 from labels.schema import LABELS, MEASURED, UNKNOWN, Label
-from physics.bearing import Bearing
+from physics.bearing import RACES, Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
 from physics.hertz import BALL_EXPONENT

@@ -14,13 +14,13 @@ from datagen.sizing.estimators import AnyEstimator
 from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, ScoredRecord, Told, Truth
 from datagen.sizing.sized_records import SizedRecord, UnsizedRecord, nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
-from labels.features.modulation import RACES
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected
 from labels.spall_size.rules import EnvelopeLagRule
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import Interval, SizeEstimate, SizeOutcome
 from labels.spall_size.static_release import arc_with_static_release
+from physics.bearing import RACES
 
 TOLERANCE_S = 100e-6
 TOLERANCE_RAD = math.radians(0.5)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.conditioning import Array
-from labels.features.modulation import RACES
 from labels.features.table import FEATURE_NAMES
+from physics.bearing import RACES
 
 QUANTILE = 0.95
 STRENGTHS = tuple(f"{race}_strength" for race in RACES)

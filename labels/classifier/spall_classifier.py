@@ -14,8 +14,8 @@ from labels.classifier.classes import CLASSES, HEALTHY, decide
 from labels.classifier.learners import SEED, learner
 from labels.classifier.stage import Stage
 from labels.features.conditioning import Array
-from labels.features.modulation import RACES
 from labels.features.table import FEATURE_NAMES
+from physics.bearing import RACES
 
 FALSE_ALARMS = 0.05
 """Share of simulated healthy records that may be called faulty: that of the rule's threshold."""

@@ -10,7 +10,6 @@ from labels.features.families import Lines, find_family, sideband_evidence
 from labels.features.feature import Feature
 
 SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope spectrum)"
-RACES = ("outer", "inner")
 LEADS = ("evidence", "spread", "strength", "others")
 STRENGTH_HARMONICS = 3
 

@@ -8,6 +8,7 @@ from scipy import fft
 from labels.features.analysis import VIBRATION_ORDERS, Analysis
 from labels.features.conditioning import Array
 from labels.features.feature import Feature
+from physics.bearing import RACES
 
 ORDERS = "ISO 13373-2:2016 (narrow-band spectra, orders); Petersen et al. 2014, section 6 (low harmonics of BPFO)"
 CEPSTRUM = "Randall 2017, Mech. Syst. Signal Process. 97 (cepstrum analysis)"
@@ -33,7 +34,7 @@ ROWS = (
 def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
     shaft = analysis.speed.shaft_hz
-    outer, inner = (analysis.race_family(analysis.vibration, race) for race in ("outer", "inner"))
+    outer, inner = (analysis.race_family(analysis.vibration, race) for race in RACES)
     lines = {
         "outer_vibration": float(np.log1p(outer.evidence[0])),
         "inner_vibration": float(np.log1p(inner.evidence[0])),

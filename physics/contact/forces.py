@@ -19,7 +19,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.power import power
 from physics.contact.track import (
     CAGE,
@@ -36,6 +35,7 @@ from physics.contact.track import (
     waviness_at,
 )
 from physics.contact.turning import cosine_sine
+from physics.jit import njit_inline, njit_inner, njit_pasted
 from physics.paths.depth_path import path_at
 
 Array = NDArray[np.float64]

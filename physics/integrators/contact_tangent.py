@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from physics._jit import njit
 from physics.contact.forces import (
     ACTIVE,
     COMPRESSION,
@@ -14,6 +13,7 @@ from physics.contact.forces import (
     Contacts,
     law_power,
 )
+from physics.jit import njit
 
 
 @njit

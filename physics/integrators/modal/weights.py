@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_inline, njit_lean
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, LinearFlow
 from physics.integrators.modal.layout import (
     AT_END,
@@ -30,6 +29,7 @@ from physics.integrators.modal.layout import (
     TURN,
 )
 from physics.integrators.modal.phi import double, phi_functions, product
+from physics.jit import njit_inline, njit_lean
 
 Array = NDArray[np.float64]
 

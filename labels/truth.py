@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.contact_events import contact_events
 from labels.load_dips import load_dips
+from physics.contact_events import contact_events
 from physics.paths.passages import Passages, passages
 from physics.paths.profile import build_path
 from physics.scene import Scene

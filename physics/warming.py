@@ -16,6 +16,7 @@ from physics.backgrounds.tones import tones
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.contact.forces import Contacts
+from physics.contact_events import contact_events
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
 from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
@@ -36,7 +37,7 @@ from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import carried
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
-from physics.trace import ACCELERATION_ALONE
+from physics.trace import ACCELERATION_ALONE, ContactChanges
 
 RATE, SAMPLES = 65536.0, 128
 MARCHING = "from physics.warming import compile_march; compile_march()"
@@ -107,4 +108,10 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     stiffness_trace(scene, time)
     ball_load(scene, time, 1, np.ones(1, np.int16))
     race_depth(scene, 1, time)
+    contact_events(_no_changes(scene), 1, np.ones(1, np.int16), time, time)
     tones(np.ones(1), np.ones(1), np.zeros((1, 2)), 1, RATE)
+
+
+def _no_changes(scene: Scene) -> ContactChanges:
+    none, initial = np.zeros(0, np.int16), np.zeros((scene.rig.bearing.rows, scene.rig.bearing.balls), np.bool_)
+    return ContactChanges(np.zeros(0), none, none, np.zeros(0, np.bool_), initial)

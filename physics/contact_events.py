@@ -17,7 +17,10 @@ def contact_events(
 ) -> tuple[Array, Array, Flags]:
     """`release` (N,) and `regain` (N,), s, and `loaded` (N,) of passes of `ball` (N,), from 1, of the `row`.
 
-    A pass lasts from `entry` to `leave` (N,), s; what the three mean is told at labels.truth.PassTable.
+    A pass lasts from `entry` to `leave` (N,), s. `release` is the first loss of contact in it and `regain` the
+    beginning of contact that ends the last loss in it, be it later; both are NaN if the ball kept contact or did not
+    touch at entry (or at 0, if that is later), and `regain` alone if contact does not begin again. `loaded`: the ball
+    touches both races at some moment of the pass.
     """
     own = changes.row == row
     order = np.lexsort((changes.time[own], changes.ball[own]))

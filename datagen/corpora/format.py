@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from datagen.records.profile_grid import profile_grid
 from datagen.versions import program_versions
 from labels.schema import BAND_EDGES, LABELS, LAYERS, Label
 from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
@@ -17,7 +18,7 @@ from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABL
 if TYPE_CHECKING:
     import xarray
 
-    from datagen.records.record import Record, profile_grid
+    from datagen.records.record import Record
 
 FORMAT = "spallgen corpus 1"
 SIMULATED, IMPORTED = "simulated", "imported"

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.records.layers import Layers, background_layers, noise_along_y
+from datagen.records.profile_grid import PROFILE_POINTS, profile_grid
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -31,14 +32,6 @@ from physics.trace import Trace
 
 Rounded = NDArray[np.float32]
 RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
-# Read by linear interpolation this moves the acceleration of every reference scene by less than 1e-3 (measured: 1.7e-3
-# with 65 536 points and 5e-4 with 131 072 on the outer race, 2.1e-3 with 131 072 on the inner one, 6e-4 with these).
-PROFILE_POINTS = 262_144
-
-
-def profile_grid(points: int) -> np.ndarray:
-    """Angles (points,) from −π to π, end excluded, rad."""
-    return -np.pi + 2.0 * np.pi / points * np.arange(points)
 
 
 @dataclass(frozen=True)

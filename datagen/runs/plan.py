@@ -12,7 +12,7 @@ from datagen.corpora.format import ZLIB_SHARE
 from datagen.corpora.manifest import Span, add_spans
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
-from datagen.records.record import PROFILE_POINTS
+from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario

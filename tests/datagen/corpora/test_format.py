@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora.format import VARIABLE, content_hash, format_hash, profile_grid, to_dataset
+from datagen.corpora.format import VARIABLE, content_hash, format_hash, to_dataset
 from datagen.errors import BadInput
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes
 from datagen.inspection.conformity import violations
+from datagen.records.profile_grid import profile_grid
 from datagen.records.record import Record
 from labels.schema import LABELS
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from datagen.recipes.recipe import Recipe
-from datagen.records.record import PROFILE_POINTS, Record, make_record
+from datagen.records.profile_grid import PROFILE_POINTS
+from datagen.records.record import Record, make_record
 from datagen.scenarios.background import Background
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario

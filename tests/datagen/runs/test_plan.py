@@ -6,7 +6,7 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
-from datagen.records.record import PROFILE_POINTS
+from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import stiffness_axis
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes, plan_shards, selection, stored_bytes
 from datagen.scenarios.sampling import draw_scenario

@@ -1,0 +1,14 @@
+"""Where on a race the depth of its spalls is stored."""
+
+from __future__ import annotations
+
+import numpy as np
+
+# Read by linear interpolation this moves the acceleration of every reference scene by less than 1e-3 (measured: 1.7e-3
+# with 65 536 points and 5e-4 with 131 072 on the outer race, 2.1e-3 with 131 072 on the inner one, 6e-4 with these).
+PROFILE_POINTS = 262_144
+
+
+def profile_grid(points: int) -> np.ndarray:
+    """Angles (points,) from −π to π, end excluded, rad."""
+    return -np.pi + 2.0 * np.pi / points * np.arange(points)

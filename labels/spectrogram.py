@@ -9,7 +9,7 @@ from scipy import fft
 Array = NDArray[np.float64]
 
 SHARE_OF_SPAN = 0.04
-FEWEST_SAMPLES = 48
+FEWEST_WINDOW_SAMPLES = 48
 COLUMNS = 400
 
 
@@ -19,7 +19,7 @@ def spectrogram(signal: Array, rate: float, start: float, stop: float) -> tuple[
     The window is a Hann window of 4 % of the span, at least 48 samples; a tone of amplitude a has power a²/2. Beyond
     the ends of the signal there is silence.
     """
-    size = max(FEWEST_SAMPLES, round(SHARE_OF_SPAN * (stop - start) * rate))
+    size = max(FEWEST_WINDOW_SAMPLES, round(SHARE_OF_SPAN * (stop - start) * rate))
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * (np.arange(size) + 0.5) / size)
     centres = np.linspace(start, stop, COLUMNS)
     first = np.round(centres * rate).astype(np.int64) - size // 2

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from labels.features.conditioning import FEWEST_SAMPLES, SHARE_OF_NYQUIST
+from labels.features.conditioning import FEWEST_SAMPLES_USED, SHARE_OF_NYQUIST
 from labels.features.kinematics import Kinematics
 
 UNKNOWN_SPEED = "speed unknown"
@@ -32,7 +32,7 @@ def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int
         speed = float(labels["speed_rpm"])
         return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION if speed <= 0.0 else UNKNOWN_GEOMETRY
     duration = samples / rate
-    if samples < FEWEST_SAMPLES or duration < SHORTEST or duration * kinematics.shaft_hz < FEWEST_TURNS:
+    if samples < FEWEST_SAMPLES_USED or duration < SHORTEST or duration * kinematics.shaft_hz < FEWEST_TURNS:
         return TOO_SHORT
     top = min(bandwidth, SHARE_OF_NYQUIST * 0.5 * rate)
     return TOO_FAST if kinematics.bpfi * kinematics.shaft_hz > HIGHEST_SHARE * top else ""

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.recipes.recording_settings import RecordingSettings
+from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.settings.table import Between, Table, Whole, at_most_one, refuse
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
 from physics.backgrounds.impulses import MOST_PER_SECOND
@@ -115,7 +115,7 @@ class BackgroundSettings(Table):
     """Tones of the mains."""
     impulses: ImpulseSettings | None = None
     """Random knocks."""
-    recording: RecordingSettings | None = None
+    recording: RecordedLayerSettings | None = None
     """Stretches of a recording of a healthy machine."""
     snr_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the label snr_band_db, Hz; by default that of the envelope."""

@@ -31,7 +31,7 @@ from datagen.settings.toml_file import read_toml
 from labels.envelope import holds_a_line
 from physics.scene import CONTACT_LAWS
 
-FEWEST_SAMPLES = 16
+FEWEST_STORED_SAMPLES = 16
 LARGEST_HYPERCUBE = 50_000
 Count = Annotated[int, Field(ge=1, le=10_000_000)]
 
@@ -51,9 +51,9 @@ class Signal(Table):
     @model_validator(mode="after")
     def _long_enough(self) -> Signal:
         rate, duration = min(self.rate_hz.stated()), min(self.duration_s.stated())
-        if rate * duration < FEWEST_SAMPLES:
-            shortest = f"at least {FEWEST_SAMPLES / rate:g} at {rate:g} Hz"
-            raise refuse(f"a record would hold fewer than {FEWEST_SAMPLES} samples", "duration_s", shortest)
+        if rate * duration < FEWEST_STORED_SAMPLES:
+            shortest = f"at least {FEWEST_STORED_SAMPLES / rate:g} at {rate:g} Hz"
+            raise refuse(f"a record would hold fewer than {FEWEST_STORED_SAMPLES} samples", "duration_s", shortest)
         return self
 
     @model_validator(mode="after")

@@ -25,7 +25,7 @@ class RecordingFile:
     rate: float | None
 
 
-def read_recording(path: Path, channels: tuple[str, ...] | None, layout: CsvLayout) -> RecordingFile:
+def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLayout) -> RecordingFile:
     """The recording in `path`: the variables named by `channels`, or the only one that there is.
 
     Raises BadInput if the file cannot be read, is no table of numbers, or holds a number that is not finite.

@@ -17,7 +17,7 @@ from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
 from datagen.formats.csv_layout import CsvLayout
 from datagen.recipes.profile_table import FOLDER
-from datagen.recipes.recording_file import read_recording
+from datagen.recipes.recording_file import read_background
 from datagen.settings.table import Between, Table
 
 Channel = Annotated[str, Field(min_length=1)]
@@ -29,7 +29,7 @@ def _without_default(schema: dict[str, Any]) -> None:
     schema.pop("default", None)
 
 
-class RecordingSettings(Table):
+class RecordedLayerSettings(Table):
     """A file in the recipe's folder (.mat, .npz, .npy, .csv, .wav, .nc), sampled at the rate of the records.
 
     One channel goes to both axes, each from its own place in the recording; two go to x and y from one place.
@@ -83,7 +83,7 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
     named = isinstance(wishes, list | tuple) and all(isinstance(wish, str) for wish in wishes)
     try:
         layout = CsvLayout.model_validate(value.get("csv", {}))
-        read = read_recording(path, tuple(wishes) if named and wishes else None, layout)
+        read = read_background(path, tuple(wishes) if named and wishes else None, layout)
     except ValidationError:
         return value
     except BadInput as problem:
@@ -103,7 +103,7 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
 
 @lru_cache(maxsize=4)
 def _loaded(path: str, channels: tuple[str, ...] | None, layout: CsvLayout) -> tuple[NDArray[np.float32], str]:
-    samples = read_recording(Path(path), channels, layout).samples
+    samples = read_background(Path(path), channels, layout).samples
     return samples, hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 

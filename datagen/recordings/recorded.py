@@ -15,7 +15,7 @@ from datagen.errors import BadInput
 from datagen.formats.placeholders import without_ending
 from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
-from datagen.recipes.recipe import FEWEST_SAMPLES
+from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
@@ -176,8 +176,8 @@ def _pieces(source: Source, rate: float, size: int) -> list[tuple[int, int]]:
     if cut is None:
         return [(0, size)]
     length = round(cut * rate)
-    if not FEWEST_SAMPLES <= length <= size:
-        allowed = f"{FEWEST_SAMPLES / rate:g} to {size / rate:g} s, the length of {source.path.name}"
+    if not FEWEST_STORED_SAMPLES <= length <= size:
+        allowed = f"{FEWEST_STORED_SAMPLES / rate:g} to {size / rate:g} s, the length of {source.path.name}"
         raise BadInput(file=source.request.place, field="cut_s", value=cut, allowed=allowed)
     return [(k * length, (k + 1) * length) for k in range(size // length)]
 

@@ -23,7 +23,7 @@ from datagen.formats.csv_file import Columns
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.placeholders import filled, place_without_ending
 from datagen.formats.reading import read_arrays
-from datagen.recipes.recipe import FEWEST_SAMPLES
+from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
 from datagen.recordings.listing import Request
 from datagen.recordings.sample_times import rate_of
 from datagen.recordings.values import RANGES, FromVariable, in_range
@@ -77,9 +77,9 @@ class Source:
             raise BadInput(
                 f"is no single channel ({shape})", str(self.path), field, wish, 'one column, as in "NAME[:,0]"'
             )
-        if found.size < FEWEST_SAMPLES:
+        if found.size < FEWEST_STORED_SAMPLES:
             raise BadInput(
-                f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_SAMPLES} samples"
+                f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_STORED_SAMPLES} samples"
             )
         values = found.astype(np.float64)
         bad = self.missing(wish, field)
@@ -170,7 +170,12 @@ class Source:
         if not isinstance(said, FromVariable) or not self.variable(said.variable, name):
             return None
         found = choose(self.arrays, said.variable, self.path, name)
-        if found.ndim != 1 or found.dtype.kind not in "iuf" or found.size < FEWEST_SAMPLES or not (found > 0).all():
+        if (
+            found.ndim != 1
+            or found.dtype.kind not in "iuf"
+            or found.size < FEWEST_STORED_SAMPLES
+            or not (found > 0).all()
+        ):
             return None
         return found.astype(np.float64) * said.factor
 

@@ -14,7 +14,7 @@ from datagen.recipes.background_settings import (
     PinkSettings,
     ShaftSettings,
 )
-from datagen.recipes.recording_settings import RecordingSettings
+from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import Picker
@@ -44,7 +44,7 @@ def draw_background(settings: BackgroundSettings, rate: float, draw: Draw) -> Ba
     )
 
 
-def draw_stretch(settings: RecordingSettings, samples: int, draw: Draw) -> Stretch:
+def draw_stretch(settings: RecordedLayerSettings, samples: int, draw: Draw) -> Stretch:
     """What a record of `samples` takes of the recording, at a random place.
 
     Raises InvalidParameter if the recording is too short, BadInput if it is not at hand.

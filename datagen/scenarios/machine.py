@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
-from datagen.recipes.recipe import FEWEST_SAMPLES, Recipe, Signal, Split
+from datagen.recipes.recipe import FEWEST_STORED_SAMPLES, Recipe, Signal, Split
 from datagen.scenarios.background import Background
 from datagen.scenarios.chain import draw_chain
 from datagen.scenarios.defect import draw_spalls
@@ -107,7 +107,9 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
 def _draw_signal(signal: Signal, pick: Picker) -> tuple[float, int]:
     rate, duration = pick.number(signal.rate_hz), pick.number(signal.duration_s)
     samples = round(rate * duration)
-    require(samples >= FEWEST_SAMPLES, f"{duration:g} s at {rate:g} Hz hold only {samples} samples", "duration_s")
+    require(
+        samples >= FEWEST_STORED_SAMPLES, f"{duration:g} s at {rate:g} Hz hold only {samples} samples", "duration_s"
+    )
     return rate, samples
 
 

@@ -13,7 +13,7 @@ from labels.schema import UNKNOWN
 from labels.spall_size.size_estimate import Interval
 
 LONGEST_SCORED_SPACINGS = 0.9
-FEWEST_SAMPLES, FEWEST_SPACINGS = 5.0, 1.0 / 50.0
+SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS = 5.0, 1.0 / 50.0
 NO_EVENT_SAMPLES = 2.0
 CLEAN_DB = 60.0  # from this ratio on a record counts as one without noise
 NO_SCORES = EventScores(0, 0, 0)
@@ -123,7 +123,7 @@ class ScoredRecord:
     @property
     def has_events(self) -> bool:
         """True if the record has events far enough apart that a size may be asked for."""
-        least = max(FEWEST_SAMPLES / self.truth.rate, FEWEST_SPACINGS * self.truth.pass_period)
+        least = max(SHORTEST_LAG_SAMPLES / self.truth.rate, SHORTEST_LAG_SPACINGS * self.truth.pass_period)
         return self.truth.lag >= least
 
     @property

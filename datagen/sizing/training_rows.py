@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
 from datagen.sizing.in_blocks import in_blocks
-from datagen.sizing.scored_record import CLEAN_DB, FEWEST_SAMPLES, FEWEST_SPACINGS, LONGEST_SCORED_SPACINGS
+from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS
 from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_records
 from labels.spall_size.estimator import ONSET
 from labels.spall_size.event_truth import EventTruth
@@ -132,7 +132,7 @@ def _stretch(sized: SizedRecord, heard: Heard) -> tuple[float, float]:
 
 
 def _asked(sized: SizedRecord, true_lag: float) -> bool:
-    least = max(FEWEST_SAMPLES, FEWEST_SPACINGS * nominal_period(sized.labels) * sized.rate)
+    least = max(SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS * nominal_period(sized.labels) * sized.rate)
     return true_lag >= least and float(sized.labels["extent_spacing"]) <= LONGEST_SCORED_SPACINGS
 
 

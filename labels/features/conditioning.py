@@ -12,7 +12,7 @@ from labels.features.turning import Array, Spectrum, Turning
 COMMON_BANDWIDTH = 20_000.0
 """Highest frequency that features look at, Hz: records of any higher rate are limited to it."""
 SHARE_OF_NYQUIST = 0.95
-FEWEST_SAMPLES = 64
+FEWEST_SAMPLES_USED = 64
 BLOCKS = 96
 FEWEST_BINS = 24
 """Components in the smallest block from which a local mean power is taken."""
@@ -62,8 +62,8 @@ def condition(
     ValueError for fewer than 64 samples, a rate of 0 or a signal that does not change.
     """
     signal = np.asarray(signal, dtype=np.float64)
-    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES or not rate > 0.0:
-        needed = f"features need at least {FEWEST_SAMPLES} samples of one axis"
+    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES_USED or not rate > 0.0:
+        needed = f"features need at least {FEWEST_SAMPLES_USED} samples of one axis"
         raise ValueError(f"{signal.shape} samples at {rate:g} Hz; {needed}")
     signal = signal[: fast_length(signal.size)]
     centred = signal - signal.mean()
@@ -79,7 +79,7 @@ def condition(
 
 def fast_length(size: int) -> int:
     """How many of that many samples are used: the largest number with a fast transform."""
-    while size > FEWEST_SAMPLES and fft.next_fast_len(size, real=True) != size:
+    while size > FEWEST_SAMPLES_USED and fft.next_fast_len(size, real=True) != size:
         size -= 1
     return size
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from labels.spectrogram import COLUMNS, FEWEST_SAMPLES, spectrogram
+from labels.spectrogram import COLUMNS, FEWEST_WINDOW_SAMPLES, spectrogram
 
 RATE = 8192.0
 TIME = np.arange(8192) / RATE
@@ -29,4 +29,4 @@ def test_beyond_the_ends_of_the_signal_there_is_silence_and_a_short_span_keeps_t
     # Half of the window hangs over the end: half of the amplitude.
     assert power[0, 0] == pytest.approx(power[0, COLUMNS // 2] / 4.0, rel=0.02)  # one sample more or less of 328
     _, short, _ = spectrogram(np.ones(TIME.size), RATE, 0.5, 0.5 + 10.0 / RATE)
-    assert short[1] == RATE / (4.0 * FEWEST_SAMPLES)
+    assert short[1] == RATE / (4.0 * FEWEST_WINDOW_SAMPLES)

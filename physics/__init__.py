@@ -11,5 +11,5 @@ What a machine is: `bearing`, `hertz`, `rating`, `rig`, `spall`, `operation`, `i
 - `statics/`: where the shaft rests, which ball carries what, how stiff the bearing is
 - `sensor/`, `backgrounds/`: from the bearing to the recording
 
-Kernels read arrays and NamedTuples that `assembly` makes of a scene; `jit` compiles them and `warming` does so early.
+Kernels read arrays and NamedTuples that `assembly` makes of a scene; `_jit` compiles them and `warming` does so early.
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit
+from physics._jit import njit
 from physics.trace import ContactChanges
 
 Array = NDArray[np.float64]

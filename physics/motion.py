@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_lean
 from physics.contact.turning import cosine_sine
-from physics.jit import njit_lean
 from physics.scene import Scene
 
 Array = NDArray[np.float64]

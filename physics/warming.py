@@ -11,6 +11,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from physics._jit import discard_cache, nothing_cached, raised_by_cache
 from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
@@ -22,7 +23,6 @@ from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
 from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
-from physics.jit import discard_cache, nothing_cached, raised_by_cache
 from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import race_depth

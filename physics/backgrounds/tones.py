@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit_lean
+from physics._jit import njit_lean
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts
-from physics.jit import njit_inline, njit_inner
 
 Array = NDArray[np.float64]
 

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.power import power
 from physics.contact.track import (
     CAGE,
@@ -35,7 +36,6 @@ from physics.contact.track import (
     waviness_at,
 )
 from physics.contact.turning import cosine_sine
-from physics.jit import njit_inline, njit_inner, njit_pasted
 from physics.paths.depth_path import path_at
 
 Array = NDArray[np.float64]

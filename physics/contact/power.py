@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from physics.jit import njit_inline
+from physics._jit import njit_inline
 
 # A double is a mantissa from 1 to 2 in its lowest 52 bits times a power of two, 1023 more than which stands above them.
 MANTISSA = np.uint64(52)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit_inline
+from physics._jit import njit_inline
 from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from physics.jit import njit_inline
+from physics._jit import njit_inline
 
 QUARTERS_PER_RADIAN = 2.0 / math.pi
 # π/2 in three parts, the first two with 33 bits each, so that their multiples are exact.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit_inline
+from physics._jit import njit_inline
 from physics.motion import MotionModel, outer_load, outer_ring_acceleration, resonator_acceleration
 
 Array = NDArray[np.float64]

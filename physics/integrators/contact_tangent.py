@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from physics._jit import njit
 from physics.contact.forces import (
     ACTIVE,
     COMPRESSION,
@@ -13,7 +14,6 @@ from physics.contact.forces import (
     Contacts,
     law_power,
 )
-from physics.jit import njit
 
 
 @njit

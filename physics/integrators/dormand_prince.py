@@ -12,12 +12,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import press_state
 from physics.integrators.trial import Trial
-from physics.jit import njit
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
@@ -39,7 +40,6 @@ from physics.integrators.output import (
 from physics.integrators.propagator import PowerSeries
 from physics.integrators.stops import Stops, next_kink, passed_kinks
 from physics.integrators.trial import Trial
-from physics.jit import njit
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, Contacts, compression_of, law_force, of_ball, press, set_time
-from physics.jit import njit_inline, njit_inner, njit_pasted
 from physics.motion import MotionModel, outer_load, relative_acceleration
 
 Array = NDArray[np.float64]

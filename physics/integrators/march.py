@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit, specialise
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
 from physics.integrators.events import Way, earliest_change, relative_motion
@@ -30,7 +31,6 @@ from physics.integrators.output import (
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
 from physics.integrators.stops import Stops, next_kink, passed_kinks
 from physics.integrators.trial import Trial
-from physics.jit import njit, specialise
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit, njit_lean
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, FORCE, Contacts, of_ball
-from physics.jit import njit, njit_lean
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit
+from physics._jit import njit
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]

@@ -10,11 +10,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import Workspace, bind_method, press_state
-from physics.jit import njit_inline
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_lean
 from physics.contact.forces import ACTIVE, of_ball
-from physics.jit import njit_lean
 
 Array = NDArray[np.float64]
 

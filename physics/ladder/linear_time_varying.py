@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit, njit_inline, specialise, uncompiled
 from physics.assembly import assemble, ball_numbers
 from physics.cage import CagePath
 from physics.contact.contact_set import reset_contact
@@ -28,7 +29,6 @@ from physics.integrators.exponential_rk4 import step_exponential_rk4
 from physics.integrators.march import workspace
 from physics.integrators.methods import METHODS
 from physics.integrators.propagator import PowerSeries, power_series, set_step
-from physics.jit import njit, njit_inline, specialise, uncompiled
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
 from physics.motion import MotionModel, motion_model, resonator_acceleration, starting_state

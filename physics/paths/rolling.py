@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit, njit_inline, njit_lean
+from physics._jit import njit, njit_inline, njit_lean
 
 Array = NDArray[np.float64]
 Curve = Callable[[Array], Array]

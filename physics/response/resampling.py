@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.jit import njit, njit_lean
+from physics._jit import njit, njit_lean
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
+from physics._jit import njit, njit_inline
 from physics.checks import require_below_nyquist, require_between, require_finite, require_positive
-from physics.jit import njit, njit_inline
 
 Array = NDArray[np.float64]
 

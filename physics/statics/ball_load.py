@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_lean
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import FORCE, Contacts, of_ball
-from physics.jit import njit_lean
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried

@@ -9,9 +9,9 @@ from typing import NamedTuple, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inner, njit_lean
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import COMPRESSION, FORCE, Contacts, of_ball, set_time
-from physics.jit import njit_inner, njit_lean
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.scene import Scene

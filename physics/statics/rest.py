@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from physics._jit import njit_inline, njit_inner
 from physics.contact.forces import (
     COMPRESSION,
     COSINE,
@@ -21,7 +22,6 @@ from physics.contact.forces import (
     Law,
     law_power,
 )
-from physics.jit import njit_inline, njit_inner
 
 LOADED, NOT_UNIQUE, NOT_LOADED, NO_EQUILIBRIUM = 0, 1, 2, 3
 

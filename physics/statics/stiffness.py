@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit, njit_inline, njit_lean
 from physics.assembly import assemble
 from physics.contact.forces import Contacts, move_to, set_time
-from physics.jit import njit, njit_inline, njit_lean
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact.contact_set import mark_of
 from physics.contact.forces import FORCE, Contacts
 from physics.contact.track import ANGLE, CAGE, ENTRY, LEAVE, RELIEF, SIGN, SPEED, cage_at
-from physics.jit import njit_inline, njit_inner, njit_lean
 from physics.motion import MotionModel, motion_model
 from physics.paths.depth_path import BREAK, span_of
 from physics.paths.profile import is_rough

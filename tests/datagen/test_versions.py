@@ -5,7 +5,7 @@ import os
 import pytest
 
 from datagen import versions
-from physics.jit import fingerprint
+from physics._jit import fingerprint
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import physics
-from physics import jit
-from physics.jit import (
+from physics import _jit
+from physics._jit import (
     CACHE_FOLDER,
     fingerprint,
     njit,
@@ -32,7 +32,7 @@ def copied(tmp_path, monkeypatch):
     """A copy of the physics package which `fingerprint` reads instead."""
     copy = tmp_path / "physics"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(jit, "__file__", str(copy / "jit.py"))
+    monkeypatch.setattr(_jit, "__file__", str(copy / "_jit.py"))
     return copy
 
 
@@ -43,7 +43,7 @@ def test_a_copy_of_the_physics_has_the_same_fingerprint(copied, monkeypatch):
     assert len(of_copy) == 16
 
 
-@pytest.mark.parametrize("name", ["contact/forces.py", "integrators/march.py", "jit.py"])
+@pytest.mark.parametrize("name", ["contact/forces.py", "integrators/march.py", "_jit.py"])
 def test_the_fingerprint_changes_with_the_text_of_any_file(copied, name):
     before = fingerprint()
     file = copied / name
@@ -138,7 +138,7 @@ def test_a_specialised_kernel_has_its_bindings_built_in():
 
 KERNEL = """
 import sys
-from physics.jit import CACHE_FOLDER, discard_cache, njit, raised_by_cache
+from physics._jit import CACHE_FOLDER, discard_cache, njit, raised_by_cache
 
 @njit
 def square(x):
@@ -170,7 +170,7 @@ def run_kernel(folder, home):
 EMPTY_OR_NOT = """
 import sys
 sys.path.insert(0, "")
-from physics.jit import nothing_cached
+from physics._jit import nothing_cached
 from physics.statics.rest import solve_at
 from physics.response.resampling import read_at
 import numpy as np
@@ -191,7 +191,7 @@ def test_a_cache_is_empty_until_a_kernel_is_compiled_not_until_one_is_defined(tm
 
 OUTPUT = {"capture_output": True, "text": True, "check": True}
 CUT_INSIDE = """
-from physics.jit import njit, njit_inner, raised_by_cache
+from physics._jit import njit, njit_inner, raised_by_cache
 
 @njit_inner
 def square(x):
@@ -275,8 +275,8 @@ def test_a_user_without_a_home_gets_a_cache_of_his_own(monkeypatch):
 
     for name in ("SPALLGEN_CACHE", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(jit.Path, "home", nowhere)
-    folder = jit._cache_folder()
+    monkeypatch.setattr(_jit.Path, "home", nowhere)
+    folder = _jit._cache_folder()
     assert folder.is_dir()
     assert Path(tempfile.gettempdir()) in folder.parents
     monkeypatch.delenv("SPALLGEN_CACHE")

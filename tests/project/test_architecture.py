@@ -14,7 +14,7 @@ MAY_IMPORT = {
 }
 ABOUT_FILES = {"xarray", "netCDF4", "pathlib", "io", "shutil", "tempfile", "pandas", "matplotlib"}
 # Compiled kernels are cached in a folder; this is the one place of physics that knows of folders.
-CACHE_DOOR = ROOT / "physics" / "jit.py"
+CACHE_DOOR = ROOT / "physics" / "_jit.py"
 # The rooms of physics: each may import from those before it, itself or by way of physics' own files, and from no other.
 ROOMS = (
     "paths",

@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inner, njit_pasted
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.memory import BETWEEN, UNITS, Memory
 from physics.integrators.modal.weights import set_step
-from physics.jit import njit_inner, njit_pasted
 
 Array = NDArray[np.float64]
 

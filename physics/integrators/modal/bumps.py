@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner
 from physics.contact.forces import ACTIVE, COMPRESSION, Contacts, law_power
 from physics.contact.track import CAGE, RELIEF, Track, passage, path_under, place_of
-from physics.jit import njit_inline, njit_inner
 from physics.paths.depth_path import PIECES
 
 Array = NDArray[np.float64]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
@@ -27,7 +28,6 @@ from physics.integrators.modal.memory import (
 )
 from physics.integrators.output import Output, change_unlocated, toggle
 from physics.integrators.trial import Trial
-from physics.jit import njit_inline, njit_inner
 
 Array = NDArray[np.float64]
 

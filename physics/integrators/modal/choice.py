@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_pasted
 from physics.contact.contact_set import count_ahead
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
@@ -29,7 +30,6 @@ from physics.integrators.modal.memory import (
     Stride,
 )
 from physics.integrators.stops import Stops, next_kink
-from physics.jit import njit_inline, njit_pasted
 
 Array = NDArray[np.float64]
 

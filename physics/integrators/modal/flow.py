@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_lean
 from physics.contact.turning import cosine_sine
-from physics.jit import njit_inline, njit_lean
 from physics.motion import MotionModel
 
 Array = NDArray[np.float64]

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_force
 from physics.contact.track import (
     CAGE,
@@ -24,7 +25,6 @@ from physics.contact.track import (
     path_under,
     place_of,
 )
-from physics.jit import njit_inline, njit_inner
 from physics.paths.depth_path import BREAK, RELIEF_LEVELS, span_of
 
 Array = NDArray[np.float64]

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_pasted
 from physics.contact.contact_set import count_dips
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
 from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
@@ -23,7 +24,6 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-from physics.jit import njit_inline, njit_pasted
 
 Array = NDArray[np.float64]
 

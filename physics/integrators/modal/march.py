@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_lean, njit_pasted
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
@@ -67,7 +68,6 @@ from physics.integrators.output import (
 )
 from physics.integrators.stops import Stops, passed_kinks
 from physics.integrators.trial import Trial
-from physics.jit import njit_lean, njit_pasted
 
 Array = NDArray[np.float64]
 

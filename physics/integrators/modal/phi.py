@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner
 from physics.integrators.modal.flow import AMPLITUDES, PAIRS
 from physics.integrators.modal.layout import POWERS
-from physics.jit import njit_inline, njit_inner
 
 Array = NDArray[np.float64]
 

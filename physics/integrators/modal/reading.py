@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, VELOCITY, Motion, weigh
 from physics.integrators.modal.layout import INSIDE_OTHER, OTHER, POWERS, POWERS_AT, SECTION
-from physics.jit import njit_inline
 
 Array = NDArray[np.float64]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_inner
 from physics.contact.forces import Contacts, press
 from physics.integrators.modal.flow import LinearFlow, Motion, relative
-from physics.jit import njit_inline, njit_inner
 
 Array = NDArray[np.float64]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_lean
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
 from physics.integrators.modal.layout import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS
 from physics.integrators.modal.memory import FIRST_INSIDE, ROWS, STRIDES, UNITS
 from physics.integrators.modal.weights import set_inside, set_step
-from physics.jit import njit_lean
 
 Array = NDArray[np.float64]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inner, njit_pasted
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FORCE, Contacts, Law, law_force
 from physics.integrators.modal.memory import PULLING, Memory
 from physics.integrators.output import HELD, PULLED, Output
-from physics.jit import njit_inner, njit_pasted
 
 Array = NDArray[np.float64]
 

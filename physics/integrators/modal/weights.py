@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit_inline, njit_lean
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, LinearFlow
 from physics.integrators.modal.layout import (
     AT_END,
@@ -29,7 +30,6 @@ from physics.integrators.modal.layout import (
     TURN,
 )
 from physics.integrators.modal.phi import double, phi_functions, product
-from physics.jit import njit_inline, njit_lean
 
 Array = NDArray[np.float64]
 

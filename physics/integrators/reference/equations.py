@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit
 from physics.cage import CagePath
-from physics.jit import njit
 from physics.paths.depth_path import DepthPath
 from physics.paths.profile import build_path
 from physics.scene import Scene

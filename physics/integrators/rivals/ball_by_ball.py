@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from physics._jit import njit
 from physics.integrators.reference.equations import Equations, polynomial_at
-from physics.jit import njit
 
 Array = NDArray[np.float64]
 

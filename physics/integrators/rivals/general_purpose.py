@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import DOP853, RK45
 
+from physics._jit import CCallback, c_callback, njit, specialise
 from physics.assembly import assemble
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import Contacts, set_time
@@ -23,7 +24,6 @@ from physics.integrators.events import Way, quintic
 from physics.integrators.march import press_state
 from physics.integrators.reference.equations import Equations, write_equations
 from physics.integrators.rivals.ball_by_ball import ball_by_ball_slopes
-from physics.jit import CCallback, c_callback, njit, specialise
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from physics._jit import njit
 from physics.contact.power import power
-from physics.jit import njit
 
 
 @njit

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from physics._jit import njit
 from physics.contact.turning import cosine_sine
-from physics.jit import njit
 
 
 @njit

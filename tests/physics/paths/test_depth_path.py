@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import PPoly
 
-from physics.jit import njit
+from physics._jit import njit
 from physics.paths.depth_path import RELIEF_LEVELS, DepthPath, path_at, paths_of
 
 

@@ -50,8 +50,7 @@ def _read(
     Each ball's `times` (C,) rise; contact `begins` (C,) at them or is lost, and stood as in `initial` (B,) before.
     """
     for k in range(ball.size):
-        touches = initial[ball[k] - 1]
-        touches_at_entry, made_within, ended = touches, False, True
+        touches_at_entry, made_within, ended = initial[ball[k] - 1], False, True
         for change in range(first[ball[k] - 1], first[ball[k]]):
             time, made = times[change], begins[change]
             if time < max(entry[k], 0.0):

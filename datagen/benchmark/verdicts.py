@@ -13,7 +13,7 @@ from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.benchmark.votes import averaged, joined
-from labels.classifier.classes import CLASSES, HEALTHY, location_probability
+from labels.classifier.classes import called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule
 from labels.features.conditioning import Array
@@ -137,13 +137,7 @@ def vote(
     votes = joined(own, owner, records)
     levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
     margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
-    return votes, _called(votes, margin > 0.0), probability_of(alarm)
-
-
-def _called(votes: Array, alarming: NDArray[np.bool_]) -> NDArray[np.str_]:
-    """The class (R,) that follows from probabilities (R, 5): the likeliest spall of the records that are `alarming`."""
-    likeliest = np.array(CLASSES[1:])[votes[:, 1:].argmax(axis=1)]
-    return np.where(alarming, likeliest, HEALTHY)
+    return votes, called(votes, margin > 0.0), probability_of(alarm)
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

@@ -17,9 +17,13 @@ def decide(probability: Array, alarm: float | Array = EVEN) -> NDArray[np.str_]:
 
     `alarm` is one probability for all, or one for each (N,).
     """
-    spall = 1.0 - probability[:, 0]
+    return called(probability, 1.0 - probability[:, 0] > alarm)
+
+
+def called(probability: Array, alarming: NDArray[np.bool_]) -> NDArray[np.str_]:
+    """The class (N,) by probabilities (N, 5): the likeliest spall of what is `alarming` (N,), else healthy."""
     likeliest = np.asarray(CLASSES[1:])[probability[:, 1:].argmax(axis=1)]
-    return np.where(spall > alarm, likeliest, HEALTHY)
+    return np.where(alarming, likeliest, HEALTHY)
 
 
 def location_probability(probability: Array) -> Array:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from datagen.recipes.chain_settings import ChainSettings, ModeSettings
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import Picker
-from physics.checks import require_below_nyquist
 from physics.sensor.chain import SensorChain
 from physics.sensor.mode import SensorMode
 from physics.sensor.mounting import Mounting
@@ -23,14 +22,14 @@ def draw_chain(settings: ChainSettings, rate: float, draw: Draw) -> SensorChain:
     full_scale, bits = pick.optional(settings.recorder_range_m_s2), pick.whole(settings.recorder_bits)
     groups = [_draw_modes(group, draw.picker("sensor_modes", k)) for k, group in enumerate(settings.modes)]
     modes = tuple(mode for group in groups for mode in group)
-    for frequency in (*(mode.frequency for mode in modes), *(() if cutoff is None else (cutoff,))):
-        require_below_nyquist("frequency", frequency, rate)
-    return SensorChain(
+    chain = SensorChain(
         modes=modes,
         resonator_gain=gain,
         mounting=None if cutoff is None or order is None else Mounting(cutoff, order),
         recorder=None if full_scale is None or bits is None else Recorder(full_scale, bits),
     )
+    chain.check_rate(rate)
+    return chain
 
 
 def _draw_modes(settings: ModeSettings, pick: Picker) -> list[SensorMode]:

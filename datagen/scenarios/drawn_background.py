@@ -24,7 +24,6 @@ from physics.backgrounds.mains_hum import MainsHum
 from physics.backgrounds.pink import PinkNoise
 from physics.backgrounds.recording import draw_starts
 from physics.backgrounds.shaft_harmonics import ShaftHarmonics
-from physics.checks import require_below_nyquist
 
 
 def draw_background(settings: BackgroundSettings, rate: float, draw: Draw) -> Background:
@@ -65,7 +64,7 @@ def draw_noise_target(settings: BackgroundSettings, pick: Picker) -> NoiseTarget
 
 def _draw_pink(settings: PinkSettings, rate: float, pick: Picker) -> PinkNoise:
     noise = PinkNoise(pick.number(settings.rms_m_s2), pick.number(settings.lowest_hz), pick.number(settings.slope))
-    require_below_nyquist("frequency", noise.lowest, rate)
+    noise.check_rate(rate)
     return noise
 
 
@@ -100,9 +99,9 @@ def _draw_impulses(settings: ImpulseSettings, rate: float, pick: Picker) -> Impu
     resonances = tuple(
         Resonance(pick.number(settings.frequency_hz), pick.number(settings.damping)) for _ in range(count)
     )
-    for resonance in resonances:
-        require_below_nyquist("frequency", resonance.frequency, rate)
-    return Impulses(per_second, amplitude, spread, resonances)
+    knocks = Impulses(per_second, amplitude, spread, resonances)
+    knocks.check_rate(rate)
+    return knocks
 
 
 def _falling(amplitude: Distribution, decay: float, first: int, last: int, pick: Picker) -> tuple[float, ...]:

@@ -27,6 +27,10 @@ class Resonance:
         require_between("damping", self.damping, 0.0, 0.7, what="impulse damping")
         require_positive("damping", self.damping, what="impulse damping")
 
+    def check_rate(self, rate: float) -> None:
+        """Raise InvalidParameter unless the resonance lies below half the sampling `rate` (Hz)."""
+        require_below_nyquist("frequency", self.frequency, rate, what="impulse resonance")
+
 
 @dataclass(frozen=True)
 class Impulses:
@@ -46,6 +50,11 @@ class Impulses:
         require_between("spread", self.spread, 0.0, 5.0, what="impulse spread")
         require(bool(self.resonances), "impulses have no resonance to ring", "resonances")
 
+    def check_rate(self, rate: float) -> None:
+        """Raise InvalidParameter unless all resonances lie below half the sampling `rate` (Hz)."""
+        for resonance in self.resonances:
+            resonance.check_rate(rate)
+
 
 def impulses(generator: np.random.Generator, layer: Impulses, samples: int, rate: float) -> Array:
     """The knocks of one record (T, 2), m/s², each starting within it.
@@ -55,6 +64,7 @@ def impulses(generator: np.random.Generator, layer: Impulses, samples: int, rate
     height × share × (cos, sin)(direction) × exp(−2π ζ f τ) sin(2π f τ), τ being the time since it.
     InvalidParameter if a resonance does not lie below half the `rate` (Hz).
     """
+    layer.check_rate(rate)
     duration = samples / rate
     count = int(generator.poisson(layer.per_second * duration))
     instant = duration * generator.random(count)
@@ -73,7 +83,6 @@ def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int
     """Decaying sines (T, 2) that start at `instant` (N,) s with `strength` (N, 2), exact at the samples."""
     from scipy.signal import lfilter
 
-    require_below_nyquist("frequency", resonance.frequency, rate, what="impulse resonance")
     turn = 2.0 * math.pi * resonance.frequency / rate
     decay = math.exp(-resonance.damping * turn)
     first = np.ceil(instant * rate).astype(np.int64)

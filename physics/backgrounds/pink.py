@@ -28,6 +28,10 @@ class PinkNoise:
         require_positive("lowest", self.lowest, "Hz", what="pink lowest frequency")
         require_between("slope", self.slope, 0.0, STEEPEST, what="pink slope")
 
+    def check_rate(self, rate: float) -> None:
+        """Raise InvalidParameter unless the lowest frequency lies below half the sampling `rate` (Hz)."""
+        require_below_nyquist("lowest", self.lowest, rate, what="pink lowest frequency")
+
 
 def pink_noise(generator: np.random.Generator, noise: PinkNoise, samples: int, rate: float) -> Array:
     """Gaussian noise (T, 2), m/s², with nothing below the lowest frequency, the two axes independent.
@@ -36,7 +40,7 @@ def pink_noise(generator: np.random.Generator, noise: PinkNoise, samples: int, r
     density × rate / 2: the density belongs to the machine, whatever the length of the record. InvalidParameter if the
     lowest frequency does not lie below half the `rate` (Hz).
     """
-    require_below_nyquist("lowest", noise.lowest, rate, what="pink lowest frequency")
+    noise.check_rate(rate)
     white = np.fft.rfft(generator.standard_normal((samples, 2)), axis=0)
     frequency = np.asarray(np.fft.rfftfreq(samples, 1.0 / rate), dtype=np.float64)
     weight = np.sqrt(pink_density(noise, frequency, rate) * rate / 2.0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.checks import require_below_nyquist, require_not_negative
+from physics.checks import require_not_negative
 from physics.response.resampling import decimate
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
@@ -42,6 +42,13 @@ class SensorChain:
         """Frequency of the fastest mode, Hz; 0 without modes."""
         return max((mode.frequency for mode in self.modes), default=0.0)
 
+    def check_rate(self, rate: float) -> None:
+        """Raise InvalidParameter unless resonances and cutoff lie below half the sampling `rate` (Hz)."""
+        for mode in self.modes:
+            mode.check_rate(rate)
+        if self.mounting is not None:
+            self.mounting.check_rate(rate)
+
 
 def sensed(chain: SensorChain, trace: Trace) -> Array:
     """What the sensor gives (T, 2), m/s², before background and recorder.
@@ -60,7 +67,7 @@ def _of_outer_ring(modes: tuple[SensorMode, ...], trace: Trace) -> Array:
     if trace.outer_displacement is None or trace.outer_velocity is None or trace.outer_acceleration is None:
         raise ValueError("sensor modes need a trace that kept the outer ring's motion: simulate(..., keep_outer=True)")
     for mode in modes:
-        require_below_nyquist("frequency", mode.frequency, trace.rate)
+        mode.check_rate(trace.rate)
     motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
     raised = mode_accelerations(modes, *motion, trace.outer_rate)
     return decimate(raised, round(trace.outer_rate / trace.rate))

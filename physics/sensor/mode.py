@@ -32,10 +32,14 @@ class SensorMode:
     gain: float = 1.0
 
     def __post_init__(self) -> None:
-        require_positive("frequency", self.frequency, "Hz")
-        require_between("damping", self.damping, 0.0, HIGHEST_DAMPING)
-        require_positive("damping", self.damping)
+        require_positive("frequency", self.frequency, "Hz", what="sensor resonance")
+        require_between("damping", self.damping, 0.0, HIGHEST_DAMPING, what="sensor damping")
+        require_positive("damping", self.damping, what="sensor damping")
         require_finite("gain", self.gain)
+
+    def check_rate(self, rate: float) -> None:
+        """Raise InvalidParameter unless the resonance lies below half the sampling `rate` (Hz)."""
+        require_below_nyquist("frequency", self.frequency, rate, what="sensor resonance")
 
 
 def mode_accelerations(
@@ -48,7 +52,7 @@ def mode_accelerations(
     a resonance does not lie below half the rate.
     """
     for mode in modes:
-        require_below_nyquist("frequency", mode.frequency, rate)
+        mode.check_rate(rate)
     steps = [_discretised(mode, 1.0 / rate) for mode in modes]
     total = np.zeros_like(acceleration)
     _carry_modes(

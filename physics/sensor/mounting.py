@@ -25,6 +25,10 @@ class Mounting:
         require_positive("cutoff", self.cutoff, "Hz", what="mounting cutoff")
         require_count("order", self.order, 1, HIGHEST_ORDER, what="mounting order")
 
+    def check_rate(self, rate: float) -> None:
+        """Raise InvalidParameter unless the cutoff lies below half the sampling `rate` (Hz)."""
+        require_below_nyquist("cutoff", self.cutoff, rate, what="mounting cutoff")
+
 
 def mounted(mounting: Mounting, signal: Array, rate: float) -> Array:
     """The `signal` (T, 2) at `rate` (Hz) after the mounting, in its own unit.
@@ -35,6 +39,6 @@ def mounted(mounting: Mounting, signal: Array, rate: float) -> Array:
     """
     from scipy.signal import butter, sosfilt
 
-    require_below_nyquist("cutoff", mounting.cutoff, rate, what="mounting cutoff")
+    mounting.check_rate(rate)
     sections = butter(mounting.order, mounting.cutoff, fs=rate, output="sos")
     return np.asarray(sosfilt(sections, signal, axis=0))

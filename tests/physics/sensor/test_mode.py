@@ -74,10 +74,10 @@ def test_a_mode_of_a_spall_at_one_step_a_sample_agrees_with_an_adaptive_solver_o
 @pytest.mark.parametrize(
     ("fields", "told"),
     [
-        ((0.0, 0.1), r"frequency = 0\.0 Hz; it must be above 0"),
-        ((-5.0, 0.1), r"frequency = -5\.0 Hz"),
-        ((100.0, 0.0), r"damping = 0\.0; it must be above 0"),
-        ((100.0, 0.8), r"damping = 0\.8; allowed: 0 to 0\.7"),
+        ((0.0, 0.1), r"sensor resonance = 0\.0 Hz; it must be above 0"),
+        ((-5.0, 0.1), r"sensor resonance = -5\.0 Hz"),
+        ((100.0, 0.0), r"sensor damping = 0\.0; it must be above 0"),
+        ((100.0, 0.8), r"sensor damping = 0\.8; allowed: 0 to 0\.7"),
         ((100.0, 0.1, math.nan), "gain = nan; it must be finite"),
     ],
 )
@@ -88,5 +88,5 @@ def test_an_impossible_mode_is_refused_with_its_number(fields, told):
 
 def test_a_resonance_at_half_the_rate_is_refused():
     still = np.zeros((8, 2))
-    with pytest.raises(InvalidParameter, match=r"frequency = 500\.0 Hz; allowed: 0 to 500 Hz"):
+    with pytest.raises(InvalidParameter, match=r"sensor resonance = 500\.0 Hz; allowed: 0 to 500 Hz"):
         mode_accelerations([SensorMode(500.0, 0.1)], still, still, still, 1000.0)

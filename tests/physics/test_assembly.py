@@ -3,12 +3,12 @@
 import dataclasses
 import math
 
-import numpy as np
 import pytest
 from kernels import press, reset_contact, set_time
+from variants import slipping_cage
 
 from physics.assembly import assemble, ball_numbers
-from physics.cage import CagePath, draw_slip_knots
+from physics.cage import CagePath
 from physics.contact.forces import (
     BALL_ROWS,
     COMPRESSION,
@@ -27,11 +27,6 @@ def net_force(scene):
     press(contacts, *REST, *MOVING)
     reset_contact(contacts)
     return press(contacts, *REST, *MOVING)
-
-
-def slipping(scene, seed, start_angle, knot_time):
-    step, first, values = draw_slip_knots(np.random.default_rng(seed), 0.05, knot_time, 0.5)
-    return CagePath(scene.cage.nominal_speed, 0.5, start_angle, 0.02, step, first, values)
 
 
 def test_the_contact_angle_enters_as_its_cosine_to_the_power_n_plus_1(gearbox, build_scene):
@@ -68,7 +63,7 @@ def test_rows_of_one_cage_lie_side_by_side_and_rows_of_two_cages_apart(gearbox, 
 @pytest.mark.parametrize("time", [-0.01, 0.0, 0.1234, 0.4999, 0.5, 0.52])
 def test_the_kernels_read_the_cage_path_even_where_one_cage_has_fewer_knots(gearbox, build_scene, time):
     scene = build_scene(gearbox)
-    fine = slipping(scene, 2, 1.0, 0.02)
+    fine = slipping_cage(scene, 2, 1.0, 0.02)
     coarse = CagePath(scene.cage.nominal_speed, 0.5, 0.2, 0.02, 0.1, 0.0, (0.03, -0.04, 0.01, 0.02, -0.05, 0.04))
     contacts = assemble(dataclasses.replace(scene, cage=coarse, second_cage=fine))
     set_time(contacts, time)

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import _edges, impulse_response
@@ -18,10 +19,6 @@ from physics.statics.load_distribution import equilibrium
 from physics.statics.stiffness import stiffness_at, stiffness_trace
 
 RATE = 65536.0
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def nonlinear(scene, **choices):

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from measures import rms
+from variants import changed
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
@@ -15,14 +16,6 @@ from physics.spall import Spall
 
 RATE = 65536.0
 MORE_SUBSTEPS = 16
-
-
-def changed(scene, *, bearing=None, operation=None, spall=None, **fields):
-    """`scene` with fields of its bearing, operation and first spall changed, then its own."""
-    machine = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, **(bearing or {})))
-    run = dataclasses.replace(scene.operation, **(operation or {}))
-    first = tuple(dataclasses.replace(one, **(spall or {})) for one in scene.spalls[:1])
-    return dataclasses.replace(scene, **{"rig": machine, "operation": run, "spalls": first, **fields})
 
 
 def slower_second_cage(scene: Scene) -> CagePath:

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 
 import physics.response.march
 import physics.response.modal_case
@@ -13,10 +14,6 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.simulate import simulate
 
 RATE = 65536.0
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def with_rig(scene, **changes):

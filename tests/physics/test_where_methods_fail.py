@@ -1,10 +1,11 @@
 """The corners where methods fail: each ends with a trace that a finer run confirms, or with a typed outcome."""
 
-import dataclasses
 import math
 
 import numpy as np
 import pytest
+from measures import rms
+from variants import changed
 
 from physics.integrators.methods import MARCHES, METHODS
 from physics.integrators.output import Grid
@@ -28,19 +29,6 @@ STEPS = {
 }
 TOLERANCE = {"exponential_rk4": 3e-3, "runge_kutta4": 3e-3, "dormand_prince": 3e-3, "generalised_alpha": 3e-2}
 TOLERANCE |= dict.fromkeys(("exponential_adams2", "exponential_adams3", "exponential_adams4"), 3e-3)
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
-
-
-def changed(scene, *, bearing=None, rig=None, operation=None, spall=None, **fields):
-    """`scene` with fields of its bearing, rig, operation and spalls changed, then its own."""
-    machine = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, **(bearing or {})))
-    machine = dataclasses.replace(machine, **(rig or {}))
-    run = dataclasses.replace(scene.operation, **(operation or {}))
-    spalls = tuple(dataclasses.replace(one, **(spall or {})) for one in scene.spalls)
-    return dataclasses.replace(scene, rig=machine, operation=run, spalls=spalls, **fields)
 
 
 def tiny_fast_spall(scene):

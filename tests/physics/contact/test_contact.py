@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kernels import count_changes, of_ball, press, reset_contact, set_time, touches
+from variants import slipping_cage
 
 from physics.assembly import assemble, ball_numbers
-from physics.cage import CagePath, draw_slip_knots
 from physics.contact.forces import (
     ACTIVE,
     COMPRESSION,
@@ -115,11 +115,6 @@ def agree(scene, time=INSTANT, shift=REST, velocity=MOVING):
     return forces
 
 
-def slipping(scene, seed, start_angle=0.2):
-    step, first, values = draw_slip_knots(np.random.default_rng(seed), 0.05, 0.03, 0.5)
-    return CagePath(scene.cage.nominal_speed, 0.5, start_angle, 0.02, step, first, values)
-
-
 def spall(race, row=1, **changes):
     return dataclasses.replace(Spall(race, row, BOTTOM, 1.1, 4e-6, 0.4, 0.6), **changes)
 
@@ -161,7 +156,7 @@ def test_forces_over_spalls_are_the_plain_sum_over_the_balls(gearbox, build_scen
 @pytest.mark.parametrize("race", ["outer", "inner"])
 def test_a_slipping_cage_carries_its_balls_and_their_rates_along(gearbox, build_scene, race):
     scene = build_scene(gearbox, spall(race), spall(race, 2))
-    scene = dataclasses.replace(scene, cage=slipping(scene, 1), imperfections=Imperfections(waviness=WAVES))
+    scene = dataclasses.replace(scene, cage=slipping_cage(scene, 1), imperfections=Imperfections(waviness=WAVES))
     for time in (0.0021, 0.21, 0.49):
         agree(scene, time)
 
@@ -170,7 +165,7 @@ def test_two_cages_turn_their_rows_independently(gearbox, build_scene):
     scene = build_scene(gearbox, spall("outer"), spall("outer", 2))
     imperfect = Imperfections(waviness=WAVES, ball_deviation=DEVIATION)
     one = dataclasses.replace(
-        scene, cage=slipping(scene, 1), second_cage=slipping(scene, 2, 1.4), imperfections=imperfect
+        scene, cage=slipping_cage(scene, 1), second_cage=slipping_cage(scene, 2, 1.4), imperfections=imperfect
     )
     for time in (INSTANT, 0.21):
         agree(one, time)

@@ -5,16 +5,13 @@ import math
 
 import numpy as np
 import pytest
+from measures import rms
 from smooth import always_in_contact
 
 from physics.simulate import simulate
 
 RATE = 65536.0
 FINEST = 96
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def errors(scene, substeps):

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from measures import rms
 from smooth import always_in_contact
 
 from physics.integrators.generalised_alpha import ALPHA_F, ALPHA_M, BETA, GAMMA, RADIUS_AT_INFINITY
@@ -31,10 +32,6 @@ ON_LINE_SPALLS = {
     "exponential_adams3": (6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 32),
     "exponential_adams4": (3, 4, 6, 8, 12, 16, 24, 32),
 }
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def response(scene, method, substeps):

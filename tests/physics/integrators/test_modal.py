@@ -19,6 +19,7 @@ from kernels import (
     touches,
     turn,
 )
+from measures import rms
 from scipy.linalg import expm
 
 from physics.assembly import assemble
@@ -72,10 +73,6 @@ RATE = 65536.0
 STIFFNESS, DAMPING = (60e6, 95e6), (300.0, 500.0)
 # Places of (xi, vi, xo, vo, xr, vr) of one axis in the state (12,).
 PLACES = (0, 6, 2, 8, 4, 10)
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def matrix(rig, axis, k=None, c=None):

@@ -5,18 +5,13 @@ import math
 
 import numpy as np
 import pytest
+from variants import slipping_cage
 
-from physics.cage import CagePath, draw_slip_knots
 from physics.paths.passages import passages
 from physics.spall import Spall
 
 RACES = pytest.mark.parametrize("race", ["outer", "inner"])
 FINE = 200_001
-
-
-def slipping(scene, seed, start_angle, duration=0.5):
-    step, first, values = draw_slip_knots(np.random.default_rng(seed), 0.02, 0.03, duration)
-    return CagePath(scene.cage.nominal_speed, duration, start_angle, 0.01, step, first, values)
 
 
 def searched(scene, spall, arc, start, stop):
@@ -51,14 +46,14 @@ def agree(scene, index, arc, start, stop):
 @pytest.mark.parametrize("arc", [0.0, -0.3, 0.2])
 def test_passages_over_any_point_are_those_of_a_ball_by_ball_search(gearbox, build_scene, race, row, arc):
     scene = build_scene(gearbox, Spall(race, row, 4.7, 0.7, 1e-5))
-    scene = dataclasses.replace(scene, cage=slipping(scene, 1, 0.37))
+    scene = dataclasses.replace(scene, cage=slipping_cage(scene, 1, 0.37))
     assert agree(scene, 0, arc, 0.0, 0.5).time.size > 15
 
 
 @RACES
 def test_each_row_follows_its_own_cage(gearbox, build_scene, race):
     scene = build_scene(gearbox, Spall(race, 1, 4.7, 0.1, 1e-5), Spall(race, 2, 1.7, 0.1, 1e-5))
-    scene = dataclasses.replace(scene, cage=slipping(scene, 2, 0.1), second_cage=slipping(scene, 3, -8.0))
+    scene = dataclasses.replace(scene, cage=slipping_cage(scene, 2, 0.1), second_cage=slipping_cage(scene, 3, -8.0))
     for index in range(2):
         assert agree(scene, index, 0.05, 0.0, 0.5).time.size > 15
 
@@ -66,7 +61,7 @@ def test_each_row_follows_its_own_cage(gearbox, build_scene, race):
 @RACES
 def test_before_and_after_the_record_the_cage_goes_on_at_its_mean_speed(gearbox, build_scene, race):
     scene = build_scene(gearbox, Spall(race, 1, 4.7, 0.1, 1e-5))
-    scene = dataclasses.replace(scene, cage=slipping(scene, 4, 50.0))
+    scene = dataclasses.replace(scene, cage=slipping_cage(scene, 4, 50.0))
     found = agree(scene, 0, -0.05, -0.2, 0.8)
     assert found.time[0] < 0.0
     assert found.time[-1] > 0.5

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from measures import rms
 
 from physics.checks import InvalidParameter
 from physics.outcome import Outcome, SimulationFailed
@@ -15,10 +16,6 @@ from physics.simulate import simulate
 
 RATE = 65536.0
 LEAD_IN = 0.1
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def slipping(name, duration, lead_in=LEAD_IN, seed=1):

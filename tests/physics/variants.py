@@ -1,0 +1,22 @@
+"""Scenes that differ from a given one in some fields, and cages that slip at random."""
+
+import dataclasses
+
+import numpy as np
+
+from physics.cage import CagePath, draw_slip_knots
+
+
+def changed(scene, *, bearing=None, rig=None, operation=None, spall=None, **fields):
+    """`scene` with fields of its bearing, rig, operation and spalls changed, then its own."""
+    machine = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, **(bearing or {})))
+    machine = dataclasses.replace(machine, **(rig or {}))
+    run = dataclasses.replace(scene.operation, **(operation or {}))
+    spalls = tuple(dataclasses.replace(one, **(spall or {})) for one in scene.spalls)
+    return dataclasses.replace(scene, **{"rig": machine, "operation": run, "spalls": spalls, **fields})
+
+
+def slipping_cage(scene, seed, start_angle=0.2, correlation_time=0.03):
+    """The cage of `scene` for half a second with 2 % of slip that scatters by 5 %, from `start_angle` (rad) on."""
+    knots = draw_slip_knots(np.random.default_rng(seed), 0.05, correlation_time, 0.5)
+    return CagePath(scene.cage.nominal_speed, 0.5, start_angle, 0.02, *knots)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shutil
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from importlib.util import module_from_spec, spec_from_file_location
@@ -15,6 +16,9 @@ import numpy as np
 import pytest
 
 from datagen.benchmark.model_scores import Confusion, Scores
+from datagen.charts.contestants import contestants
+from datagen.charts.measure import Chart, measure
+from datagen.charts.scenes import find_subject
 from datagen.corpora.shard import finished_shards
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.records.record import Record, make_record
@@ -26,6 +30,8 @@ from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable
 from physics.outcome import Outcome, SimulationFailed
 from physics.spall import Spall
+
+sys.path.insert(0, str(Path(__file__).parent))  # so that tests can import command_line
 
 RATE, SAMPLES, ROWS, BALLS = 1000.0, 200, 2, 5
 TINY_RECIPE = """
@@ -98,6 +104,17 @@ def load_script() -> Callable[[str], ModuleType]:
         return module
 
     return load
+
+
+@pytest.fixture(scope="session")
+def small_chart() -> Chart:
+    """A chart of one method and one model over 0.12 s."""
+    subject = find_subject("F1", 0)
+    subject = replace(subject, scene=subject.lasting(0.12))
+    named = [one for one in contestants(subject.scene, quick=True) if one.name in ("exponential_rk4", "impulse train")]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("datagen.charts.measure.contestants", lambda scene, quick: named)
+        return measure(subject, quick=True, rounds=1, told=lambda what: None)
 
 
 @pytest.fixture(scope="session")

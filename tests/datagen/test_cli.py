@@ -7,9 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.files.plain import plain_json
 from datagen.versions import program_versions
 
@@ -29,12 +28,6 @@ COMMANDS = (
     "schema",
 )
 HEAVY = ("numpy", "numba", "xarray", "scipy", "pandas", "netCDF4", "pydantic", "joblib", "matplotlib", "rich")
-
-
-def run(*arguments: object) -> tuple[int, str, str]:
-    """Exit code, standard output and standard error of the command with these arguments, run in this process."""
-    done = CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
-    return done.exit_code, done.stdout, done.stderr
 
 
 def test_an_encoding_that_lacks_letters_ends_no_command() -> None:

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import h5py
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.corpora.shard import shard_path
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -42,17 +41,12 @@ COMMANDS = {
 }
 
 
-def run(*arguments: object) -> tuple[int, str]:
-    done = CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
-    return done.exit_code, done.stderr
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_shard_is_named_and_nothing_is_written(damage: str, command: str, copy: Path, tmp_path: Path) -> None:
     DAMAGES[damage](shard_path(copy, 0))
     out = tmp_path / "out"
-    code, told = run(*(part.replace("CORPUS", str(copy)).replace("OUT", str(out)) for part in COMMANDS[command]))
+    code, _, told = run(*(part.replace("CORPUS", str(copy)).replace("OUT", str(out)) for part in COMMANDS[command]))
     assert code == 2
     assert told.count("\n") == 1
     assert told.startswith(f"error: {shard_path(copy, 0)}: this shard ")
@@ -91,7 +85,7 @@ def test_check_says_how_to_mend_it_and_that_mends_it(
 ) -> None:
     path = shard_path(copy, 2)
     DAMAGES[damage](path)
-    code, told = run("check", copy)
+    code, _, told = run("check", copy)
     assert code == 1
     first = "" if damage == "missing" else "delete shards/shard_000002.nc and "
     again = f"run `spallgen generate` again with the same recipe and --out {copy}\n"
@@ -106,6 +100,6 @@ def test_check_says_how_to_mend_it_and_that_mends_it(
 
 def test_going_on_with_a_whole_corpus_says_that_only_sizes_were_compared(copy: Path, tiny_recipe: Path) -> None:
     flip(shard_path(copy, 2))
-    code, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
+    code, _, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
     assert code == 0
     assert "in files of the right size; `check` reads them" in told

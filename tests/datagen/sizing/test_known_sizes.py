@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
@@ -69,8 +68,7 @@ def corpus(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def size(*arguments: object) -> tuple[int, str, str]:
-    done = CliRunner().invoke(app, ["size", *map(str, arguments)], catch_exceptions=False)
-    return done.exit_code, done.stdout, done.stderr
+    return run("size", *arguments)
 
 
 def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Path, tmp_path: Path) -> None:

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
@@ -62,11 +61,6 @@ def sized_corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     assert generate(recipe, folder, engine=Engine(workers=1)).complete
     return folder
-
-
-def run(*arguments: object) -> tuple[int, str, str]:
-    done = CliRunner().invoke(app, [str(argument) for argument in arguments], catch_exceptions=False)
-    return done.exit_code, done.stdout, done.stderr
 
 
 def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(sized_corpus: Path) -> None:

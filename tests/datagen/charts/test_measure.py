@@ -1,0 +1,91 @@
+"""What is measured for a chart, and what is stored of it."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+from datagen.charts import contestants as entrants
+from datagen.charts import measure as measuring
+from datagen.charts.measure import Run, at_error
+from datagen.charts.scores import Score
+from datagen.charts.table import COLUMNS, chart_table
+from datagen.drawing.work_precision import (
+    work_precision_png,
+)
+from datagen.files.plain import plain_json
+from physics.integrators.methods import METHODS
+from physics.reference_scenes import reference_scene
+from physics.response.stability import longest_stable_step
+from physics.statics.load_distribution import equilibrium
+
+RATE = 65536.0
+PNG = b"\x89PNG\r\n"
+
+
+def test_speed_at_an_error_is_read_between_runs_on_logarithms():
+    def made(error, speed):
+        scored = Score(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
+        return Run("method", "m", "", 1.0, 1.0 / speed, speed, scored, "")
+
+    runs = [made(1e-2, 100.0), made(1e-4, 1.0)]
+    assert at_error(runs, "m", 1e-3) == pytest.approx(10.0, rel=1e-12)
+    assert at_error(runs, "m", 1e-5) is None
+    assert at_error(runs, "m", 0.1) == 100.0
+    assert at_error(runs, "other", 1e-3) is None
+
+
+def test_a_chart_holds_every_run_with_machine_and_versions(small_chart):
+    assert {run.name for run in small_chart.runs} == {"exponential_rk4", "impulse train"}
+    first = small_chart.runs[0]
+    assert first.real_time == pytest.approx(first.duration / first.seconds, rel=1e-12)
+    assert first.score.acceleration < 1e-3  # the goal of the reference scenes
+    assert set(small_chart.edges) == {"exponential_rk4"}
+    assert small_chart.made_with["numba"]
+
+
+def test_a_chart_says_on_what_it_was_measured(small_chart):
+    assert {"processor", "cores", "physics"} <= set(small_chart.made_with)
+
+
+def test_what_is_timed_has_been_run_whole_before_unless_that_is_slow(monkeypatch):
+    durations = []
+    clock = iter([0.0, 0.4, 1.0, 1.1, 2.0, 2.1, 3.0, 3.1])
+    monkeypatch.setattr(measuring.time, "process_time", lambda: next(clock))
+    one = entrants.Contestant("g", "n", "s", lambda scene, rate: durations.append(scene.duration), lambda *_: None)
+    assert measuring._timed(one, reference_scene("F1", 0.5), RATE, rounds=3)[0] == pytest.approx(0.1)
+    assert durations == [0.5] * 4  # the first, of 0.4 s, does not count
+    clock = iter([0.0, 0.6])
+    assert measuring._timed(one, reference_scene("F1", 0.5), RATE, rounds=3)[0] == pytest.approx(0.6)
+    assert durations == [0.5] * 5
+
+
+def test_a_chart_says_what_each_method_and_model_on_it_is_for_and_where_it_holds(small_chart):
+    assert {run.name for run in small_chart.runs} < set(small_chart.contracts)
+    assert small_chart.contracts["exponential_rk4"]["order"] == 4.0
+    for statement in ("computes", "holds_where", "leaves_out"):
+        assert len(str(small_chart.contracts["impulse train"][statement]).split()) > 5
+    written = json.loads(plain_json(small_chart))["contracts"]
+    assert written["impulse train"]["rings"] is True
+    assert written["modal"]["stability_limit"] is None  # infinite
+    assert small_chart.best["exponential_rk4"] > small_chart.runs[1].real_time / 2.0
+    assert work_precision_png(small_chart).startswith(PNG)
+
+
+def test_the_table_has_a_row_for_every_run(small_chart):
+    rows = list(csv.reader(chart_table(small_chart).splitlines()))
+    assert tuple(rows[0]) == COLUMNS
+    assert len(rows) == 1 + len(small_chart.runs)
+    assert all(len(row) == len(COLUMNS) for row in rows)
+
+
+def test_an_edge_is_the_speed_at_the_longest_stable_step_however_fine_the_run_it_is_told_from():
+    scene, name = reference_scene("F1", 0.1), "runge_kutta4"
+    # A step of one sample at ten times real time, or of a quarter of it at 2.5 times: the same cost a step.
+    runs = [Run("method", name, f"{steps} steps", 0.1, 0.01 * steps, 10.0 / steps, None, "") for steps in (1, 4)]
+    one, four = (measuring._edges(scene, RATE, [run])[name] for run in runs)
+    assert one == pytest.approx(four, rel=1e-12)
+    rest = equilibrium(scene, np.zeros(1))
+    longest = longest_stable_step(scene.rig, METHODS[name], rest.stiffness[0], rest.damping[0])
+    assert one == pytest.approx(10.0 * longest / (1.0 / RATE), rel=1e-12)

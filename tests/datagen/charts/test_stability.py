@@ -1,0 +1,56 @@
+"""Maps of where a method holds."""
+
+import dataclasses
+import json
+
+import numpy as np
+from command_line import run
+
+from datagen.charts import stability
+from physics.outcome import Outcome, SimulationFailed
+from physics.reference_scenes import reference_scene
+from physics.simulate import simulate
+
+RATE = 65536.0
+PNG = b"\x89PNG\r\n"
+
+
+def test_maps_tell_accurate_from_wrong_refused_and_unanswerable(monkeypatch, tmp_path):
+    small = dataclasses.replace(stability.SWEEPS[0], values=(1.0, 1e5))
+    monkeypatch.setattr(stability, "SWEEPS", (small,))
+    monkeypatch.setattr(stability, "MARCHES", {"exponential_rk4": None})
+    monkeypatch.setattr(stability, "DURATION", 0.02)
+    code, shown, _ = run("chart", "--stability", "--out", tmp_path)
+    assert code == 0
+    assert "stability_maps.png" in shown
+    maps = json.loads((tmp_path / "stability_maps.json").read_text())["maps"]
+    chosen, fixed = maps
+    assert chosen["method"] == "modal"
+    asked = stability.ACCURACIES.index(1e-3)
+    assert all(error < 1e-3 for error in (row[asked] for row in chosen["error"]))
+    soft, stiff = fixed["error"]
+    one_step = stability.STEPS.index(1.0)
+    assert soft[one_step] < 1e-3  # the goal of the reference scenes
+    assert fixed["limit"][0] > 1.0 > fixed["limit"][1]
+    assert stiff[one_step] is None or stiff[one_step] > 0.1
+    for one in maps:
+        words, errors = np.array(one["outcomes"]), np.array(one["error"], dtype=object)
+        assert np.array_equal(words == "value", errors != None)  # noqa: E711
+        ends = {each.name.lower().replace("_", " ") for each in Outcome}
+        assert set(words.ravel()) <= {"value", "not converged", *ends}
+    assert [row[one_step] for row in fixed["refused"]] == [False, True]
+    assert not np.any(chosen["refused"])
+    assert (tmp_path / "stability_maps.png").read_bytes().startswith(PNG)
+
+
+def test_a_step_is_refused_on_the_map_where_simulate_refuses_it():
+    soft = stability.SWEEPS[0].apply(reference_scene("G1", 0.01), 1e3)
+    limit = stability._limit(soft, "exponential_rk4")
+    assert 1.0 / 16.0 < limit < 1.0
+    for steps in stability.STEPS_A_SAMPLE:
+        try:
+            simulate(soft, stability.RATE, method="exponential_rk4", substeps=steps, estimate_error=False)
+            outcome = None
+        except SimulationFailed as failure:
+            outcome = failure.outcome
+        assert (outcome is Outcome.UNSTABLE_STEP) == stability._refused(1.0 / steps, limit)

@@ -1,0 +1,11 @@
+"""How progress is told."""
+
+from datagen.runs.progress import steps_told
+
+
+def test_progress_is_plain_lines_where_it_is_piped(capsys):
+    clock = iter([0.0, 1.0, 2.5])
+    with steps_told(lambda: next(clock)) as tell:
+        for step in ("1 of 3: a", "2 of 3: b", "3 of 3: c"):
+            tell(step)
+    assert capsys.readouterr().err == "1 of 3: a\n3 of 3: c\n"

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
+from datagen.drawing.close_up import CloseUp
 from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.features.turning import Turning
 from labels.kurtogram import most_impulsive_band
@@ -103,15 +104,10 @@ class MeasuredPortrait:
         return tuple(name for name in names if name in self.frequencies)
 
     @cached_property
-    def window(self) -> tuple[float, float]:
+    def window(self) -> CloseUp:
         """Start and end (s) of the close-up: a few revolutions about the largest amplitude."""
         shaft = self.frequencies.get("shaft")
         width = min(REVOLUTIONS_SHOWN / shaft if shaft else SHOWN_WITHOUT_SPEED, self.duration)
         peak = float(np.argmax(np.abs(self.main_axis - self.main_axis.mean()))) / self.rate
         start = min(max(peak - width / 2.0, 0.0), self.duration - width)
-        return start, start + width
-
-    def within(self, times: Array) -> slice:
-        """The part of rising `times` that lies in the close-up."""
-        first, last = np.searchsorted(times, self.window)
-        return slice(int(first), int(last))
+        return CloseUp(start, start + width)

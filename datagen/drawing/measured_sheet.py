@@ -113,7 +113,7 @@ def draw_whole(axes: Axes, portrait: MeasuredPortrait) -> None:
 
 def draw_close_up(axes: Axes, portrait: MeasuredPortrait) -> None:
     """A few revolutions, m/s² against ms."""
-    part = portrait.within(portrait.time)
+    part = portrait.window.part(portrait.time)
     axes.plot(portrait.time[part] * 1e3, portrait.main_axis[part], color=BLUE, linewidth=0.8)
     axes.set(xlim=(portrait.window[0] * 1e3, portrait.window[1] * 1e3), ylabel="m/s²", xlabel="time (ms)")
     axes.set_title("Close-up about the largest amplitude")

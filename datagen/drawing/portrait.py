@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.drawing.close_up import CloseUp
 from labels.description import largest_spall
 from labels.truth import PassTable
 from physics.scene import Scene
@@ -102,19 +103,14 @@ class Portrait:
         return self.scene.spalls[int(self.passes.defect[self.shown_pass])]
 
     @cached_property
-    def window(self) -> tuple[float, float]:
+    def window(self) -> CloseUp:
         """Start and end (s) of the close-up: a few ball passes."""
         width = PASSES_SHOWN / self.frequencies[self.defect_frequency]
         centre = self.duration / 2.0
         if self.shown_pass is not None:
             centre = (self.passes.entry_time[self.shown_pass] + self.passes.exit_time[self.shown_pass]) / 2.0
         start = min(max(centre - width / 2.0, 0.0), max(self.duration - width, 0.0))
-        return start, min(start + width, self.duration)
-
-    def within(self, times: Array) -> slice:
-        """The part of rising `times` that lies in the close-up."""
-        first, last = np.searchsorted(times, self.window)
-        return slice(int(first), int(last))
+        return CloseUp(start, min(start + width, self.duration))
 
 
 def _peak(signal: Array, rate: float, start: float, stop: float) -> float:

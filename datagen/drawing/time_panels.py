@@ -47,7 +47,7 @@ def draw_part(axes: Axes, portrait: Portrait, signal: Array, colour: str, title:
 
 def draw_close_up(axes: Axes, portrait: Portrait) -> None:
     """A few ball passes of the trace in ms, with the release and regain of each ball."""
-    _draw_signal(axes, portrait, portrait.within(portrait.time), 1e3)
+    _draw_signal(axes, portrait, portrait.window.part(portrait.time), 1e3)
     table = portrait.passes
     for times, colour, name in (
         (table.release_time, VERMILLION, "release of a ball"),

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.recording_settings import RecordedLayerSettings
-from datagen.settings.table import Between, Table, Whole, at_most_one, refuse
+from datagen.settings.table import Between, Table, Whole, at_most_one, refuse, rising
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
 from physics.backgrounds.impulses import MOST_PER_SECOND
 from physics.backgrounds.pink import STEEPEST
@@ -35,18 +35,12 @@ class PinkSettings(Table):
 class ShaftSettings(Table):
     """Tones at whole multiples of the shaft's frequency."""
 
-    orders: tuple[Order, Order] = Field(default=(1, 4), strict=False)
+    orders: Annotated[tuple[Order, Order], AfterValidator(rising)] = Field(default=(1, 4), strict=False)
     """First and last multiple."""
     amplitude_m_s2: NotNegative
     """Amplitude of the first order on each axis, m/s²; drawn anew for each order."""
     decay: Decay = Fixed(1.0)
     """The amplitude of order k is multiplied by (first order / k) to this power."""
-
-    @model_validator(mode="after")
-    def _rising_orders(self) -> ShaftSettings:
-        if self.orders[0] > self.orders[1]:
-            raise refuse("the first order comes first", "orders", "[first order, last order]")
-        return self
 
 
 class GearSettings(Table):

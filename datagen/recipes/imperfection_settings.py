@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.machine_settings import Degrees, NotNegative
-from datagen.settings.table import Between, OneOf, Table, refuse
+from datagen.settings.table import Between, OneOf, Table, rising
 from physics.bearing import RACES
 
 Order = Annotated[int, Field(ge=1, le=2000)]
@@ -19,7 +19,7 @@ class WavinessSettings(Table):
 
     race: Annotated[Distribution, OneOf(RACES)]
     """The wavy race."""
-    orders: tuple[Order, Order] = Field(strict=False)
+    orders: Annotated[tuple[Order, Order], AfterValidator(rising)] = Field(strict=False)
     """First and last order (waves round the race)."""
     amplitude_um: NotNegative
     """Amplitude of the first order, µm; drawn anew for each order."""
@@ -27,12 +27,6 @@ class WavinessSettings(Table):
     """The amplitude of order k is multiplied by (first order / k) to this power."""
     phase_deg: Degrees = Uniform(0.0, 360.0)
     """Phase of each order, degrees."""
-
-    @model_validator(mode="after")
-    def _rising_orders(self) -> WavinessSettings:
-        if self.orders[0] > self.orders[1]:
-            raise refuse("the first order comes first", "orders", "[first order, last order]")
-        return self
 
 
 class ImperfectionSettings(Table):

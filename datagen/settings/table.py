@@ -173,6 +173,13 @@ def refuse(problem: str, field: str = "", allowed: str = "") -> PydanticCustomEr
     return PydanticCustomError("settings", "{problem}", {"problem": problem, "field": field, "allowed": allowed})
 
 
+def rising(orders: tuple[int, int]) -> tuple[int, int]:
+    """The `orders`; raises PydanticCustomError unless the first comes first."""
+    if orders[0] > orders[1]:
+        raise refuse("the first order comes first", allowed="[first order, last order]")
+    return orders
+
+
 def at_most_one(table: BaseModel, *fields: str) -> None:
     """Raise PydanticCustomError if more than one of these settings is given."""
     given = [field for field in fields if getattr(table, field) is not None]

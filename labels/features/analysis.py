@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from labels.features.combs import without_combs
 from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_mains, without_shaft
@@ -72,12 +73,12 @@ class Analysis:
 
     @cached_property
     def envelope_lines(self) -> Lines:
-        """Lines of the envelope spectra, without those of the shaft and of the mains."""
+        """Lines of the envelope spectra, without those of the shaft, of the mains and of other shafts that knock."""
         excess = self.envelopes.excess
         if self.record.turning is None:
             excess = without_mains(excess, self.envelopes.step)
         excess = without_shaft(excess, self.envelopes.step, self.speed.shaft_hz)
-        return lines_in(excess, self.envelopes.step)
+        return lines_in(without_combs(excess, self.envelopes.step, self.kinematics), self.envelopes.step)
 
     @cached_property
     def all_envelope_lines(self) -> Lines:

@@ -17,6 +17,10 @@ from numpy.typing import NDArray
 from labels.features.conditioning import Array
 
 HARMONICS = 4
+STANDS_OUT = 4.0
+"""Nats that noise gives one line in 500."""
+KNEE = 12.0
+"""Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not decide alone."""
 WIDTHS = (0.0, 0.02, 0.06)
 """Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so."""
 HANN_BINS = 1.5
@@ -29,6 +33,8 @@ STEADY_MAINS = 0.001
 COARSEST_STEP = 1.3
 SHAFT_MARGIN = 0.025
 """Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family."""
+WIDEST_MARGIN = 0.12
+"""The most orders that components are counted out around each multiple: more would take a large part of the axis."""
 
 
 @dataclass(frozen=True)
@@ -59,14 +65,25 @@ def lines_in(excess: Array, step: float) -> Lines:
 
 
 def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
-    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1."""
-    margin = max(SHAFT_MARGIN * shaft_hz, 1.01 * step)
-    # In a record of few turns the margin would cover a large part of the axis; then it counts nothing out.
-    if margin > 0.12 * shaft_hz:
+    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1.
+
+    In a record of so few turns that the margin would cover a large part of the axis nothing is left out.
+    """
+    margin = multiple_margin(step, shaft_hz)
+    if margin > WIDEST_MARGIN * shaft_hz:
         return excess
-    order = np.arange(excess.shape[-1]) * step / shaft_hz
-    near = (np.abs(order - np.round(order)) * shaft_hz <= margin) & (order > 0.5)
-    return np.where(near, 1.0, excess)
+    return np.where(near_multiples(excess.shape[-1], step, shaft_hz, margin), 1.0, excess)
+
+
+def multiple_margin(step: float, shaft_hz: float) -> float:
+    """How near (Hz) to a multiple of a rotating part's rate a component of the envelope counts as one."""
+    return max(SHAFT_MARGIN * shaft_hz, 1.01 * step)
+
+
+def near_multiples(count: int, step: float, rate: float, margin: float) -> NDArray[np.bool_]:
+    """Which of `count` components, `step` (Hz) apart from 0, lie within `margin` (Hz) of a multiple of `rate` (Hz)."""
+    order = np.arange(count) * step / rate
+    return np.asarray((np.abs(order - np.round(order)) * rate <= margin) & (order > 0.5))
 
 
 def without_mains(excess: Array, step: float) -> Array:
@@ -109,6 +126,11 @@ def harmonic_evidence(lines: Lines, fundamentals: Array, shaft_hz: float, width:
         components = max(2.0 * float(half) / lines.step / HANN_BINS, 1.0)
         found.append(evidence(lines.mean(k * fundamentals, half), components))
     return np.stack(found)
+
+
+def tempered(nats: Array) -> Array:
+    """Evidence of single lines, those far above KNEE by their logarithm."""
+    return np.asarray(KNEE * np.log1p(nats / KNEE))
 
 
 @dataclass(frozen=True)

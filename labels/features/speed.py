@@ -8,7 +8,7 @@ import numpy as np
 
 from labels.features.conditioning import FEWEST_BINS, Array, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
-from labels.features.families import Lines, find_family, harmonic_evidence, lines_in
+from labels.features.families import STANDS_OUT, Lines, find_family, harmonic_evidence, lines_in, tempered
 from labels.features.kinematics import Kinematics
 
 SPEED_TOLERANCE = 0.022
@@ -24,11 +24,7 @@ PLACES = (45, 800)
 """Fewest and most speeds that are tried."""
 BINS_BETWEEN = 0.5
 """How far apart, in components of the spectrum, the highest harmonics of neighbouring speeds lie."""
-KNEE = 12.0
-"""Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not set the speed."""
 DECISIVE = 12.0
-STANDS_OUT = 4.0
-"""Nats that noise gives one line in 500."""
 MORE_LINES = 4
 """By how many lines that stand out a speed must lead to be taken for a better one."""
 
@@ -66,8 +62,8 @@ def refine_speed(
     places = max(PLACES[0], min(count, PLACES[1])) // 2 * 2 + 1 if tolerance > 0.0 else 1
     factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
     speeds = known.shaft_hz * factors
-    shaft = _tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
-    modulation = _tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
+    shaft = tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
+    modulation = tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
     comb = shaft.sum(axis=0) + modulation.sum(axis=0)
     joint = comb + _families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
     place = int(joint.argmax())
@@ -94,15 +90,11 @@ def _sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float
     for lines, harmonics, _ in found:
         nats = harmonic_evidence(lines, known.shaft_hz * factors, known.shaft_hz, 0.0, harmonics)[:, 0]
         standing += np.minimum(nats, STANDS_OUT).sum(axis=0)
-        height += _tempered(nats).sum(axis=0)
+        height += tempered(nats).sum(axis=0)
     if standing.max() < standing[steps] + MORE_LINES * STANDS_OUT:
         return factor
     # Strong lines stand out some components beside their middle too.
     return float(factors[np.where(standing > standing.max() - STANDS_OUT, height, 0.0).argmax()])
-
-
-def _tempered(nats: Array) -> Array:
-    return np.asarray(KNEE * np.log1p(nats / KNEE))
 
 
 def _families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array) -> Array:

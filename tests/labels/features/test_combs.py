@@ -1,0 +1,103 @@
+"""Combs of other shafts, on spectra of noise with lines at written places."""
+
+import numpy as np
+import pytest
+
+from labels.features.analysis import analyse
+from labels.features.combs import foreign_combs, without_combs
+from labels.features.families import find_family
+from labels.features.kinematics import bearing_kinematics
+
+STEP, SHAFT, COUNT = 0.1, 30.0, 8000
+BEARING = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, SHAFT)
+BANDS = 7
+
+
+def spectrum(*lines, height=40.0, seed=0):
+    """Exponential noise (BANDS, COUNT) with `lines` (Hz) of that `height` over it in every band."""
+    excess = np.random.default_rng(seed).exponential(size=(BANDS, COUNT))
+    at = np.round(np.array(lines) / STEP).astype(int)
+    excess[:, at[at < COUNT]] += height
+    return excess
+
+
+def multiples(rate, count):
+    return [k * rate for k in range(1, count + 1)]
+
+
+@pytest.mark.parametrize("order", [0.173, 0.31, 0.55, 1.37, 2.13])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_comb_is_found_at_its_rate_and_its_lines_are_set_to_the_floor(order, seed):
+    rate = order * SHAFT
+    excess = spectrum(*multiples(rate, 200), seed=seed)
+    assert foreign_combs(excess, STEP, BEARING) == pytest.approx([rate], abs=STEP / 10)
+    left = without_combs(excess, STEP, BEARING)
+    at = np.round(np.array([k * rate for k in range(1, 24)]) / STEP).astype(int)
+    assert np.all(left[:, at[at < COUNT]] == 1.0)
+    away = np.abs(np.arange(COUNT) * STEP / rate % 1.0 - 0.5) < 0.3
+    assert np.array_equal(left[:, away], excess[:, away])
+
+
+def test_a_comb_whose_every_other_line_is_strong_is_told_by_all():
+    rate = 0.31 * SHAFT
+    excess = spectrum(*multiples(rate, 200), height=15.0)
+    strong = np.round(np.array(multiples(2.0 * rate, 100)) / STEP).astype(int)
+    excess[:, strong[strong < COUNT]] += 200.0
+    assert foreign_combs(excess, STEP, BEARING)[0] == pytest.approx(rate, abs=STEP / 10)
+
+
+def test_two_shafts_are_both_found():
+    excess = spectrum(*multiples(0.31 * SHAFT, 200), *multiples(1.37 * SHAFT, 60))
+    assert sorted(foreign_combs(excess, STEP, BEARING)) == pytest.approx([0.31 * SHAFT, 1.37 * SHAFT], abs=STEP / 10)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_has_none(seed):
+    assert foreign_combs(spectrum(seed=seed), STEP, BEARING) == []
+
+
+def faulty(carrier, turns, cages):
+    """Lines of a fault: harmonics 1 to 6 of the `carrier` (orders) with that many sidebands of shaft and cage."""
+    beside = [j + k * BEARING.ftf for j in range(-turns, turns + 1) for k in range(-cages, cages + 1)]
+    return [(i * carrier + away) * SHAFT for i in range(1, 7) for away in beside if i * carrier + away > 0.0]
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        faulty(BEARING.bpfo * 0.99, 2, 2),
+        faulty(BEARING.bpfi * 1.01, 5, 1),
+        faulty(2.0 * BEARING.ball_spin, 1, 3),
+        multiples(BEARING.ftf * SHAFT, 100),
+        multiples((1.0 - BEARING.ftf) * SHAFT, 60),
+        multiples(SHAFT, 30),
+        multiples(0.5 * SHAFT, 60),
+    ],
+    ids=["outer race", "inner race", "ball", "cage over outer", "cage over inner", "shaft", "half the shaft"],
+)
+def test_what_a_bearing_makes_is_no_comb_of_another_shaft(lines):
+    assert foreign_combs(spectrum(*lines), STEP, BEARING) == []
+
+
+def test_a_comb_beside_a_fault_leaves_the_faults_lines():
+    fault = faulty(BEARING.bpfo, 1, 0)
+    excess = spectrum(*fault, *multiples(0.31 * SHAFT, 200))
+    assert foreign_combs(excess, STEP, BEARING) == pytest.approx([0.31 * SHAFT], abs=STEP / 10)
+    carriers = np.round(np.array(multiples(BEARING.bpfo * SHAFT, 6)) / STEP).astype(int)
+    assert np.count_nonzero(without_combs(excess, STEP, BEARING)[0, carriers] > 20.0) >= 4
+
+
+def test_a_record_of_few_turns_tells_none():
+    coarse = 0.15 * SHAFT
+    excess = np.random.default_rng(0).exponential(size=(BANDS, 200))
+    excess[:, ::3] += 40.0
+    assert foreign_combs(excess, coarse, BEARING) == []
+    assert np.array_equal(without_combs(excess, coarse, BEARING), excess)
+
+
+def test_families_are_looked_for_without_the_combs_of_other_shafts(impulse_train):
+    order = 0.55
+    found = analyse(impulse_train(order, duration=6.0, shaft_hz=SHAFT, snr_db=-3.0), 20_000.0, BEARING)
+    whole = find_family(found.all_envelope_lines, order * SHAFT, 0.01, SHAFT, 0.01)
+    assert whole.evidence.max() > 100.0
+    assert found.envelope_family(order).evidence.max() < 5.0

@@ -6,7 +6,7 @@ import errno
 import os
 import socket
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
@@ -53,12 +53,19 @@ def write_file(path: Path, data: bytes, option: str) -> None:
 
 
 def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
-    """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput."""
+    """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput.
+
+    Where the first of them cannot be written, a folder that was not there before is not left there either.
+    """
+    new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             write_atomically(folder / name, content)
     except OSError as problem:
+        if new:
+            with suppress(OSError):
+                folder.rmdir()
         raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from datagen.errors import BadInput
-from datagen.files.atomic import locked, sweep_temporaries, write_atomically, write_file
+from datagen.files.atomic import locked, sweep_temporaries, write_atomically, write_file, write_results
 
 ROOT = Path(__file__).parents[3]
 
@@ -99,3 +99,20 @@ def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Pat
 def test_a_file_that_cannot_be_written_is_told_with_its_option(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="--save: cannot write this file: No such file or directory"):
         write_file(tmp_path / "absent" / "model", b"", "--save")
+
+
+@pytest.mark.parametrize("there", [False, True], ids=["a new folder", "a folder that is there"])
+def test_results_that_do_not_fit_leave_the_disk_as_it_was(
+    there: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(descriptor: int) -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    folder = tmp_path / "results"
+    if there:
+        folder.mkdir()
+    with pytest.raises(BadInput, match="cannot write here: no space left on device"):
+        write_results(folder, {"a.json": b"{}", "a.png": b"png"})
+    assert folder.exists() == there
+    assert list(tmp_path.rglob("*")) == ([folder] if there else [])

@@ -7,7 +7,15 @@ from numpy.typing import NDArray
 
 from physics._jit import njit_inline
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, VELOCITY, Motion, weigh
-from physics.integrators.modal.layout import INSIDE_OTHER, OTHER, POWERS, POWERS_AT, SECTION
+from physics.integrators.modal.layout import (
+    INSIDE_OTHER,
+    OTHER,
+    POWERS,
+    POWERS_AT,
+    READ_TWICE,
+    SECTION,
+    TURN_NUMBERS,
+)
 
 Array = NDArray[np.float64]
 
@@ -17,7 +25,7 @@ def turn(weights: Array, first: int, stride: int, start: Array, end: Array) -> N
     """Put into `end` (12,) the amplitudes `start` after the free turn from `first` on, along y `stride` further."""
     for axis in range(2):
         for pair in range(PAIRS):
-            place, part = axis * stride + first + 4 * pair, axis * AXIS + 2 * pair
+            place, part = axis * stride + first + TURN_NUMBERS * pair, axis * AXIS + 2 * pair
             a, b = start[part], start[part + 1]
             end[part] = weights[place] * a + weights[place + 1] * b
             end[part + 1] = weights[place + 2] * a + weights[place + 3] * b
@@ -68,7 +76,7 @@ def free_motion(weights: Array, first: int, start: Array, rest: Array) -> Motion
 def pushed(weights: Array, first: int, power: int, motion: Motion, force: tuple[float, float]) -> Motion:
     """Relative `motion` with what a `force` (N, N) times one power of the share of the step adds, by the weights from
     `first` on."""
-    along_x, along_y = first + 2 * power, OTHER + first + 2 * power
+    along_x, along_y = first + READ_TWICE * power, OTHER + first + READ_TWICE * power
     return (
         motion[0] + weights[along_x] * force[0],
         motion[1] + weights[along_y] * force[1],

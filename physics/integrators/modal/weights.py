@@ -25,9 +25,11 @@ from physics.integrators.modal.layout import (
     OTHER,
     POWERS,
     POWERS_AT,
+    READ_TWICE,
     RING_PUSHED,
     SECTION,
     TURN,
+    TURN_NUMBERS,
 )
 from physics.integrators.modal.phi import double, phi_functions, product
 
@@ -50,11 +52,12 @@ def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
         for place in range(axis * OTHER + AT_HALF, axis * OTHER + KICKS):
             weights[place] = 0.0
     for pair in range(2 * PAIRS):
-        axis, here = pair // PAIRS, 2 * (pair % PAIRS)
-        base, re, im, twist = axis * OTHER, 2 * pair, 2 * pair + 1, flow.twist[pair]
+        axis, own = divmod(pair, PAIRS)
+        here, base = 2 * own, axis * OTHER
+        re, im, twist = 2 * pair, 2 * pair + 1, flow.twist[pair]
         double(twist, half, whole, pair)
-        set_turn(weights, base + TURN + 2 * here, twist, whole[0, re], whole[0, im])
-        for read in range(2):
+        set_turn(weights, base + TURN + TURN_NUMBERS * own, twist, whole[0, re], whole[0, im])
+        for read in range(READ_TWICE):
             a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
             place = base + AXIS * read + here
             weights[place + HALF], weights[place + HALF + 1] = _read_turned(twist, a, b, half[0, re], half[0, im])
@@ -66,16 +69,16 @@ def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
             )
             place = base + KICKS + POWERS * here + power
             weights[place], weights[place + POWERS] = real, imaginary
-            for read in range(2):
+            for read in range(READ_TWICE):
                 a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
-                weights[base + AT_END + 2 * power + read] += a * real + b * imaginary
+                weights[base + AT_END + READ_TWICE * power + read] += a * real + b * imaginary
             if power < HALF_POWERS:
                 real, imaginary = product(
                     twist, early * flow.kick[re], early * flow.kick[im], half[power + 1, re], half[power + 1, im]
                 )
-                for read in range(2):
+                for read in range(READ_TWICE):
                     a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
-                    weights[base + AT_HALF + 2 * power + read] += a * real + b * imaginary
+                    weights[base + AT_HALF + READ_TWICE * power + read] += a * real + b * imaginary
             scale *= power + 1.0
             early *= 0.5 * (power + 1.0)
 
@@ -98,13 +101,14 @@ def set_inside(flow: LinearFlow, inside: Array, step: float, phi: Array) -> None
         weights[:] = 0.0
         phi_functions(flow.rate, flow.twist, share * step, phi)
         for pair in range(2 * PAIRS):
-            axis, here = pair // PAIRS, 2 * (pair % PAIRS)
-            base, re, im, twist = axis * INSIDE_OTHER, 2 * pair, 2 * pair + 1, flow.twist[pair]
+            axis, own = divmod(pair, PAIRS)
+            here, base = 2 * own, axis * INSIDE_OTHER
+            re, im, twist = 2 * pair, 2 * pair + 1, flow.twist[pair]
             for section in range(len(INSIDE_READINGS)):
                 a, b = flow.read[INSIDE_READINGS[section], re], flow.read[INSIDE_READINGS[section], im]
                 place = base + SECTION * section + here
                 weights[place], weights[place + 1] = _read_turned(twist, a, b, phi[0, re], phi[0, im])
-            set_turn(weights, base + INSIDE_TURN + 2 * here, twist, phi[0, re], phi[0, im])
+            set_turn(weights, base + INSIDE_TURN + TURN_NUMBERS * own, twist, phi[0, re], phi[0, im])
             scale = share * step
             for power in range(POWERS):
                 real, imaginary = product(

@@ -93,7 +93,7 @@ def local_mean_power(power: Array, block: int) -> Array:
     block = max(2, min(block, size))
     hop = max(1, block // 2)
     starts = np.arange(0, size - block + 1, hop)
-    medians = np.stack([np.median(power[..., start : start + block], axis=-1) for start in starts], axis=-1)
+    medians = np.median(np.lib.stride_tricks.sliding_window_view(power, block, axis=-1)[..., ::hop, :], axis=-1)
     tiny = np.finfo(np.float64).tiny
     levels = np.log(np.maximum(medians / MEDIAN_OVER_MEAN, tiny))
     return np.exp(_linear_between(starts + 0.5 * (block - 1), levels, size))

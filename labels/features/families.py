@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.conditioning import Array
+from physics._jit import njit_inline, njit_lean
 
 HARMONICS = 4
 STANDS_OUT = 4.0
@@ -44,18 +45,42 @@ class Lines:
     cumulated: Array
     step: float
 
-    def mean(self, centres: Array, half_width: Array) -> Array:
-        """Mean excess (B, …) over centres ± half_width, in the unit of `step`; 0 beyond the spectrum's end."""
-        low, high = self._read(centres - half_width), self._read(centres + half_width)
-        beyond = (centres + half_width) > self.step * (self.cumulated.shape[-1] - 1.5)
-        return np.where(beyond, 0.0, (high - low) * (self.step / (2.0 * half_width)))
+    def means(self, centres: Array, half_widths: Array) -> Array:
+        """Mean excess (H, B, N) over `centres` (H, N) ± `half_widths` (H,), in the unit of `step`; 0 beyond the end."""
+        found = np.empty((len(centres), len(self.cumulated), centres.shape[1]))
+        _read_means(self.cumulated, self.step, centres, half_widths, found)
+        return found
 
-    def _read(self, place: Array) -> Array:
-        # Component j covers (j − 1/2 … j + 1/2) steps; the cumulated sum at its left edge is entry j.
-        inner = np.clip(place / self.step + 0.5, 0.0, self.cumulated.shape[-1] - 1.0)
-        left = np.minimum(inner.astype(np.int64), self.cumulated.shape[-1] - 2)
-        share = inner - left
-        return np.asarray(self.cumulated[..., left] * (1.0 - share) + self.cumulated[..., left + 1] * share)
+
+@njit_lean
+def _read_means(cumulated: Array, step: float, centres: Array, half_widths: Array, found: Array) -> None:
+    """Fill `found` (H, B, N) as `Lines.means` says."""
+    size = cumulated.shape[1]
+    end = step * (size - 1.5)
+    for k in range(centres.shape[0]):
+        half = half_widths[k]
+        scale = step / (2.0 * half)
+        for n in range(centres.shape[1]):
+            if centres[k, n] + half > end:
+                found[k, :, n] = 0.0
+                continue
+            first, early = _place((centres[k, n] - half) / step, size)
+            last, late = _place((centres[k, n] + half) / step, size)
+            for band in range(cumulated.shape[0]):
+                low = cumulated[band, first] * (1.0 - early) + cumulated[band, first + 1] * early
+                high = cumulated[band, last] * (1.0 - late) + cumulated[band, last + 1] * late
+                found[k, band, n] = (high - low) * scale
+
+
+@njit_inline
+def _place(component: float, size: int) -> tuple[int, float]:
+    """Entry of `size` cumulated sums at or below a `component`, and how far beyond it lies towards the next.
+
+    Component j covers (j − 1/2 … j + 1/2) steps; the cumulated sum at its left edge is entry j.
+    """
+    inside = min(max(component + 0.5, 0.0), size - 1.0)
+    entry = min(int(inside), size - 2)
+    return entry, inside - entry
 
 
 def lines_in(excess: Array, step: float) -> Lines:
@@ -120,12 +145,10 @@ def evidence(ratio: Array, components: Array | float) -> Array:
 
 def harmonic_evidence(lines: Lines, fundamentals: Array, shaft_hz: float, width: float, harmonics: int) -> Array:
     """Evidence (H, B, N) of each harmonic of N `fundamentals` (Hz) at one of WIDTHS."""
-    found = []
-    for k in range(1, harmonics + 1):
-        half = np.maximum(0.5 * k * width * shaft_hz, 0.75 * lines.step)
-        components = max(2.0 * float(half) / lines.step / HANN_BINS, 1.0)
-        found.append(evidence(lines.mean(k * fundamentals, half), components))
-    return np.stack(found)
+    order = np.arange(1.0, harmonics + 1.0)
+    half = np.maximum(0.5 * order * width * shaft_hz, 0.75 * lines.step)
+    components = np.maximum(2.0 * half / lines.step / HANN_BINS, 1.0)
+    return evidence(lines.means(order[:, None] * fundamentals, half), components[:, None, None])
 
 
 def tempered(nats: Array) -> Array:
@@ -186,12 +209,9 @@ def _stronger(old: Family, new: Family) -> Family:
 
 def sideband_evidence(lines: Lines, fundamental: Array, spacing: float, shaft_hz: float, harmonics: int = 2) -> Array:
     """Evidence (B,) of the first sidebands, `spacing` (Hz) apart from the harmonics of one fundamental a band."""
-    half = np.maximum(0.02 * shaft_hz, 0.75 * lines.step)
-    components = max(2.0 * float(half) / lines.step / HANN_BINS, 1.0)
+    half = max(0.02 * shaft_hz, 0.75 * lines.step)
+    components = max(2.0 * half / lines.step / HANN_BINS, 1.0)
+    places = [k * fundamental + sign * spacing for k in range(1, harmonics + 1) for sign in (-1.0, 1.0)]
     bands = np.arange(fundamental.size)
-    total = np.zeros(fundamental.size)
-    for k in range(1, harmonics + 1):
-        for sign in (-1.0, 1.0):
-            centres = k * fundamental + sign * spacing
-            total += evidence(lines.mean(centres, half)[bands, bands], components)
-    return total
+    ratio = lines.means(np.array(places), np.full(len(places), half))[:, bands, bands]
+    return np.asarray(evidence(ratio, components).sum(axis=0))

@@ -107,10 +107,10 @@ def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
     """
     count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
     grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))
-    half = np.asarray(0.75 * lines.step)
+    order = np.arange(1.0, STRENGTH_HARMONICS + 1.0)
+    means = lines.means(order[:, None] * grid, np.full(STRENGTH_HARMONICS, 0.75 * lines.step))
     # Means are differences of running sums: rounding can leave one below zero where a band is silent.
-    heights = [np.sqrt(np.maximum(lines.mean(k * grid, half), 0.0)) for k in range(1, STRENGTH_HARMONICS + 1)]
-    return float(np.mean(heights, axis=0).max())
+    return float(np.sqrt(np.maximum(means, 0.0)).mean(axis=0).max())
 
 
 def _depth(analysis: Analysis, fundamental: Array) -> float:

@@ -49,6 +49,18 @@ def test_the_line_of_amplitude_modulated_noise_stands_as_high_as_computed():
     assert spectra.depth[0, place] == pytest.approx(depth, rel=0.1)
 
 
+def test_means_are_those_of_the_components_that_a_stretch_covers():
+    excess = np.random.default_rng(3).exponential(size=(4, 60))
+    found = lines_in(excess, 0.5).means(np.array([[5.0, 28.0, 29.8], [6.1, 0.0, 29.8]]), np.array([0.75, 0.2]))
+    assert found.shape == (2, 4, 3)
+    # 5 ± 0.75 are components 9 to 11, 28 ± 0.75 are 55 to 57; beyond the middle of the last but one nothing is read.
+    covered = np.stack([excess[:, 9:12].mean(axis=1), excess[:, 55:58].mean(axis=1), np.zeros(4)], axis=1)
+    assert found[0] == pytest.approx(covered)
+    # 6.1 ± 0.2 is 0.35 of component 12, which covers 5.75 to 6.25, and 0.05 of component 13; 0 ± 0.2 lies in one.
+    assert found[1, :, 0] == pytest.approx((0.35 * excess[:, 12] + 0.05 * excess[:, 13]) / 0.4)
+    assert found[1, :, 2] == pytest.approx(np.zeros(4))
+
+
 def test_a_family_is_found_where_it_is_and_not_elsewhere():
     excess = np.random.default_rng(5).exponential(1.0, (1, 4000))
     step, fundamental = 0.1, 71.3

@@ -18,7 +18,7 @@ import numpy as np
 from joblib import Parallel, delayed
 from make_draws import ODD
 from numpy.typing import NDArray
-from scipy.signal import resample_poly
+from scipy.signal import fftconvolve, resample_poly
 
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.rows import Reading, RecordRows, Rows, record_rows
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 PAGE = Path(__file__).with_name("transfer.md")
 SEED, WORKERS = 20261122, 2
+RINGS_FOR = 0.02
+"""Seconds after which a knock has died away."""
 Signal = NDArray[np.float64]
 Recorded = tuple[Signal, float, float]
 """Samples (T, A), their rate (Hz), and what the stated speed is multiplied by."""
@@ -78,6 +80,19 @@ def humming(signal: Signal, rate: float, _: np.random.Generator, hertz: float) -
     return signal + signal.std(axis=0) * (np.sqrt(2.0) * np.sin(turn) + np.sin(3.0 * turn) / 3.0), rate, 1.0
 
 
+def knocking(signal: Signal, rate: float, random: np.random.Generator, hertz: float) -> Recorded:
+    """The record with knocks of another shaft, so many a second with 1 % jitter, that ring for 2 ms at a tone between
+    1 and 4 kHz and have the record's RMS."""
+    count = int(hertz * len(signal) / rate)
+    at = (np.arange(count) + random.uniform() + 0.01 * random.normal(size=count)) / hertz
+    impulses = np.zeros(len(signal))
+    np.add.at(impulses, np.clip(at * rate, 0, len(signal) - 1).astype(np.int64), 1.0 + 0.1 * random.normal(size=count))
+    time = np.arange(0.0, RINGS_FOR, 1.0 / rate)
+    ringing = fftconvolve(impulses, np.exp(-500.0 * time) * np.sin(2.0 * np.pi * random.uniform(1e3, 4e3) * time))
+    knocks = ringing[: len(signal), None]
+    return signal + signal.std(axis=0) * knocks / knocks.std(), rate, 1.0
+
+
 DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]] = {
     "as recorded": partial(misstated, by=1.0),
     "1 s of it": partial(cut, seconds=1.0),
@@ -90,6 +105,8 @@ DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]
     "clipped at 3 times its RMS": partial(clipped, at=3.0),
     "in 100 steps up to its peak": partial(coarse, steps=100.0),
     "with as much mains hum": partial(humming, hertz=50.0),
+    "with knocks of another shaft, 9.3 a second": partial(knocking, hertz=9.3),
+    "with knocks of another shaft, 41 a second": partial(knocking, hertz=41.0),
 }
 
 

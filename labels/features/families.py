@@ -61,7 +61,7 @@ def _read_means(cumulated: Array, step: float, centres: Array, half_widths: Arra
         half = half_widths[k]
         scale = step / (2.0 * half)
         for n in range(centres.shape[1]):
-            if centres[k, n] + half > end:
+            if not centres[k, n] + half <= end:  # what is no number lies nowhere
                 found[k, :, n] = 0.0
                 continue
             first, early = _place((centres[k, n] - half) / step, size)

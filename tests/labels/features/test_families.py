@@ -61,6 +61,14 @@ def test_means_are_those_of_the_components_that_a_stretch_covers():
     assert found[1, :, 2] == pytest.approx(np.zeros(4))
 
 
+def test_nothing_is_read_at_places_that_are_no_numbers_or_lie_outside():
+    lines = lines_in(np.ones((2, 60)), 0.5)
+    places = np.array([[np.nan, np.inf, 1e300, 10.0]])
+    assert lines.means(places, np.array([0.75]))[0] == pytest.approx(np.array([[0.0, 0.0, 0.0, 1.0]] * 2))
+    assert np.all(lines.means(np.array([[-np.inf, -1e300]]), np.array([0.75])) == 0.0)
+    assert np.all(lines.means(places, np.array([np.nan])) == 0.0)
+
+
 def test_a_family_is_found_where_it_is_and_not_elsewhere():
     excess = np.random.default_rng(5).exponential(1.0, (1, 4000))
     step, fundamental = 0.1, 71.3

@@ -40,6 +40,13 @@ def require_results_folder(folder: Path, field: str = OUT) -> None:
         raise BadInput(problem, field=field, value=str(folder), allowed="a folder of its own")
 
 
+def require_no_other(path: Path, allowed: str) -> None:
+    """Raise BadInput if what lies at `path`, which is no file, is something else that has been named instead of one."""
+    if path.exists():
+        problem = "this is a folder" if path.is_dir() else "this is a pipe or a device, and a file is needed"
+        raise BadInput(problem, str(path), allowed=allowed)
+
+
 def require_file(path: Path, field: str = OUT) -> None:
     """Raise BadInput if no file can be put at `path`; one that is there may be written over."""
     allowed = "a file in an existing folder that you may write into"

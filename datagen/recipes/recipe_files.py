@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from datagen.errors import BadInput
-from datagen.files.places import dataset_folders
+from datagen.files.places import dataset_folders, require_no_other
 from datagen.spelling import suggestion
 
 FILE_NAME = "recipe.toml"
@@ -18,21 +18,24 @@ def shipped_recipes() -> dict[str, Path]:
 
 
 def find_recipe(path_or_name: str | Path) -> Path:
-    """File of a recipe given as a file, a folder or the name of a dataset ("quickstart", "datasets/quickstart")."""
+    """File of a recipe given as a file, a folder or the name of a dataset ("quickstart", "datasets/quickstart").
+
+    A folder without a recipe, as that of a corpus, does not stand in the way of the dataset of its name.
+    """
     path = Path(path_or_name)
+    shipped, name = shipped_recipes(), _dataset_name(path)
     try:
         if path.is_file():
             return path
         if (path / FILE_NAME).is_file():
             return path / FILE_NAME
+        if name in shipped:
+            return shipped[name]
         if path.is_dir():
             raise BadInput(f"this folder has no {FILE_NAME}", file=str(path))
+        require_no_other(path, "a recipe's file or folder, or the name of a dataset")
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
-    shipped = shipped_recipes()
-    name = _dataset_name(path)
-    if name in shipped:
-        return shipped[name]
     known = ", ".join(shipped) or "(none)"
     raise BadInput(f"no such file, and no dataset of that name ({known})" + suggestion(name, shipped), file=str(path))
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,7 +12,7 @@ import pytest
 from datagen.errors import BadInput
 from datagen.recipes import recipe_files
 from datagen.recipes.recipe_files import find_recipe, shipped_recipes
-from datagen.recordings.spec_files import shipped_specs
+from datagen.recordings.spec_files import find_spec, shipped_specs
 
 ROOT = Path(__file__).parents[3]
 
@@ -34,6 +36,14 @@ def test_a_file_or_folder_of_that_name_comes_before_the_dataset(
     assert find_recipe(own) == own
 
 
+def test_the_folder_of_a_corpus_does_not_hide_the_dataset_of_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "quickstart" / "shards").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path)
+    assert find_recipe("quickstart").samefile(ROOT / "datasets" / "quickstart" / "recipe.toml")
+
+
 def test_the_copy_inside_the_wheel_comes_before_a_folder_beside_the_packages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -48,6 +58,18 @@ def test_the_copy_inside_the_wheel_comes_before_a_folder_beside_the_packages(
 def test_a_name_that_is_nothing_is_refused_with_the_nearest_and_all_there_are() -> None:
     with pytest.raises(BadInput, match=r'gearbox_rig.*quickstart.*did you mean "quickstart"\?'):
         find_recipe("quikstart")
+
+
+@pytest.mark.parametrize("find", [find_recipe, find_spec])
+def test_a_pipe_is_not_called_missing(find: Callable[[Path], Path], tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(BadInput, match="pipe: this is a pipe or a device, and a file is needed"):
+        find(tmp_path / "pipe")
+
+
+def test_a_folder_is_not_taken_for_a_spec(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="this is a folder"):
+        find_spec(tmp_path)
 
 
 def test_a_folder_without_a_recipe_is_refused(tmp_path: Path) -> None:

@@ -81,8 +81,8 @@ def humming(signal: Signal, rate: float, _: np.random.Generator, hertz: float) -
 
 
 def knocking(signal: Signal, rate: float, random: np.random.Generator, hertz: float) -> Recorded:
-    """The record with knocks of another shaft, so many a second with 1 % jitter, that ring for 2 ms at a tone between
-    1 and 4 kHz and have the record's RMS."""
+    """The record with knocks of another shaft, so many a second with 1 % jitter, whose heights scatter by a tenth, that
+    ring for 2 ms at a tone between 1 and 4 kHz and have the record's RMS."""
     count = int(hertz * len(signal) / rate)
     at = (np.arange(count) + random.uniform() + 0.01 * random.normal(size=count)) / hertz
     impulses = np.zeros(len(signal))

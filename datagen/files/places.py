@@ -40,8 +40,8 @@ def require_results_folder(folder: Path, field: str = OUT) -> None:
         raise BadInput(problem, field=field, value=str(folder), allowed="a folder of its own")
 
 
-def require_no_other(path: Path, allowed: str) -> None:
-    """Raise BadInput if what lies at `path`, which is no file, is something else that has been named instead of one."""
+def refuse_other_than_file(path: Path, allowed: str) -> None:
+    """Raise BadInput that says what lies at `path` where no file does; nothing happens if nothing lies there."""
     if path.exists():
         problem = "this is a folder" if path.is_dir() else "this is a pipe or a device, and a file is needed"
         raise BadInput(problem, str(path), allowed=allowed)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from datagen.errors import BadInput
-from datagen.files.places import dataset_folders, require_no_other
+from datagen.files.places import dataset_folders, refuse_other_than_file
 from datagen.spelling import suggestion
 
 FILE_NAME = "recipe.toml"
@@ -33,7 +33,7 @@ def find_recipe(path_or_name: str | Path) -> Path:
             return shipped[name]
         if path.is_dir():
             raise BadInput(f"this folder has no {FILE_NAME}", file=str(path))
-        require_no_other(path, "a recipe's file or folder, or the name of a dataset")
+        refuse_other_than_file(path, "a recipe's file or folder, or the name of a dataset")
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     known = ", ".join(shipped) or "(none)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from datagen.errors import BadInput
-from datagen.files.places import dataset_folders, require_no_other
+from datagen.files.places import dataset_folders, refuse_other_than_file
 from datagen.spelling import suggestion
 
 
@@ -23,6 +23,6 @@ def find_spec(path_or_name: str | Path) -> Path:
     shipped = shipped_specs()
     if path.name in shipped and path.parent == Path():
         return shipped[path.name]
-    require_no_other(path, "the file of a SPEC, or the name of one")
+    refuse_other_than_file(path, "the file of a SPEC, or the name of one")
     known = ", ".join(shipped) or "(none)"
     raise BadInput(f"no such file, and no SPEC of that name ({known}){suggestion(path.name, shipped)}", file=str(path))

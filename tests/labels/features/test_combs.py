@@ -95,6 +95,12 @@ def test_a_record_of_few_turns_tells_none():
     assert np.array_equal(without_combs(excess, coarse, BEARING), excess)
 
 
+def test_a_spectrum_that_holds_only_rates_of_the_bearing_tells_none():
+    """Between four components and a fifth of the spectrum lie 0.39 to 0.41 orders, which are of the cage."""
+    excess = np.random.default_rng(0).exponential(size=(BANDS, 24))
+    assert foreign_combs(excess, 0.0975 * SHAFT, BEARING) == []
+
+
 def test_families_are_looked_for_without_the_combs_of_other_shafts(impulse_train):
     order = 0.55
     found = analyse(impulse_train(order, duration=6.0, shaft_hz=SHAFT, snr_db=-3.0), 20_000.0, BEARING)

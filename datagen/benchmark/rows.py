@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
 from datagen.benchmark.fitness import unfit
 from datagen.benchmark.known import known_kinematics
 from datagen.corpus import Corpus
 from labels.classifier.liveness import DEAD, is_dead, liveness
 from labels.features.analysis import analyse
-from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES_USED, Array, fast_length
+from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES_USED, Array
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
 from labels.features.shocks import without_shocks
@@ -185,7 +186,7 @@ def signal_rows(
         for piece, angle in zip(pieces, angles, strict=False):
             given = kinematics.at(kinematics.shaft_hz * (1.0 + reading.speed_error * stream.uniform(-1.0, 1.0)))
             bandwidth = _bandwidth(rate, reading, stream)
-            if piece.size < FEWEST_SAMPLES_USED or is_dead(piece[: fast_length(piece.size)]):
+            if piece.size < FEWEST_SAMPLES_USED or is_dead(piece[: fft.prev_fast_len(piece.size, real=True)]):
                 continue
             analysis = analyse(piece, rate, given, bandwidth, None if angle is None else Turning(angle))
             rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece).reason))

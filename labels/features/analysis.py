@@ -11,7 +11,7 @@ from labels.features.combs import without_combs
 from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_mains, without_shaft
-from labels.features.kinematics import Kinematics
+from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.speed import SPEED_TOLERANCE, Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
 
@@ -25,8 +25,6 @@ UNCERTAIN_WINDOW = (-0.025, 0.025)
 """The same where no harmonics of the shaft tell its speed."""
 CERTAIN_SPEED = 15.0
 """Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records."""
-SLIP_TOLERANCE = 0.025
-SLIP_PRIOR = 0.012
 VIBRATION_ORDERS = 12.0
 DECOYS = (2.31, 2.63, 2.87, 3.17, 3.37, 3.71, 4.29, 4.61, 5.23, 5.83, 6.37, 6.71, 7.37, 8.29)
 """Fundamentals, in orders, that no part of a bearing has by design: what other machines and chance put there."""
@@ -39,6 +37,11 @@ class Analysis:
 
     record: Conditioned
     given: Kinematics
+
+    @property
+    def drift_hz(self) -> float:
+        """Half a turn of the shaft in a period: what is slower is drift of a sensor, not motion of the bearing, Hz."""
+        return 0.5 * self.speed.shaft_hz
 
     @property
     def top_hz(self) -> float:

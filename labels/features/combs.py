@@ -23,7 +23,7 @@ from labels.features.families import (
     near_multiples,
     tempered,
 )
-from labels.features.kinematics import Kinematics
+from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 
 Flags = NDArray[np.bool_]
 
@@ -52,8 +52,6 @@ OF_BEARING = 0.03
 """Share by which a rate must differ from one that the bearing makes."""
 EVIDENT = 8.0
 """Nats of a family from which its sidebands are left out."""
-FAMILY_TOLERANCE, FAMILY_PRIOR = 0.025, 0.012
-"""Slip (a share of the ball pass frequency) within which a family is looked for, and how much is usual."""
 SIDEBANDS = ((2, 2), (5, 1), (1, 3))
 """Most sidebands of the shaft and of the cage that lines of the outer race, of the inner race and of balls have."""
 SIDEBAND_WIDTH, SIDEBAND_SPREAD = 0.01, 0.001
@@ -105,7 +103,7 @@ def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:
     place = np.arange(count) * lines.step
     explained = np.zeros(count, dtype=bool)
     for order, (turns, cages) in zip((known.bpfo, known.bpfi, 2.0 * known.ball_spin), SIDEBANDS, strict=True):
-        family = find_family(lines, order * shaft, FAMILY_TOLERANCE, shaft, FAMILY_PRIOR)
+        family = find_family(lines, order * shaft, SLIP_TOLERANCE, shaft, SLIP_PRIOR)
         band = int(family.evidence.argmax())
         if family.evidence[band] < EVIDENT:
             continue

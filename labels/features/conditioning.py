@@ -65,7 +65,7 @@ def condition(
     if signal.ndim != 1 or signal.size < FEWEST_SAMPLES_USED or not rate > 0.0:
         needed = f"features need at least {FEWEST_SAMPLES_USED} samples of one axis"
         raise ValueError(f"{signal.shape} samples at {rate:g} Hz; {needed}")
-    signal = signal[: fast_length(signal.size)]
+    signal = signal[: fft.prev_fast_len(signal.size, real=True)]
     centred = signal - signal.mean()
     if not centred.any():
         raise ValueError("the signal does not change")
@@ -75,13 +75,6 @@ def condition(
     spectrum[0] = 0.0
     used = turning.first(signal.size) if turning is not None else None
     return Conditioned(spectrum, _flattened(spectrum), step, top, signal.size, used)
-
-
-def fast_length(size: int) -> int:
-    """How many of that many samples are used: the largest number with a fast transform."""
-    while size > FEWEST_SAMPLES_USED and fft.next_fast_len(size, real=True) != size:
-        size -= 1
-    return size
 
 
 def local_mean_power(power: Array, block: int) -> Array:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+SLIP_TOLERANCE, SLIP_PRIOR = 0.025, 0.012
+"""Shares by which the cage's slip moves a family at most, and usually."""
+
 
 @dataclass(frozen=True)
 class Kinematics:

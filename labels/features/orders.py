@@ -60,8 +60,7 @@ def _velocity_power(analysis: Analysis) -> Array:
     count = int(max(highest, VIBRATION_ORDERS + 1.0) * analysis.given.shaft_hz / analysis.record.step) + 2
     power = np.abs(analysis.record.slow(count)) ** 2
     frequency = np.arange(power.size) * analysis.record.step
-    # Below half a turn there is drift of sensors, not motion of the bearing.
-    return np.where(frequency > 0.5 * analysis.speed.shaft_hz, power / np.maximum(frequency, 1e-9) ** 2, 0.0)
+    return np.where(frequency > analysis.drift_hz, power / np.maximum(frequency, 1e-9) ** 2, 0.0)
 
 
 def _share(analysis: Analysis, power: Array, fundamental: float, harmonics: int, top: float | None = None) -> float:

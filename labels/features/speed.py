@@ -24,7 +24,10 @@ PLACES = (45, 800)
 """Fewest and most speeds that are tried."""
 BINS_BETWEEN = 0.5
 """How far apart, in components of the spectrum, the highest harmonics of neighbouring speeds lie."""
+FAMILY_PRIOR = 0.015
+"""How far a family usually lies from its place at the speed stated, as a share: by slip and a wrong speed."""
 DECISIVE = 12.0
+"""Nats that a family needs to tell of the speed."""
 MORE_LINES = 4
 """By how many lines that stand out a speed must lead to be taken for a better one."""
 
@@ -102,7 +105,7 @@ def _families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array
     lines = lines_in(envelopes.excess, envelopes.step)
     best, term = DECISIVE, np.zeros(factors.size)
     for order in (known.bpfo, known.bpfi):
-        family = find_family(lines, order * known.shaft_hz, 2.0 * SPEED_TOLERANCE, known.shaft_hz, 0.015, 3)
+        family = find_family(lines, order * known.shaft_hz, 2.0 * SPEED_TOLERANCE, known.shaft_hz, FAMILY_PRIOR, 3)
         band = int(family.evidence.argmax())
         if family.evidence[band] > best:
             best = float(family.evidence[band])

@@ -1,11 +1,11 @@
-"""Features of the waveform: how impulsive it is, whatever its scale."""
+"""Features of the waveform above half a turn of the shaft: how impulsive it is, whatever its scale and drift."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import Array
+from labels.features.conditioning import Array, Spectrum
 from labels.features.feature import Feature
 
 DYER = "Dyer & Stewart 1978, J. Mech. Design 100"
@@ -13,7 +13,7 @@ SHAPES = "Lei et al. 2008, Expert Syst. Appl. 35, table of dimensionless paramet
 KURTOGRAM = "Antoni 2007, Mech. Syst. Signal Process. 21 (fast kurtogram)"
 
 ROWS = (
-    Feature("kurtosis", "ln", "ln of the kurtosis of the waveform; ln 3 for noise.", DYER),
+    Feature("kurtosis", "ln", "ln of the kurtosis of the waveform above half a turn; ln 3 for noise.", DYER),
     Feature("skewness", "1", "Size of the waveform's skewness, cut at 5.", SHAPES),
     Feature("crest_factor", "ln", "ln of the 99.99 % quantile of the size over the RMS.", DYER),
     Feature("shape_factor", "ln", "ln of the RMS over the mean size.", SHAPES),
@@ -26,7 +26,7 @@ ROWS = (
 
 def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
-    wave = analysis.record.waveform(analysis.record.raw)
+    wave = analysis.record.waveform(_without_drift(analysis))
     wave = wave / np.sqrt(np.mean(wave**2))
     size = np.abs(wave)
     mean = float(size.mean())
@@ -34,7 +34,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
     kurtosis = np.maximum(analysis.envelopes.kurtosis, 0.0)
     return {
         "kurtosis": _log_kurtosis(wave),
-        "skewness": min(abs(float(np.mean(wave**3))), 5.0),
+        "skewness": min(abs(float(np.mean(wave * wave * wave))), 5.0),
         "crest_factor": float(np.log(higher)),
         "shape_factor": float(-np.log(mean)),
         "impulse_factor": float(np.log(high / mean)),
@@ -42,6 +42,13 @@ def measure(analysis: Analysis) -> dict[str, float]:
         "band_kurtosis": float(np.log1p(kurtosis.max())),
         "median_band_kurtosis": float(np.log1p(np.median(kurtosis))),
     }
+
+
+def _without_drift(analysis: Analysis) -> Spectrum:
+    """The raw spectrum above where sensors drift, or all of it where nothing else is there."""
+    steady = analysis.record.raw.copy()
+    steady[: int(analysis.drift_hz / analysis.record.step) + 1] = 0.0
+    return steady if steady.any() else analysis.record.raw
 
 
 def _log_kurtosis(wave: Array) -> float:

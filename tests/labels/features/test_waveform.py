@@ -21,6 +21,18 @@ def test_the_shape_of_noise_is_that_of_a_normal_distribution():
     assert found["crest_factor"] == pytest.approx(math.log(3.8906), abs=0.04)
 
 
+def test_a_sensor_that_drifts_hides_no_impulse():
+    rate, size = 20_000.0, 200_000
+    impulsive = np.random.default_rng(2).standard_normal(size)
+    impulsive[::400] += 8.0
+    known = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
+    drift = 30.0 * np.sin(2.0 * np.pi * 0.7 * np.arange(size) / rate)
+    steady, drifting = (measure(analyse(signal, rate, known)) for signal in (impulsive, impulsive + drift))
+    assert steady["kurtosis"] > math.log(10.0)
+    for name in ("kurtosis", "crest_factor", "shape_factor", "impulse_factor"):
+        assert drifting[name] == pytest.approx(steady[name], abs=0.01)
+
+
 def test_the_kurtosis_of_the_most_impulsive_band_is_told_whatever_the_others_are():
     # Bursts for a fifth of the time, in one of 15 bands: the kurtosis of its complex signal is 2 / 0.2 - 2.
     size = 100_000

@@ -99,9 +99,9 @@ def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Index, Array
     """Ball (N,) from 1 and times (N,) at which it enters, is deepest in and leaves a spall, each pass of a record."""
     spall = scene.spalls[defect]
     half = spall.extent / 2.0
-    slowest = 0.5 * scene.rig.bearing.cage_speed(scene.operation.shaft_speed)
-    margin = spall.extent / slowest
-    entries = passages(scene, defect, -half, -margin, duration)
+    # Outside the record the cage goes on at its mean speed, so no pass under way at either end takes longer than this.
+    margin = spall.extent / abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+    entries = passages(scene, defect, -half, -1.001 * margin, duration)
     if entries.time.size == 0:
         return entries.ball.astype(np.int16), entries.time, entries.time, entries.time
     # A little early, so that a deepest point on the entry edge itself is not lost to rounding.

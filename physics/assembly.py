@@ -18,13 +18,14 @@ from physics.contact.track import (
     FIRST_BALL,
     LEAVE,
     RELIEF,
+    ROUGH,
     SIGN,
     SPALL_COLUMNS,
     SPEED,
+    WAVE_COLUMNS,
     Track,
 )
-from physics.imperfections import Waviness
-from physics.paths.depth_path import DepthPath, hermite_cubics, paths_of
+from physics.paths.depth_path import DepthPath, paths_of
 from physics.paths.profile import build_path
 from physics.scene import Scene
 
@@ -32,7 +33,6 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 PADDING_GAP = 1.0
-WAVINESS_CELLS_PER_WAVE = 64
 TABLES_KEPT = 8
 
 
@@ -82,12 +82,14 @@ def _track(scene: Scene) -> Track:
     bearing = scene.rig.bearing
     paths = [build_path(spall, bearing) for spall in scene.spalls]
     cage, clock = _cage_arrays(scene.cages)
+    waves, turns = _wave_tables(scene)
     return Track(
         cage=cage,
         clock=clock,
         spalls=_spall_table(scene, paths, len(scene.cages)),
         paths=paths_of(paths),
-        waviness=_waviness_cubics(scene.imperfections.waviness, bearing.balls),
+        waves=waves,
+        turns=turns,
         row_size=bearing.balls,
         spacing=bearing.spacing,
         shaft_speed=scene.operation.shaft_speed,
@@ -104,7 +106,7 @@ def _spall_table(scene: Scene, paths: list[DepthPath], cages: int) -> Array:
         table[index, ANGLE] = spall.angle - row * scene.rig.bearing.stagger
         table[index, SPEED] = scene.race_speed(spall.race)
         table[index, ENTRY], table[index, LEAVE] = path.breaks[[0, -1]]
-        table[index, CELL], table[index, RELIEF:] = path.cell, path.relief
+        table[index, CELL], table[index, ROUGH], table[index, RELIEF:] = path.cell, path.rough, path.relief
     return table
 
 
@@ -126,22 +128,11 @@ def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
     return quartics, clock
 
 
-@lru_cache(maxsize=TABLES_KEPT)
-def _waviness_cubics(waves: tuple[Waviness, ...], balls: int) -> Array:
-    """Cubics (2, C, 8 B) of the waves over C cells a spacing of B `balls`, as `Track` keeps them; for reading only."""
-    if not waves:
-        return np.zeros((2, 0, 8 * balls))
-    count = balls * -(-WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves)) // balls)
-    nodes = 2.0 * np.pi * np.arange(count + 1) / count
-    width = 2.0 * np.pi / count
-    value, rate = np.zeros((2, 2, count + 1))
-    for wave in waves:
-        race = 0 if wave.race == "outer" else 1
-        value[race] += wave.amplitude * np.cos(wave.order * nodes + wave.phase)
-        # Slopes of the periodic cubic spline through the wave, which has no jump in curvature: its own by a factor.
-        turn = wave.order * width
-        factor = 3.0 * math.sin(turn) / (2.0 + math.cos(turn))
-        rate[race] -= wave.amplitude * factor * np.sin(wave.order * nodes + wave.phase)
-    cubics = np.stack([hermite_cubics(value[race], rate[race]) for race in range(2)])
-    of_cell = cubics.reshape(2, balls, -1, 4).transpose(0, 2, 3, 1)
-    return np.concatenate([of_cell, of_cell], axis=3).reshape(2, -1, 8 * balls)
+def _wave_tables(scene: Scene) -> tuple[Array, Array]:
+    """`waves` (W, 4) and `turns` (W, 2, B) as `Track` keeps them."""
+    bearing, waviness = scene.rig.bearing, scene.imperfections.waviness
+    waves = np.array([[scene.race_speed(wave.race), wave.order, wave.amplitude, wave.phase] for wave in waviness])
+    order = np.array([wave.order for wave in waviness], dtype=np.float64)
+    turned = order[:, None] * (bearing.spacing * np.arange(bearing.balls))
+    turns = np.stack([np.cos(turned), np.sin(turned)], axis=-2)
+    return waves.reshape(-1, WAVE_COLUMNS), turns.reshape(-1, 2, bearing.balls)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from itertools import combinations
 
+from physics.bearing import RACES
 from physics.cage import CagePath
 from physics.checks import InvalidParameter, require, require_one_of
 from physics.imperfections import Imperfections
@@ -94,7 +95,11 @@ class Scene:
         return self.cages[min(row, len(self.cages)) - 1]
 
     def race_speed(self, race: str) -> float:
-        """Angular speed of a race, rad/s: the shaft's for the inner race, zero for the outer one."""
+        """Angular speed of a race, rad/s: the shaft's for the inner race, zero for the outer one.
+
+        Raises InvalidParameter for a `race` that is neither.
+        """
+        require_one_of("race", race, RACES)
         return self.operation.shaft_speed if race == "inner" else 0.0
 
     @property

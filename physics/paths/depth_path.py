@@ -33,8 +33,9 @@ class DepthPath:
     within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
 
     `deepest` (rad): the arc at which the drop is largest, the middle of all if there are several; `largest_depth` (m):
-    the drop there; `bridged`: the ball rests on both edges before it reaches the floor.
-    `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … mean cells; zero for smooth surfaces.
+    the drop there; `bridged`: the ball rests on both edges before it reaches the floor; `rough`: it goes up and down
+    all along. `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … mean cells; zero where there
+    is none.
     """
 
     breaks: Array
@@ -43,6 +44,7 @@ class DepthPath:
     deepest: float
     largest_depth: float
     bridged: bool
+    rough: bool
     relief: Array
 
     @property
@@ -150,11 +152,12 @@ def hermite_cubics(value: Array, rate: Array) -> Array:
 
 
 def hermite_path(
-    edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool, rough: bool
+    edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool, bumps: bool, rough: bool
 ) -> DepthPath:
     """The path of the curve `depth` (m) with its `slope` (m/rad) over `edges` (P + 1,), `cells` a piece.
 
-    Cubic Hermite cells with the curve's values and one-sided slopes at the nodes.
+    Cubic Hermite cells with the curve's values and one-sided slopes at the nodes. Its relief is told if there may be
+    `bumps`.
     """
     count = np.array(cells, dtype=np.int64)
     first = np.cumsum(count + 1) - (count + 1)
@@ -174,9 +177,10 @@ def hermite_path(
         deepest=deepest,
         largest_depth=largest,
         bridged=bridged,
+        rough=rough,
         relief=np.zeros(RELIEF_LEVELS),
     )
-    return replace(path, relief=_relief(path)) if rough else path
+    return replace(path, relief=_relief(path)) if bumps else path
 
 
 def _deepest(nodes: Array, values: Array, left: Array, width: Array, cubics: Array) -> tuple[float, float]:

@@ -53,7 +53,7 @@ def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
 def is_rough(spall: Spall, bearing: Bearing) -> bool:
     """Whether `spall` goes up and down all along: it has roughness, or a table that turns more often than a few pits
     and lips do."""
-    return bool(build_path(spall, bearing).relief[0] > 0.0)
+    return build_path(spall, bearing).rough
 
 
 def race_depth(scene: Scene, row: int, angle: Array) -> Array:
@@ -93,7 +93,8 @@ def _tukey_path(spall: Spall) -> DepthPath:
     def slope(arc: Array) -> Array:
         return spall.depth * window_slope(spall, arc) + (0.0 if rough is None else rough(arc, 1))
 
-    return hermite_path(np.array(edges), cells, depth, slope, bridged=False, rough=rough is not None)
+    bumps = rough is not None
+    return hermite_path(np.array(edges), cells, depth, slope, bridged=False, bumps=bumps, rough=bumps)
 
 
 def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
@@ -117,14 +118,14 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
         hanging = half - np.abs(arc) < reach * (1.0 - 1e-12)
         return np.where(hanging, -np.sign(arc) * drop_slope(nearer_edge(arc)), 0.0)
 
-    return hermite_path(edges, cells, depth, slope, bridged=bridged, rough=False)
+    return hermite_path(edges, cells, depth, slope, bridged=bridged, bumps=False, rough=False)
 
 
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     surface = table_surface(spall) if spall.profile == "table" else gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    half, step, bumpy = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
-    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, bumpy)
+    half, step, rough = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
+    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, rough)
     smooth = branches(rolled)
     width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
@@ -135,7 +136,9 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         lambda arc: _on_branches(smooth, arc)[0],
         lambda arc: _on_branches(smooth, arc)[1],
         bridged=not reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
-        rough=bumpy or turning_points(np.array(spall.table_depth)) > MOST_TURNS,
+        # One lip is enough for a free ball to touch it within a step.
+        bumps=rough or spall.profile == "table",
+        rough=rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS,
     )
 
 

@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
 MEAN_STIFFNESS_TIMES = 64
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 SMALLEST_STIFFNESS = 1e3
 
 
@@ -85,7 +86,8 @@ def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
 def resting(scene: Scene) -> Equilibrium:
     """Quasi-static positions of `scene` from t = 0 to its end; raises SimulationFailed if none carries the load at
     t = 0."""
-    rest = equilibrium(scene, np.linspace(0.0, scene.duration, MEAN_STIFFNESS_TIMES))
+    # Unevenly spaced, by the golden section, so that no period hides between them.
+    rest = equilibrium(scene, scene.duration * np.sort(np.arange(MEAN_STIFFNESS_TIMES) * GOLDEN % 1.0))
     if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
         refuse(scene, 0.0)
     return rest

@@ -140,11 +140,12 @@ class _Repeating:
         """How far (m/s², RMS) the last of an even number of periods is estimated to be from all later ones.
 
         What is left of the transient, were it to fall from now on as it did in the last half of the `acceleration`
-        (T, 2), or no faster than the slowest mode decays.
+        (T, 2), or no faster than the slowest mode decays. The last period is held against all others of that half: a
+        response that repeats itself only after two or more periods differs from its neighbour.
         """
         periods = acceleration.reshape(-1, self.cells, 2)
         half = periods.shape[0] // 2
-        apart = rms(periods[-1] - periods[half - 1])
+        apart = max(rms(periods[-1] - other) for other in periods[half - 1 : -1])
         before = rms(periods[half - 1] - periods[half // 2 - 1]) if half > 1 else math.inf
         if apart == 0.0 or apart >= before:
             return math.inf if apart > 0.0 else 0.0

@@ -18,7 +18,7 @@ from physics._jit import njit_inline, njit_inner, njit_lean
 from physics.assembly import assemble
 from physics.contact.contact_set import mark_of
 from physics.contact.forces import FORCE, Contacts
-from physics.contact.track import ANGLE, CAGE, ENTRY, LEAVE, RELIEF, SIGN, SPEED, cage_at
+from physics.contact.track import ANGLE, CAGE, ENTRY, LEAVE, ROUGH, SIGN, SPEED, cage_at
 from physics.motion import MotionModel, motion_model
 from physics.paths.depth_path import BREAK, span_of
 from physics.paths.profile import is_rough
@@ -181,7 +181,7 @@ def _mark(contacts: Contacts, time: float) -> float:
         entered = math.floor((ahead - track.spalls[spall, ENTRY]) * per_spacing)
         left = math.floor((ahead - track.spalls[spall, LEAVE]) * per_spacing)
         crossed = entered + left
-        if track.spalls[spall, RELIEF] > 0.0:
+        if track.spalls[spall, ROUGH] > 0.0:
             if entered > left:
                 return math.nan
         else:

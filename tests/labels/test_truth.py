@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from labels.truth import ball_passes
+from physics.cage import CagePath
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.trace import ContactChanges
@@ -235,6 +236,23 @@ def test_a_slow_cage_leaves_no_ball_out_that_is_in_a_long_spall_when_the_record_
         inside = [b for b in range(1, 13) if abs(arc_of_ball(slow, spall, b, np.zeros(1))[0]) < 1.499]
         table = ball_passes(slow, None, 0.3)
         assert set(inside) <= set(table.ball[table.entry_time < 0.0].tolist())
+
+
+@pytest.mark.parametrize("share", [0.1, 0.3, 1.9])
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_braked_or_dragged_cage_leaves_no_pass_out(make_scene, race, share):
+    spall = Spall(race, 1, 4.71, 0.2, 12e-6)
+    scene = make_scene(spall)
+    rolling = scene.rig.bearing.cage_speed(scene.operation.shaft_speed)
+    scene = replace(scene, cage=CagePath(share * rolling, DURATION, 0.1))
+    table = ball_passes(scene, None, DURATION)
+    half = 0.5 * spall.extent
+    ours, searched = inside(table.entry_time, table), brute_force(scene, lambda _: -half)
+    assert [row[1:] for row in ours] == [row[1:] for row in searched]
+    assert np.allclose([row[0] for row in ours], [row[0] for row in searched], rtol=0.0, atol=1e-8)
+    under_way = [ball for ball in range(1, 25) if abs(arc_of_ball(scene, spall, ball, np.zeros(1))[0]) < half]
+    assert sorted(table.ball[table.entry_time < 0.0]) == under_way
+    assert np.all(table.exit_time > table.entry_time)
 
 
 def test_a_pass_cut_by_an_end_of_the_record_tells_neither_fall_nor_rise_of_its_load(make_scene):

@@ -14,6 +14,7 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.response.march import respond
 from physics.response.stability import limiting_modes, longest_stable_step, stable_substeps
 from physics.simulate import simulate
+from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
 
 RATE = 65536.0
@@ -109,6 +110,28 @@ def test_what_the_film_does_before_a_vertical_wall_is_no_error_behind_it(referen
     exact = simulate(wall, RATE, method="exponential_rk4", substeps=8, estimate_error=False).acceleration
     trace = simulate(wall, RATE)
     assert rms(trace.acceleration - exact) < trace.error_estimate * rms(exact) < 1e-3 * rms(exact)
+
+
+@pytest.mark.parametrize("speed", [1.0, 4.5, 6.0])
+def test_a_free_ball_that_touches_the_lip_of_a_measured_spall_within_a_step_is_not_missed(speed, reference_scene):
+    lip = {"table_angle": (-0.005, -0.002, 0.001, 0.005), "table_depth": (3e-5, 3e-5, -1e-6, 3e-5)}
+    spall = Spall("inner", 1, 0.0, 0.012, 3e-5, profile="table", **lip)
+    scene = changed(reference_scene("F0", 0.13, speed_factor=speed, slip_seed=1), spalls=(spall,))
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=64, estimate_error=False)
+    trace = simulate(scene, RATE)
+    assert trace.changes.time.size == exact.changes.time.size > 40
+    assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
+
+
+@pytest.mark.parametrize("seed", [0, 3, 4])
+def test_errors_that_grow_from_impact_to_impact_after_a_quiet_beginning_are_seen(seed, reference_scene):
+    """A light load, 36.4 N at 4009.5 rpm, over a shallow spall: errors grow a thousandfold within 0.4 s."""
+    spall = Spall("outer", 1, 4.712, 0.083, 10e-6, 0.0166, 0.0166)
+    scene = reference_scene("F0", 0.4, speed_factor=4009.5 / 800.0, slip_seed=seed)
+    scene = changed(scene, operation={"load": 36.4}, spalls=(spall,))
+    trace, finer = simulate(scene, RATE), simulate(scene, RATE, accuracy=1e-6)
+    assert trace.chaotic or rms(trace.acceleration - finer.acceleration) < 1e-3 * rms(finer.acceleration)
+    assert trace.sensitivity > 10.0
 
 
 @pytest.mark.parametrize("method", MARCHES)

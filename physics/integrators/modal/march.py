@@ -23,7 +23,7 @@ from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
 from physics.integrators.modal.choice import Choice, next_step
 from physics.integrators.modal.flow import LinearFlow, set_rest
-from physics.integrators.modal.grazing import is_rough, mark_grazing
+from physics.integrators.modal.grazing import has_bumps, mark_grazing
 from physics.integrators.modal.judgement import (
     dipped,
     is_carried,
@@ -197,7 +197,7 @@ def consider(
     memory: Memory,
     units: int,
     trial: Trial,
-    rough: bool,
+    bumps: bool,
     output: Output,
 ) -> tuple[int, tuple[float, float]]:
     """What to do about the `trial` of `units`: TAKE it, AGAIN or CHANGED; and the remaining contact force (N) at its
@@ -205,7 +205,7 @@ def consider(
     contradicted = trial.halfway + count_changes(contacts) > 0
     if not contradicted and dipped(contacts.balls, grid, memory, trial.step):
         return AGAIN, trial.after
-    grazing = rough and mark_grazing(contacts, memory.noted, trial.time, trial.step, memory.suspects) > 0
+    grazing = bumps and mark_grazing(contacts, memory.noted, trial.time, trial.step, memory.suspects) > 0
     after = trial.after
     if contradicted or grazing:
         action = look(contacts, flow, grid, memory, units, trial, contradicted, grazing, output)
@@ -242,7 +242,7 @@ def march_modal(
     force = remaining_force(contacts, flow, now, rest)
     most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
     room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
-    rough = is_rough(contacts.track)
+    bumps = has_bumps(contacts.track)
     while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
         if output.tally[STEPS] > most:
             return OUT_OF_STEPS
@@ -254,7 +254,7 @@ def march_modal(
         trial, middle = try_step(contacts, flow, memory, choice.row, step, now, force, then)
         after = trial.after
         if marks[BALL] == NO_BALL:
-            action, after = consider(contacts, flow, grid, memory, choice.units, trial, rough, output)
+            action, after = consider(contacts, flow, grid, memory, choice.units, trial, bumps, output)
             if action != TAKE:
                 force = take_back(contacts, flow, memory, trial, action)
                 continue

@@ -14,6 +14,8 @@ from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import (
     ACTIVE,
     COMPRESSION,
+    FALL,
+    FLOOR,
     FORCE,
     LAW,
 )
@@ -151,6 +153,24 @@ def test_forces_over_spalls_are_the_plain_sum_over_the_balls(gearbox, build_scen
         deep = REST[0], 2 * REST[1]
         there = agree(scene, time, deep)
         assert np.max(np.abs(there - agree(healthy, time, deep))) > 1.0
+
+
+def test_waves_lie_under_every_ball_as_their_cosine_tells(gearbox, build_scene):
+    waves = (*WAVES, Waviness("outer", 400, 1e-6, 2.0))
+    scene = build_scene(gearbox, start_angle=0.2, imperfections=Imperfections(waviness=waves))
+    contacts, bearing = assemble(scene), scene.rig.bearing
+    for time in (0.0, INSTANT, 0.43):
+        set_time(contacts, time)
+        angle = ball_angles(scene, time)
+        speed = {"outer": scene.cage.mean_speed, "inner": scene.cage.mean_speed - scene.operation.shaft_speed}
+        depth, rate = np.zeros(angle.shape), np.zeros(angle.shape)
+        for wave in waves:
+            turned = scene.operation.shaft_speed * time if wave.race == "inner" else 0.0
+            place = wave.order * (angle - turned) + wave.phase
+            depth += wave.amplitude * np.cos(place)
+            rate -= wave.amplitude * wave.order * speed[wave.race] * np.sin(place)
+        assert column(scene, contacts, FLOOR) - bearing.clearance == pytest.approx(depth, abs=1e-16)
+        assert column(scene, contacts, FALL) == pytest.approx(rate, abs=1e-12 * np.abs(rate).max())
 
 
 @pytest.mark.parametrize("race", ["outer", "inner"])

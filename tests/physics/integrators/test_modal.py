@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from kernels import (
     foretell,
-    is_rough,
+    has_bumps,
     mark_grazing,
     note_motion,
     press,
@@ -554,8 +554,8 @@ def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_
 def test_a_smooth_path_has_no_relief_and_is_not_searched(reference_scene):
     scene = reference_scene("G2", 0.01)
     assert not build_path(scene.spalls[0], scene.rig.bearing).relief.any()
-    assert not is_rough(assemble(scene).track)
-    assert is_rough(assemble(reference_scene("G2r", 0.01)).track)
+    assert not has_bumps(assemble(scene).track)
+    assert has_bumps(assemble(reference_scene("G2r", 0.01)).track)
 
 
 def test_no_step_is_taken_back_for_ever():

@@ -1,10 +1,14 @@
 """A march that can be gone on with, and the one case that several share."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from physics.cage import CagePath
 from physics.response.goal import steady
 from physics.response.modal_case import March, case_of, resting
+from physics.statics.stiffness import stiffness_trace
 
 RATE, SAMPLES, SIZE = 65536.0, 400, 0.01
 
@@ -22,6 +26,16 @@ def test_a_march_gone_on_with_is_the_march_made_at_once(case):
     march.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
     in_parts = march.go_on(steady(case, SAMPLES, 1e-3, SIZE)).acceleration
     assert np.abs(in_parts - at_once).max() < 0.01 * np.abs(at_once).max()
+
+
+@pytest.mark.parametrize("periods", [63, 64, 126])
+def test_no_period_of_the_stiffness_hides_between_the_resting_positions(reference_scene, periods):
+    scene = reference_scene("G1", 1.0)
+    cage = CagePath(scene.cage.nominal_speed, periods * scene.rig.bearing.spacing / scene.cage.nominal_speed, 0.1)
+    swing = resting(replace(scene, cage=cage)).stiffness[:, 1]
+    long = stiffness_trace(replace(scene, cage=cage), np.linspace(0.0, cage.duration, 5001))[:, 1]
+    assert swing.std() == pytest.approx(long.std(), rel=0.3)
+    assert swing.mean() == pytest.approx(long.mean(), rel=0.01)
 
 
 def test_a_march_cannot_go_on_after_another_of_its_case_has_set_out(case):

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from measures import rms
+from variants import changed
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
@@ -101,6 +103,13 @@ def test_waves_of_the_outer_race_repeat_themselves_with_the_balls(reference_scen
     assert trace.method == METHOD
     error = np.sqrt(((trace.acceleration - exact.acceleration) ** 2).mean() / (exact.acceleration**2).mean())
     assert error <= trace.error_estimate <= 1e-3
+
+
+def test_a_response_that_repeats_itself_only_after_two_periods_is_not_read_from_one(reference_scene):
+    scene = changed(_without_slip(reference_scene("F1p", speed_factor=2.0), 0.4), operation={"load": 50.0})
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, accuracy=1e-5)
+    assert rms(trace.acceleration - exact.acceleration) <= trace.error_estimate * rms(exact.acceleration)
+    assert trace.error_estimate <= 1e-3
 
 
 def test_a_polynomial_of_degree_five_is_read_exactly_anywhere():

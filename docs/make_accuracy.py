@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, plt, png_of
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, png_of, with_panels
 from datagen.marked_tables import write_marked
 
 DOCS = Path(__file__).parent
@@ -36,7 +36,7 @@ def table() -> str:
 
 def draw() -> Figure:
     """Error against its estimate, every judged scene a dot that the program does not call chaotic."""
-    figure, axes = plt.subplots(figsize=(6.2, 4.2), layout="constrained")
+    figure, axes = with_panels(figsize=(6.2, 4.2), layout="constrained")
     faint_grid(axes)
     for (length, name), marker, colour in zip(SETS.items(), "o^", (BLUE, VERMILLION), strict=True):
         rows = json.loads((DOCS / name).read_text(encoding="utf-8"))["rows"].values()

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -23,7 +24,6 @@ from datagen.drawing.style import (
     VERMILLION,
     faint_grid,
     outside_legend,
-    plt,
     png_of,
 )
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
@@ -113,7 +113,7 @@ def column(title: str, *spalls: Spall) -> Column:
 
 def draw_states(states: list[Column]) -> Figure:
     """A column a state, and below each other path, force on a ball, acceleration and squared envelope spectrum."""
-    figure = plt.figure(figsize=(13.0, 9.4))
+    figure = Figure(figsize=(13.0, 9.4))
     blocks = figure.add_gridspec(
         3, 1, height_ratios=(1.75, 1.0, 1.1), left=0.075, right=0.985, top=0.885, bottom=0.055, hspace=0.36
     )
@@ -144,7 +144,7 @@ def draw_states(states: list[Column]) -> Figure:
     return figure
 
 
-def _same_height(panels: list[plt.Axes]) -> None:
+def _same_height(panels: list[Axes]) -> None:
     ends = np.array([panel.get_ylim() for panel in panels])
     low, high = (
         (ends[:, 0].max(), ends[:, 1].min()) if ends[0, 0] > ends[0, 1] else (ends[:, 0].min(), ends[:, 1].max())
@@ -153,7 +153,7 @@ def _same_height(panels: list[plt.Axes]) -> None:
         panel.set_ylim(low, high)
 
 
-def _draw_path(axes: plt.Axes, state: Column) -> None:
+def _draw_path(axes: Axes, state: Column) -> None:
     arc = np.linspace(-ARC_SHOWN, ARC_SHOWN, 4001)
     drop = np.zeros(arc.size)
     for spall in state.scene.spalls:
@@ -164,7 +164,7 @@ def _draw_path(axes: plt.Axes, state: Column) -> None:
     axes.tick_params(labelbottom=False)
 
 
-def _draw_force(axes: plt.Axes, state: Column) -> None:
+def _draw_force(axes: Axes, state: Column) -> None:
     """The ball that passes the bottom of row 1 in the middle of the record, simulated and quasi-static."""
     arc, part, ball = _passing_ball(state)
     force = state.trace.contact_force
@@ -190,7 +190,7 @@ def _passing_ball(state: Column) -> tuple[Array, slice, int]:
     return arc[part], part, ball
 
 
-def _draw_acceleration(axes: plt.Axes, state: Column) -> None:
+def _draw_acceleration(axes: Axes, state: Column) -> None:
     cage = state.scene.cage
     width = 3.4 * state.scene.rig.bearing.spacing / cage.mean_speed
     start, stop = DURATION / 2.0 - width / 2.0, DURATION / 2.0 + width / 2.0
@@ -209,7 +209,7 @@ def _draw_acceleration(axes: plt.Axes, state: Column) -> None:
     outside_legend(axes)
 
 
-def _draw_envelope_spectrum(axes: plt.Axes, state: Column) -> None:
+def _draw_envelope_spectrum(axes: Axes, state: Column) -> None:
     rig = state.scene.rig
     settled = state.acceleration[int(SETTLED * RATE) :]
     frequency, amplitude = squared_envelope_spectrum(band_envelope(settled, RATE, default_band(rig, RATE)), RATE)

@@ -15,6 +15,7 @@ from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.adaptive import respond_accurately
 from physics.response.fixed_steps import respond_by_fixed_steps
+from physics.response.goal import rms
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.march import MODEL, respond_by_reference
 from physics.response.modal_case import resting
@@ -29,6 +30,8 @@ Array = NDArray[np.float64]
 
 SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
 GIVEN_STEPS = "exponential_rk4"
+# A response that is repeated must keep this share of its RMS where its rate is lowered.
+LEAST_LEFT = 0.5
 
 
 @dataclass(frozen=True)
@@ -203,7 +206,11 @@ def _respond_modally(scene: Scene, wanted: Request) -> Trace:
     alone = wanted.kept == ACCELERATION_ALONE
     repeated = wanted.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
     trace = respond_until_repeated(*asked) if repeated else respond_accurately(*asked, wanted.kept)
-    return _lowered(trace, rate, factor, samples)
+    lowered = _lowered(trace, rate, factor, samples)
+    if repeated and rms(lowered.acceleration) < LEAST_LEFT * rms(trace.acceleration):
+        # What repeating leaves out lies at low frequencies, where hardly anything of the signal is.
+        lowered = _lowered(respond_accurately(*asked, wanted.kept), rate, factor, samples)
+    return lowered
 
 
 def _respond_by_steps(scene: Scene, wanted: Request) -> Trace:

@@ -42,6 +42,9 @@ def write_report(folder: Path, out: Path | None = None) -> Report:
         raise BadInput("this corpus holds no record yet", str(folder))
     contents = _contents(folder, facts, out)
     write_results(out, contents)
+    for picture in out.glob("record_*.png"):
+        if picture.name not in contents:  # of an earlier report
+            picture.unlink()
     return Report(str(out), tuple(contents), facts, unstated(facts))
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from datagen.commands.program import JsonFile, command, write_json
+from datagen.commands.program import JsonFile, command, show_tables, write_json
+from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
     from datagen.benchmark.classify import Benchmark
@@ -100,6 +101,8 @@ def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
 
 
 def _tell(results: dict[str, Any]) -> None:
+    from datagen.commands.tables import verdict_table
+
     for test in results["tests"]:
         print(f"{test['corpus']}: {test['records']} records, {test['locations']}")
         for name, scores in test["models"].items():
@@ -113,6 +116,9 @@ def _tell(results: dict[str, Any]) -> None:
         for noisy in test["noise"]:
             for name, scores in noisy["models"].items():
                 print(f"  {name:10} {noisy['snr_db']:g} dB: {_line(scores)}")
+        unscored = [entry for entry in test["predictions"] if entry["truth"] not in LOCATIONS]
+        if unscored:
+            show_tables([verdict_table(unscored, list(test["models"]))])
 
 
 def _line(scores: Scores) -> str:

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     from datagen.runs.run import Summary
 
 
-@command("spallgen generate datasets/quickstart --out out/quickstart")
+@command(
+    "spallgen generate datasets/quickstart --out out/quickstart",
+    kept="finished records are kept, and the same command goes on from there",
+)
 def generate(
     recipe: Annotated[Path, typer.Argument(metavar="RECIPE", help="Recipe file, its folder, or name of a dataset.")],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the corpus.")],

@@ -53,9 +53,11 @@ def spallgen(
     """Simulated vibration of rolling bearings with raceway spalls, as labelled corpora."""
 
 
-def command(example: str, name: str | None = None) -> Callable[[Command], Command]:
+def command(
+    example: str, name: str | None = None, *, kept: str = "no results were written"
+) -> Callable[[Command], Command]:
     """Add a command to the program, called `name` or like its function: bad input, a scene that cannot be simulated
-    and Ctrl-C end it with a sentence and their exit code."""
+    and Ctrl-C, after which `kept` is said, end it with a sentence and their exit code."""
 
     def register(function: Command) -> Command:
         @functools.wraps(function)
@@ -78,7 +80,7 @@ def command(example: str, name: str | None = None) -> Callable[[Command], Comman
                 complain(f"error: {problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt:
-                complain("interrupted; nothing that was finished is lost")
+                complain(f"interrupted; {kept}")
                 raise typer.Exit(INTERRUPTED) from None
 
         return app.command(name, epilog=f"Example: {example}")(guarded)

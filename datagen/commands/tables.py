@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from rich.markup import escape
 from rich.table import Table
 
 from datagen.corpora.reading import AGAIN
@@ -91,6 +92,25 @@ def _ranges(info: Info) -> Table:
         numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
         table.add_row(name, found.unit, *numbers, str(found.missing or ""))
     return table
+
+
+def verdict_table(predictions: list[dict[str, Any]], models: list[str]) -> Table:
+    """What every model says of the records, with the probability that it gives it, or why a record was rejected."""
+    table = Table(
+        title="records that are not scored, as what they are is not known or no class of ours",
+        caption="In brackets the probability of what is said, from a model that gives one.",
+    )
+    for name in ("record", "recording", "stated", *models, "why rejected"):
+        table.add_column(name, justify="right" if name == "record" else "left")
+    for entry in predictions:
+        facts = (str(entry["record"]), escape(entry["recording"]), entry["truth"])
+        table.add_row(*facts, *(_verdict(entry[model]) for model in models), escape(entry["rejected"]))
+    return table
+
+
+def _verdict(said: dict[str, Any]) -> str:
+    probability = said.get("location_probability", {}).get(said["location"])
+    return said["location"] if probability is None else f"{said['location']} ({probability:.2f})"
 
 
 def catalog_tables() -> list[Table]:

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, line_heights
 from datagen.drawing.measured_portrait import MeasuredPortrait
@@ -21,7 +22,6 @@ from datagen.drawing.style import (
     VERMILLION,
     faint_grid,
     outside_legend,
-    plt,
     png_of,
 )
 from datagen.drawing.time_panels import DYNAMIC_RANGE_DB
@@ -29,7 +29,6 @@ from labels.spectrogram import spectrogram
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 WIDTH, HEIGHT = 13.0, 9.0
 MARKS = {
@@ -59,7 +58,7 @@ def measured_sheet_png(portrait: MeasuredPortrait) -> bytes:
 
 def draw_measured_sheet(portrait: MeasuredPortrait) -> Figure:
     """The figure of one imported recording, all panels with units."""
-    figure = plt.figure(figsize=(WIDTH, HEIGHT))
+    figure = Figure(figsize=(WIDTH, HEIGHT))
     grid = figure.add_gridspec(
         3, 2, height_ratios=(0.8, 1.0, 1.1), left=0.06, right=0.975, top=0.885, bottom=0.06, hspace=0.42, wspace=0.17
     )

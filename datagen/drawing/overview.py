@@ -18,8 +18,8 @@ from datagen.drawing.style import (
     VERMILLION,
     faint_grid,
     outside_legend,
-    plt,
     png_of,
+    with_panels,
 )
 from labels.schema import LABEL
 
@@ -47,7 +47,7 @@ def draw_overview(labels: pandas.DataFrame, name: str) -> Figure:
     """The figure of a table of labels: records of each kind, then how the labels are distributed."""
     shown = [column for column in WORTH_SHOWING if _values(labels, column).size > 1][:MOST_DISTRIBUTIONS]
     rows = -(-(1 + len(shown)) // ACROSS)
-    figure, grid = plt.subplots(rows, ACROSS, figsize=(WIDTH, ROW_HEIGHT * rows + 0.5), layout="constrained")
+    figure, grid = with_panels(rows, ACROSS, figsize=(WIDTH, ROW_HEIGHT * rows + 0.5), layout="constrained")
     panels = list(np.ravel(grid))
     draw_kinds(panels[0], labels)
     for panel, column in zip(panels[1:], shown, strict=False):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, plt, png_of
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, png_of, with_panels
 from physics.bearing import RACES
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def draw_results(results: dict[str, Any]) -> Figure:
     """The figure of the results of `classify`: one row of panels a corpus, then the model."""
     tests = results["tests"]
     rows = len(tests) + 1
-    figure, axes = plt.subplots(
+    figure, axes = with_panels(
         rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False, width_ratios=COLUMN_WIDTHS
     )
     for panels, test in zip(axes, tests, strict=False):

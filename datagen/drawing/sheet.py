@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from matplotlib.figure import Figure
+
 from datagen.drawing.frequency_panels import (
     draw_background_spectrum,
     draw_envelope_spectrum,
@@ -13,7 +15,7 @@ from datagen.drawing.frequency_panels import (
 )
 from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, plt, png_of
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, png_of
 from datagen.drawing.time_panels import (
     draw_close_up,
     draw_part,
@@ -24,7 +26,6 @@ from datagen.drawing.time_panels import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from matplotlib.gridspec import SubplotSpec
 
 WIDTH, HEIGHT, DPI = 13.0, 12.5, 120
@@ -37,7 +38,7 @@ def sheet_png(portrait: Portrait) -> bytes:
 
 def draw_sheet(portrait: Portrait) -> Figure:
     """The figure of one record, all panels with units."""
-    figure = plt.figure(figsize=(WIDTH, HEIGHT))
+    figure = Figure(figsize=(WIDTH, HEIGHT))
     whole = 1.75 if portrait.has_parts else 0.85
     outer = figure.add_gridspec(
         2, 1, height_ratios=(whole, 5.0), left=0.06, right=0.975, top=0.915, bottom=0.045, hspace=0.16

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, plt, png_of
+from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, png_of, with_panels
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.summary import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 
@@ -34,7 +34,7 @@ def size_report_png(scores: SizeScores) -> bytes:
 def draw_size_report(scores: SizeScores, summary: dict[str, Any]) -> Figure:
     """The figure of a corpus scored against a known truth, and of the `summary` of its scores."""
     dependences = {name: rows for name, rows in summary["by"].items() if name != "size, mm"}
-    figure, axes = plt.subplots(4, 3, figsize=(11.5, 13.0), layout="constrained")
+    figure, axes = with_panels(4, 3, figsize=(11.5, 13.0), layout="constrained")
     panels = axes.ravel()
     told = [one for one in scores.records if one.truth.known and one.scorable and one.found]
     _against_truth(panels[0], told, "lag")

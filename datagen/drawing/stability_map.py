@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from datagen.charts.stability import BY_STEP, DURATION, NOT_CONVERGED, RATE, STEPS, VALUE, Map
-from datagen.drawing.style import GREY, INK, plt, png_of
+from datagen.drawing.style import GREY, INK, png_of, with_panels
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -57,7 +57,7 @@ def draw_sheet(maps: Sequence[Map], number: str) -> Figure:
     methods = list(dict.fromkeys(one.method for one in maps))
     sweeps = list(dict.fromkeys(one.sweep for one in maps))
     height = TOP + len(methods) * (PANEL + GAP) - GAP + BOTTOM
-    figure, grid = plt.subplots(len(methods), len(sweeps), figsize=(WIDTH, height), squeeze=False, sharex="col")
+    figure, grid = with_panels(len(methods), len(sweeps), figsize=(WIDTH, height), squeeze=False, sharex="col")
     figure.subplots_adjust(
         left=LEFT / WIDTH, right=1.0 - RIGHT / WIDTH, top=1.0 - TOP / height, bottom=BOTTOM / height, wspace=0.08,
         hspace=GAP / PANEL,

@@ -7,15 +7,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
+from matplotlib import rc_context
+from matplotlib.figure import Figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 # Okabe and Ito's palette.
 BLUE, VERMILLION, GREEN, ORANGE, SKY, PURPLE = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7"
@@ -53,7 +49,7 @@ SETTINGS: dict[Any, Any] = {
 @contextmanager
 def house_style() -> Iterator[None]:
     """Everything drawn inside has the one look."""
-    with plt.rc_context(SETTINGS):
+    with rc_context(SETTINGS):
         yield
 
 
@@ -66,16 +62,19 @@ def png_of(
     """The figure that `draw` makes in the house style, as the bytes of a PNG file with `dpi` dots an inch.
 
     `settings` of matplotlib overrule those of the house style; `metadata` are texts of the file, None leaves one out.
-    Every figure that `draw` opened is closed again, whatever it raises.
+    Figures are made without pyplot, so that neither its backend nor its list of open figures is touched.
     """
-    picture, opened_before = io.BytesIO(), set(plt.get_fignums())
-    try:
-        with house_style(), plt.rc_context(dict[Any, Any](settings or {})):
-            draw().savefig(picture, dpi=dpi, format="png", metadata=metadata)
-    finally:
-        for number in set(plt.get_fignums()) - opened_before:
-            plt.close(number)
+    picture = io.BytesIO()
+    with house_style(), rc_context(dict[Any, Any](settings or {})):
+        draw().savefig(picture, dpi=dpi, format="png", metadata=metadata)
     return picture.getvalue()
+
+
+def with_panels(rows: int = 1, columns: int = 1, *, figsize: tuple[float, float], **options: Any) -> tuple[Figure, Any]:
+    """A figure of `figsize` (inches) with a grid of panels, and these as `Figure.subplots` gives them for `options`;
+    the option `layout` is the figure's."""
+    figure = Figure(figsize=figsize, layout=options.pop("layout", None))
+    return figure, figure.subplots(rows, columns, **options)
 
 
 def faint_grid(axes: Axes) -> None:

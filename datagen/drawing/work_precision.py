@@ -9,15 +9,16 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from matplotlib.figure import Figure
+
 from datagen.charts.contestants import METHOD, MODEL
 from datagen.charts.measure import TARGET, Chart, Run
-from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, plt, png_of
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, png_of
 from physics.integrators.methods import MODAL
 from physics.integrators.rivals.general_purpose import BALL_BY_BALL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 WIDTH, HEIGHT, DPI = 9.4, 7.2, 150
 METHOD_COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
@@ -37,7 +38,7 @@ def work_precision_png(chart: Chart) -> bytes:
 
 def draw_work_precision(chart: Chart) -> Figure:
     """The figure of one scene: on top how fast the fixed steps could go at most, below error against speed."""
-    figure = plt.figure(figsize=(WIDTH, HEIGHT))
+    figure = Figure(figsize=(WIDTH, HEIGHT))
     strip, axes = figure.subplots(
         2,
         1,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, faint_grid, plt
+from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import (
@@ -169,7 +169,7 @@ def _deepest(found: Distribution) -> float:
 
 def draw(healthy: Distribution, line: Distribution, extended: Distribution) -> Figure:
     """Profiles above loads along x and y, line spall on the left, extended spall on the right."""
-    figure, grid = plt.subplots(3, 2, figsize=(10.0, 8.2), sharex=True, sharey="row")
+    figure, grid = with_panels(3, 2, figsize=(10.0, 8.2), sharex=True, sharey="row")
     for column, (found, colour, name) in enumerate(((line, LINE, "line 2°"), (extended, EXTENDED, "extended 40°"))):
         _draw_profile(grid[0, column], found, colour)
         letter(grid[0, column], "ab"[column], f"Drop of the ball's centre, {name}")

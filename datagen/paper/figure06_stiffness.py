@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import EXTENDED, HEALTHY, INK, LINE, PURPLE, faint_grid, plt
+from datagen.drawing.style import EXTENDED, HEALTHY, INK, LINE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import (
@@ -200,7 +200,7 @@ def _axis_rows(found: dict[str, Stiffness]) -> list[Row]:
 
 def draw(found: dict[str, Stiffness]) -> Figure:
     """kxx, kyy and kxy from above, line spall on the left, extended spall on the right."""
-    figure, grid = plt.subplots(3, 2, figsize=(10.0, 8.6), sharex=True, sharey="row")
+    figure, grid = with_panels(3, 2, figsize=(10.0, 8.6), sharex=True, sharey="row")
     healthy = found["healthy"]
     for column, (name, colour) in enumerate((("line", LINE), ("extended", EXTENDED))):
         one = found[name]

@@ -19,7 +19,7 @@ from datagen.drawing.style import (
     SKY,
     VERMILLION,
     faint_grid,
-    plt,
+    with_panels,
 )
 from datagen.paper.chapter import Chapter, Row, beside
 from datagen.paper.panels import heading, legend_below, letter
@@ -208,7 +208,7 @@ def _comparison(name: str, line: Forces, extended: Forces) -> list[Row]:
 
 def draw(found: dict[str, Forces], gap: Forces) -> Figure:
     """Forces on the balls of row 1 and 2 and the net force from above; line spall left, extended spall right."""
-    figure, grid = plt.subplots(3, 2, figsize=(10.0, 8.6), sharex="col")
+    figure, grid = with_panels(3, 2, figsize=(10.0, 8.6), sharex="col")
     for column, (name, one) in enumerate(found.items()):
         start, stop = WINDOWS[name]
         part = slice(math.floor(start * RATE), math.ceil(stop * RATE) + 1)

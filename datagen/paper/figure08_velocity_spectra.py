@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import GREEN, GREY, INK, LINE, PURPLE, faint_grid, plt
+from datagen.drawing.style import GREEN, GREY, INK, LINE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, highest_near, legend_below, letter, power_decibel, spread
 from datagen.paper.published import published_value
@@ -149,7 +149,7 @@ def sidebands(seed: int) -> float:
 
 def draw() -> Figure:
     """One spectrum above the other: healthy, line, extended, extended by the reference profile."""
-    figure, grid = plt.subplots(len(CONDITIONS), 1, figsize=(10.0, 10.0), sharex=True, sharey=True)
+    figure, grid = with_panels(len(CONDITIONS), 1, figsize=(10.0, 10.0), sharex=True, sharey=True)
     for row, (axes, (name, (colour, title))) in enumerate(zip(grid, CONDITIONS.items(), strict=True)):
         _draw_spectrum(axes, shown(name), colour)
         if name in ("extended", "reference"):

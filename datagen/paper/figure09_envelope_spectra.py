@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import INK, faint_grid, plt
+from datagen.drawing.style import INK, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, legend_below, letter, spread
 from datagen.paper.published import published_value
@@ -105,7 +105,7 @@ def _ratio_rows(where: str, lines: dict[str, Array], axes: bool = True) -> list[
 
 def draw() -> Figure:
     """A row a condition; the paper's band on the left, the band around the pole on the right."""
-    figure, grid = plt.subplots(len(CONDITIONS), 2, figsize=(10.0, 9.6), sharex=True)
+    figure, grid = with_panels(len(CONDITIONS), 2, figsize=(10.0, 9.6), sharex=True)
     low, high = pole_band()
     titles = ("10.2 to 10.4 kHz", f"{low / 1e3:.2f} to {high / 1e3:.2f} kHz")
     for row, (name, (colour, title)) in enumerate(CONDITIONS.items()):

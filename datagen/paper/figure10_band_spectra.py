@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import EXTENDED, GREY, INK, LINE, ORANGE, PALE, SKY, faint_grid, plt
+from datagen.drawing.style import EXTENDED, GREY, INK, LINE, ORANGE, PALE, SKY, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure09_envelope_spectra import PAPER_BAND
 from datagen.paper.panels import heading, legend_below, letter, power_decibel, spread
@@ -106,7 +106,7 @@ def rows(levels: dict[str, list[Array]], slipping: Array, steady: float) -> list
 
 def draw() -> Figure:
     """The paper's band above a wider one, line spalls on the left, extended spalls on the right."""
-    figure, grid = plt.subplots(2, 2, figsize=(10.0, 7.0), sharey="row")
+    figure, grid = with_panels(2, 2, figsize=(10.0, 7.0), sharey="row")
     pairs = ((("gap", SKY), ("line", LINE)), (("reference", ORANGE), ("extended", EXTENDED)))
     for column, pair in enumerate(pairs):
         for row, band in enumerate((PAPER_BAND, WIDE_BAND)):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import GREY, INK, LINE, MAP, ORANGE, PURPLE, faint_grid, plt
+from datagen.drawing.style import GREY, INK, LINE, MAP, ORANGE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, letter, power_decibel
 from datagen.paper.scenes import (
@@ -194,7 +194,7 @@ def _share_rows(gradual: Recording, equal: Recording, gap: Recording) -> list[Ro
 
 def draw(found: Recording) -> Figure:
     """Trace above spectrogram on the left, spectrum in the band above envelope spectrum on the right."""
-    figure, grid = plt.subplots(2, 2, figsize=(11.0, 7.4), gridspec_kw={"width_ratios": (1.25, 1.0)})
+    figure, grid = with_panels(2, 2, figsize=(11.0, 7.4), gridspec_kw={"width_ratios": (1.25, 1.0)})
     first = found.complete[found.complete.size // 2]
     start = float(found.passes.entry_time[first]) - 2.0e-3
     stop = start + PASSES_SHOWN / bpfo_hz("fan")

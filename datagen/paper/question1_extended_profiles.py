@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
-from datagen.drawing.style import EXTENDED, GREEN, GREY, INK, LINE, ORANGE, PURPLE, faint_grid, plt
+from datagen.drawing.style import EXTENDED, GREEN, GREY, INK, LINE, ORANGE, PURPLE, faint_grid
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure08_velocity_spectra import HARMONICS, SIXTH
 from datagen.paper.panels import heading, letter
@@ -17,7 +19,6 @@ from datagen.paper.scenes import machine
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 NAME = "question1"
 PLANE = (-20.0, 14.0)  # dB; what lies lower is drawn on the edge
@@ -119,7 +120,7 @@ def draw(found: Sequence[Outcome]) -> Figure:
 
     ValueError if one of the three profiles drawn by name was not searched.
     """
-    figure = plt.figure(figsize=(11.0, 9.4))
+    figure = Figure(figsize=(11.0, 9.4))
     upper = figure.add_gridspec(1, 3, left=0.085, right=0.985, top=0.895, bottom=0.545, wspace=0.1)
     lower = figure.add_gridspec(
         1, 2, left=0.065, right=0.985, top=0.435, bottom=0.125, wspace=0.17, width_ratios=(1, 1.05)
@@ -167,9 +168,7 @@ def _draw_map(
         grid[row, column] = value
         axes.text(column, row, f"{value:+.0f}", ha="center", va="center", fontsize=8, color=INK)
         if one.lifts and one.keeps_envelope:
-            axes.add_patch(
-                plt.Rectangle((column - 0.46, row - 0.44), 0.92, 0.88, fill=False, edgecolor=INK, linewidth=1.8)
-            )
+            axes.add_patch(Rectangle((column - 0.46, row - 0.44), 0.92, 0.88, fill=False, edgecolor=INK, linewidth=1.8))
     axes.imshow(grid, cmap="PuOr_r", vmin=limits[0], vmax=limits[1], aspect="auto", alpha=0.75)
     axes.set_xticks(range(len(columns)), [f"{wave:g}" for wave in columns])
     names = [f"{deviation:g} about {depth:g}" for depth, deviation in lines]

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from datagen.drawing.style import EXTENDED, GREY, INK, LINE, faint_grid, plt
+from datagen.drawing.style import EXTENDED, GREY, INK, LINE, faint_grid
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure08_velocity_spectra import HARMONICS, SIXTH
 from datagen.paper.panels import heading, highest_near, letter, power_decibel, spread
@@ -20,7 +21,6 @@ from physics.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -159,7 +159,7 @@ def rows(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> list[Row]:
 
 def draw(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> Figure:
     """Sideband level against deviation on the left; spectra around the sixth harmonic on the right."""
-    figure = plt.figure(figsize=(11.0, 6.4))
+    figure = Figure(figsize=(11.0, 6.4))
     grid = figure.add_gridspec(2, 2, left=0.065, right=0.985, top=0.865, bottom=0.085, wspace=0.15, hspace=0.38)
     curve = figure.add_subplot(grid[:, 0])
     _draw_growth(curve, found, floor)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import BLUE, GREEN, INK, ORANGE, VERMILLION, faint_grid, plt
+from datagen.drawing.style import BLUE, GREEN, INK, ORANGE, VERMILLION, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, letter
 from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, gradual_line_spall, machine, scene, signal
@@ -151,7 +151,7 @@ def rows(found: list[Smearing]) -> list[Row]:
 
 def draw(found: list[Smearing]) -> Figure:
     """Drop against harmonic above, spectra with and without slip below; gearbox rig left, fan rig right."""
-    figure, grid = plt.subplots(2, 2, figsize=(11.0, 7.4))
+    figure, grid = with_panels(2, 2, figsize=(11.0, 7.4))
     for column, one in enumerate(found):
         _draw_drop(grid[0, column], one)
         letter(grid[0, column], "ab"[column], f"Lines over those without slip, {one.rig} rig")

@@ -16,6 +16,8 @@ NEAR_WHOLE = 0.2
 the speed changes by no more than a tenth from turn to turn."""
 MOST_A_TURN = 0.5
 """Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does."""
+MOST_MENDED = 0.1
+"""Share of the pulses that may be lost or double; of a signal with more of them one cannot say that it is a tach's."""
 
 
 def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.recordings.pulses import mended, rising_edges
+from datagen.recordings.pulses import MOST_MENDED, mended, rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.source import Source, Span
 from datagen.recordings.values import RANGES, in_range
@@ -52,6 +52,11 @@ def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int,
     if times is None:
         return _stated_speeds(source, rate, size, pieces)
     times, wrong = mended(times, tach.pulses_per_rev)
+    if wrong > MOST_MENDED * times.size:
+        raise BadInput(
+            f"{wrong} of the {times.size} pulses of its tach are lost or double", str(source.path), "tach.variable",
+            tach.variable, f"a signal with a pulse for every part of a turn, of which {MOST_MENDED:.0%} may be wrong",
+        )  # fmt: skip
     _require_nominal(source, tach, times, size / rate)
     return _tach_speeds(source, tach, times, wrong, rate, pieces)
 

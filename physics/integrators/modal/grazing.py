@@ -1,9 +1,9 @@
 """Balls that may touch a bump of a spall, or lift over a dent of it, between the instants a step looks at.
 
-A path over a rough or a measured surface may have features finer than a step. How far it can stray from its chord over the arc that a ball
-covers in the step is known beforehand; only a ball nearer to a change than that, or one that is compressed and yet let
-go of, is followed through the step. What its compression would be over a smooth race runs as the cubic between both
-ends, so only the path has to be looked at.
+A path over a rough or a measured surface may have features finer than a step. How far it can stray from its chord over
+the arc that a ball covers in the step is known beforehand; only a ball nearer to a change than that, or one that is
+compressed and yet let go of, is followed through the step. What its compression would be over a smooth race runs as the
+cubic between both ends, so only the path has to be looked at.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
 from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
-from datagen.commands.classify import _line
+from datagen.commands.classify import _line, _tell
 from labels.classifier.alarm import CLEARNESS, Alarm
 from labels.classifier.rule import Rule
 from labels.features.table import FEATURE_NAMES
@@ -237,6 +237,20 @@ def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
     found = summarise(judged(locations, [outer, healthy, outer, outer, outer]), False)["models"]["said"]
     assert (found.healthy, found.false_alarms) == (2, 1)
     assert found.confusion.counts[-1] == [0, 2, 0, 0]  # beside them, called outer
+
+
+def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(capsys):
+    outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]
+    summary = summarise(judged(["none", "unknown", "ball"], [healthy, outer, healthy]))
+    facts = {"corpus": "made-up", "rejections": {}, "noise": []}
+    none = {"glitches": 0, "shocks": 0, "records": 0}
+    _tell({"tests": [summary | facts | {"despiked": none, "shocks_cut": none}]})
+    lines = [line for line in capsys.readouterr().out.splitlines() if "│" in line]
+    assert len(lines) == 2
+    assert "unknown" in lines[0]
+    assert "outer (0.95)" in lines[0]
+    assert "ball" in lines[1]
+    assert "none (0.90)" in lines[1]
 
 
 def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():

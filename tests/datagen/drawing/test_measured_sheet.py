@@ -9,7 +9,7 @@ import pytest
 
 from datagen.drawing.measured_portrait import MeasuredPortrait
 from datagen.drawing.measured_sheet import draw_measured_sheet, heading, measured_sheet_png, summary
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style
 
 RATE = 8000.0
 LABELS: dict[str, Any] = {
@@ -62,7 +62,6 @@ def test_every_panel_is_drawn_whatever_is_unknown() -> None:
         titles = [axes.get_title(loc="left") for axes in figure.axes]
         marks = {line.get_label(): line for line in figure.axes[4].lines}
         places = marks["BPFO 90 Hz"].get_xdata()
-        plt.close(figure)
     assert titles[0].startswith("Acceleration, y axis")
     assert titles[4] == "Squared envelope spectrum"
     # One line of the spectrum is 1 Hz wide.
@@ -103,5 +102,4 @@ def test_at_a_changing_speed_the_envelope_is_drawn_over_the_angle_of_the_shaft()
     with house_style():
         figure = draw_measured_sheet(drawn)
         titles = [axes.get_title(loc="left") for axes in figure.axes]
-        plt.close(figure)
     assert titles[4] == "Squared envelope spectrum, by angle"

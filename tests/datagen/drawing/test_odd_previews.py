@@ -9,7 +9,7 @@ import pytest
 
 from datagen.drawing.frequency_panels import line_heights
 from datagen.drawing.sheet import draw_sheet, heading
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style
 from labels.truth import ball_passes
 from physics.spall import Spall
 
@@ -19,9 +19,8 @@ def axes_of(drawn, beginning):
     with house_style(), warnings.catch_warnings():
         warnings.simplefilter("error")
         figure = draw_sheet(drawn)
-        figure.canvas.draw()
+        figure.draw_without_rendering()
         found = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith(beginning))
-        plt.close(figure)
     return found
 
 
@@ -58,7 +57,6 @@ def test_a_record_too_short_for_a_pass_or_a_line_says_so(too_short):
     with house_style():
         figure = draw_sheet(too_short)
         words = [text.get_text() for axes in figure.axes for text in axes.texts]
-        plt.close(figure)
     assert "no ball passes a spall in this time" in words
     assert "no defect to pass" not in words
 

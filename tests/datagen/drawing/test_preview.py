@@ -11,7 +11,7 @@ from datagen.drawing.frequency_panels import cursors, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style, with_panels
 from datagen.drawing.time_panels import _lanes, draw_close_up, draw_spectrogram, vertical_modes
 from datagen.errors import BadInput
 from datagen.files.plain import plain_json
@@ -68,7 +68,6 @@ def test_every_panel_has_a_title_and_every_scale_a_unit(portrait):
         figure = draw_sheet(portrait("line, outer"))
         titles = [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
         words = " ".join(axes.get_xlabel() + " " + axes.get_ylabel() for axes in figure.axes)
-        plt.close(figure)
     for topic in (
         "Acceleration",
         "Close-up",
@@ -102,7 +101,6 @@ def test_the_close_up_marks_release_and_regain_of_every_pass_in_it(portrait):
         figure = draw_sheet(drawn)
         close_up = next(axes for axes in figure.axes if axes.get_title(loc="left") == "Close-up")
         marks = sorted(line.get_xdata()[0] for line in close_up.lines if len(set(line.get_xdata())) == 1)
-        plt.close(figure)
     start, stop = drawn.window
     events = np.concatenate([drawn.passes.release_time, drawn.passes.regain_time])
     assert np.allclose(marks, 1e3 * np.sort(events[(events >= start) & (events <= stop)]))
@@ -165,10 +163,9 @@ def test_the_flank_of_a_line_is_not_marked_as_its_sideband():
 
 def test_the_sheet_says_where_its_modes_are_taken(portrait):
     with house_style():
-        figure, axes = plt.subplots()
+        _, axes = with_panels(figsize=(4.0, 3.0))
         draw_spectrogram(axes, portrait("line, outer"))
         said = axes.get_xlabel()
-        plt.close(figure)
     assert said.endswith("dashed: modes along y at the middle of the close-up")
 
 
@@ -185,11 +182,10 @@ def test_panels_speak_of_a_background_only_where_there_may_be_one(background, cl
     known = None if background is None else np.full((8192, 2), background)
     drawn = portrait("line, outer", clean, noise=0.0, background=known)
     with house_style():
-        figure, (above, below) = plt.subplots(2)
+        _, (above, below) = with_panels(2, figsize=(4.0, 3.0))
         draw_spectrogram(above, drawn)
         draw_close_up(below, drawn)
         title, names = above.get_title(loc="left"), below.get_legend_handles_labels()[1]
-        plt.close(figure)
     assert title.startswith(f"Spectrogram, {whose}, ")
     assert names[0] == whose
 
@@ -254,7 +250,6 @@ def test_clean_signal_background_and_their_sum_are_drawn_one_below_the_other(wit
         figure = draw_sheet(drawn)
         strips = {axes.get_title(loc="left").split()[0]: axes for axes in figure.axes[:3]}
         spectra = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Amplitude"))
-        plt.close(figure)
     assert list(strips) == ["Clean", "Background", "Sum,"]
     for name, signal in (("Clean", drawn.sensor), ("Background", drawn.background), ("Sum,", drawn.acceleration)):
         assert np.array_equal(strips[name].lines[0].get_ydata(), signal[:, 1])

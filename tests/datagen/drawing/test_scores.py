@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from datagen.drawing.scores import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style, with_panels
 from labels.classifier.scores import Interval
 
 HALF = Interval(0.5, 0.4, 0.6)
@@ -33,10 +33,9 @@ def words():
 
     def written(draw, *arguments):
         with house_style():
-            figure, axes = plt.subplots()
+            _, axes = with_panels(figsize=(4.0, 3.0))
             draw(axes, *arguments)
             texts = " ".join(text.get_text() for text in axes.texts)
-            plt.close(figure)
         return texts
 
     return written
@@ -66,10 +65,9 @@ def test_every_model_has_its_table_of_confusion(summary_of):
         name: replace(scores, confusion=replace(scores.confusion, counts=[[count]])) for name, count in counts.items()
     }
     with house_style():
-        figure, axes = plt.subplots()
+        figure, axes = with_panels(figsize=(4.0, 3.0))
         draw_confusion(axes, test)
         drawn = {panel.get_title(loc="left"): panel.texts[0].get_text() for panel in figure.axes if panel.texts}
-        plt.close(figure)
     assert drawn == {"said by rule": "7", "said by forest": "8", "said by logistic": "9"}
 
 

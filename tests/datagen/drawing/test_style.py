@@ -1,37 +1,56 @@
-"""One way from a figure to the bytes of a PNG file, which leaves nothing open."""
+"""One way from a figure to the bytes of a PNG file, which leaves nothing open and no setting changed."""
+
+import subprocess
+import sys
 
 import matplotlib
 import pytest
+from matplotlib.figure import Figure
 
-from datagen.drawing.style import SETTINGS, plt, png_of
+from datagen.drawing.style import SETTINGS, png_of, with_panels
 
 
-def test_a_picture_is_drawn_in_the_house_style_and_closed():
-    seen, before = [], plt.get_fignums()
+def test_a_picture_is_drawn_in_the_house_style():
+    seen = []
 
     def draw():
         seen.append((matplotlib.rcParams["axes.edgecolor"], matplotlib.rcParams["font.size"]))
-        return plt.figure()
+        return Figure()
 
+    before = dict(matplotlib.rcParams)
     assert png_of(draw, 50, settings={"font.size": 11.0}).startswith(b"\x89PNG\r\n")
     assert seen == [(SETTINGS["axes.edgecolor"], 11.0)]
-    assert plt.get_fignums() == before
+    assert dict(matplotlib.rcParams) == before
 
 
-def test_a_figure_is_closed_though_drawing_fails_and_others_stay_open():
-    other = plt.figure()
+def test_settings_are_as_before_though_drawing_fails():
+    before = dict(matplotlib.rcParams)
 
     def draw():
-        plt.figure()
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
         png_of(draw, 50)
-    assert plt.fignum_exists(other.number)
-    assert plt.get_fignums()[-1] == other.number
-    plt.close(other)
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_drawing_loads_no_pyplot_and_so_changes_no_backend():
+    code = (
+        "import sys, datagen.drawing.preview, datagen.drawing.scores, datagen.drawing.size_report\n"
+        "from datagen.drawing.style import png_of, with_panels\n"
+        "png_of(lambda: with_panels(figsize=(1.0, 1.0))[0], 50)\n"
+        "sys.exit('matplotlib.pyplot' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_panels_are_laid_out_as_asked():
+    figure, grid = with_panels(2, 3, figsize=(6.0, 4.0), layout="constrained", sharex=True)
+    assert grid.shape == (2, 3)
+    assert figure.get_size_inches().tolist() == [6.0, 4.0]
+    assert figure.get_layout_engine() is not None
 
 
 def test_a_picture_without_the_name_of_its_program_does_not_hold_it():
-    assert b"Software" in png_of(plt.figure, 50)
-    assert b"Software" not in png_of(plt.figure, 50, metadata={"Software": None})
+    assert b"Software" in png_of(Figure, 50)
+    assert b"Software" not in png_of(Figure, 50, metadata={"Software": None})

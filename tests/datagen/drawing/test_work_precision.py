@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from datagen.charts import contestants as entrants
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style
 from datagen.drawing.work_precision import (
     RINGED,
     draw_work_precision,
@@ -19,7 +19,6 @@ def test_the_default_is_named_in_the_legend_and_small_errors_are_on_the_panel(sm
         figure = draw_work_precision(dataclasses.replace(small_chart, runs=(run,), edges={}))
         panel = figure.axes[1]
         named, low = [text.get_text() for text in panel.get_legend().get_texts()], panel.get_ylim()[0]
-        plt.close(figure)
     assert named == ["modal (default)"]
     assert low == pytest.approx(1e-8)
 
@@ -37,7 +36,6 @@ def test_an_error_beyond_the_panel_is_ringed_on_its_edge_and_one_on_it_is_not(sm
             chart = dataclasses.replace(small_chart, runs=tuple(runs[:kept]), edges={})
             figure = draw_work_precision(chart)
             drawn[kept] = {line.get_label(): line.get_xydata().tolist() for line in figure.axes[1].lines}
-            plt.close(figure)
     assert RINGED not in drawn[1]
     assert drawn[2][RINGED] == [[7.0, edge]]
     assert drawn[2][runs[0].name] == [[3.0, 1e-3], [7.0, edge]]
@@ -50,11 +48,10 @@ def test_names_in_a_chart_do_not_lie_on_each_other(small_chart):
     more = [dataclasses.replace(model if name == "quasi-static" else one, name=name) for name, one in run.items()]
     with house_style():
         figure = draw_work_precision(dataclasses.replace(small_chart, edges=speeds, runs=(*small_chart.runs, *more)))
-        figure.canvas.draw()
+        figure.draw_without_rendering()
         strip, panel = figure.axes
         boxes = [text.get_window_extent() for text in (*strip.texts, *panel.texts, *figure.texts)]
         named = [text.get_text() for text in panel.get_legend().get_texts()]
-        plt.close(figure)
     assert len(boxes) == len(speeds) + 2
     assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
     assert not any(box.overlaps(panel.get_window_extent()) for box in boxes)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style
 from datagen.paper.figure05_load_distribution import distribution
 from datagen.paper.figure06_stiffness import STEPS, period, stiffness
 from datagen.paper.figure07_contact_forces import forces
@@ -111,7 +111,6 @@ def test_every_row_says_where_the_paper_says_it_and_every_panel_is_named(key, ch
         figure = one.draw()
     named = [axes for axes in figure.axes if axes.get_title(loc="left")]
     assert len(named) >= 4
-    plt.close(figure)
 
 
 def test_entry_over_exit_is_the_ratio_of_two_bursts():

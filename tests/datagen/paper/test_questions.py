@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style
 from datagen.paper import question1_extended_profiles, question2_unequal_balls, question3_slip
 from datagen.paper.profile_search import CHOSEN, REFERENCE, SMOOTH, Outcome, Profile, outcome, profiles, rough_profiles
 from datagen.paper.question1_extended_profiles import answer
@@ -158,8 +158,6 @@ def test_the_figures_of_the_questions_have_their_panels():
             question3_slip.draw(slip),
         )
     assert [len([a for a in one.axes if a.get_title(loc="left")]) for one in figures] == [5, 3, 4]
-    for one in figures:
-        plt.close(one)
 
 
 def test_the_tables_of_the_questions_have_a_row_for_every_case():

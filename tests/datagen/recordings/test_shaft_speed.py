@@ -195,6 +195,14 @@ def test_a_channel_of_a_changing_speed_is_summed_up_to_the_angle(bring: Bring, m
     assert np.allclose(corpus.waveform(5, "shaft_angle"), angle[6000:] - angle[6000], atol=1e-9)
 
 
+def test_a_vibration_is_not_taken_for_a_tach(bring: Bring, mat: Mat) -> None:
+    vibration = np.random.default_rng(2).standard_normal(4000)
+    mat("a.mat", vibration, tacho=vibration)
+    with pytest.raises(BadInput, match="pulses of its tach are lost or double") as refused:
+        bring(TACH.replace("1000", "2500"))
+    assert refused.value.field == "tach.variable"
+
+
 @pytest.mark.parametrize("wrong", [[], [37], [5, 20, 33]])
 def test_a_steady_shaft_whose_tach_loses_a_pulse_stays_steady(bring: Bring, mat: Mat, wrong: list[int]) -> None:
     pulses = np.tile([0.0] * 99 + [1.0], 40)  # 25 turns a second, one pulse a turn

@@ -128,6 +128,7 @@ def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
     os.killpg(process.popen.pid, signal.SIGINT)
     code, printed = process.finish()
     assert code == 130, printed
+    assert "the same command goes on" in printed
     assert "Traceback" not in printed
     assert wait_until(lambda: not process.alive(), 3.0)
     verdict = check_corpus(tmp_path / "out")

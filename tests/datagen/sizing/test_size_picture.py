@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from datagen.drawing.size_report import draw_size_report
-from datagen.drawing.style import house_style, plt
+from datagen.drawing.style import house_style
 from datagen.sizing.score import SizeScores
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.summary import summarise
@@ -19,7 +19,7 @@ def drawn(records: list[ScoredRecord]) -> Figure:
     with house_style():
         summary = summarise(records, True)
         figure = draw_size_report(SizeScores("x", "spallgen", "all", True, records, summary, []), summary)
-        figure.canvas.draw()
+        figure.draw_without_rendering()
     return figure
 
 
@@ -34,11 +34,9 @@ def test_the_names_below_the_bars_do_not_lie_on_each_other(rigs: int, scored: Ca
     assert panel.get_title(loc="left") == ("Rig (records, 8 of 13)" if rigs > 8 else "Rig (records)")
     low, high = panel.get_xlim()
     assert low + high == pytest.approx(min(rigs, 8) - 1)  # the bars stand in the middle
-    plt.close(figure)
 
 
 def test_where_nothing_was_told_the_panels_say_so(scored: Callable[..., ScoredRecord]) -> None:
     records = [scored({"record": k}, {"outcome": "no_events", "lag": math.nan, "extent": math.nan}) for k in range(3)]
     figure = drawn(records)
     assert [[text.get_text() for text in axes.texts] for axes in figure.axes[:3]] == [["no record was told a size"]] * 3
-    plt.close(figure)

@@ -102,7 +102,7 @@ class Corpus:
             return variable in file.variables and file.variables[variable].dimensions[:1] == ("record",)
 
     def _place(self, record: int) -> tuple[str, int]:
-        if isinstance(record, bool | np.bool_) or record != int(record):
+        if isinstance(record, bool | np.bool_) or not _is_whole(record):
             allowed = "a record index, such as those in labels[mask].record"
             raise BadInput("no index of a record", str(self.folder), "record", record, allowed)
         try:
@@ -193,3 +193,10 @@ def _require_at_its_place(file: netCDF4.Dataset, record: int, position: int, sha
     held = file.variables["record"]
     if position < held.shape[0] and int(held[position]) != int(record):
         raise BadInput("the corpus has changed since its labels were read; open it again", shard, "record", int(record))
+
+
+def _is_whole(record: object) -> bool:
+    try:
+        return record == int(record)  # type: ignore[call-overload]
+    except (TypeError, ValueError, OverflowError):
+        return False

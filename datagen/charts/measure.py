@@ -27,6 +27,7 @@ from physics.statics.load_distribution import equilibrium
 from physics.warming import warm_up
 
 WARM_UP = 0.004
+SMALLEST_ERROR = 1e-300  # of a method that is its own reference
 QUICK_DURATION, QUICK_STEPS = 0.2, 32
 PART, PART_PASSES = 0.05, 1.1
 SLOW_SECONDS = 0.5
@@ -138,7 +139,8 @@ def at_error(runs: Sequence[Run], name: str, error: float) -> float | None:
     if not beyond:
         return best
     inside, outside = reached[-1], beyond[0]
-    share = math.log(error / inside[0]) / math.log(outside[0] / inside[0])
+    least = max(inside[0], SMALLEST_ERROR)
+    share = math.log(error / least) / math.log(outside[0] / least)
     between = math.exp(math.log(inside[1]) + share * math.log(outside[1] / inside[1]))
     return max(best, between)
 

@@ -70,7 +70,7 @@ def _rules(axes: Axes, told: list[ScoredRecord]) -> None:
     width = 0.8 / len(methods)
     for k, ((name, error), colour) in enumerate(zip(methods.items(), (BLUE, *RULE_COLOURS), strict=True)):
         means = [_mean([error(one) for one in told if noise_level(one) == level]) for level in NOISE_LEVELS]
-        axes.bar(place + (k - 2) * width, means, width, color=colour, label=name)
+        axes.bar(place + (k - (len(methods) - 1) / 2) * width, means, width, color=colour, label=name)
     axes.set_xticks(place, [noise_name(level) for level in NOISE_LEVELS])
     axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
     axes.set_xlim(-0.6, len(NOISE_LEVELS) - 0.4)

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,8 +72,8 @@ def sized_records(
         for shard, rows in chosen.groupby("shard", sort=True):
             for labels in rows.to_dict("records"):
                 with shards.reading(str(shard)) as file:
-                    one = _read(file, {str(key): value for key, value in labels.items()}, load_known, seed)
-                yield one
+                    stored = _read(file, int(labels["position"]), int(labels["record"]))
+                yield _sized(stored, {str(key): value for key, value in labels.items()}, load_known, seed)
 
 
 def unsized_records(folder: Path, splits: tuple[str, ...] | None = None) -> list[UnsizedRecord]:
@@ -91,28 +91,53 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
     return table if splits is None else table[table["split"].isin(splits)]
 
 
-def _read(file: Any, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
-    position, record = int(labels["position"]), int(labels["record"])
+class _Stored(NamedTuple):
+    """What a shard holds of a record: `acceleration` and the `clean` one (T, axes), whether it is `simulated`, the JSON
+    `text` that says how it came about ("" if there is none), and PASS_COLUMNS of its ball passes, if any are known."""
+
+    acceleration: Array
+    clean: Array | None
+    simulated: bool
+    text: str
+    passes: list[Array] | None
+
+
+def _read(file: Any, position: int, record: int) -> _Stored:
     clean, simulated = file.variables.get("acceleration_clean"), "scenario" in file.variables
-    contact = _stiffness(file, position, "scenario" if simulated else "provenance") if load_known else None
-    return SizedRecord(
-        record=record,
-        rate=float(labels["rate_hz"]),
+    text = file.variables.get("scenario" if simulated else "provenance")
+    passes = None
+    if set(PASS_COLUMNS) <= set(file.variables):
+        own = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
+        passes = [np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS]
+    return _Stored(
         acceleration=np.asarray(file.variables["acceleration"][position], dtype=np.float64),
         clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),
-        labels=labels,
-        situation=replace(
-            situation_of(labels, contact, wrong_speed(seed, record) if simulated else 1.0),
-            polarity_known=simulated,  # where a sensor looked is not told with a recording
-        ),
-        truth=_truth(file, record, labels),
+        simulated=simulated,
+        text="" if text is None else str(text[position]),
+        passes=passes,
     )
 
 
-def _stiffness(file: Any, position: int, variable: str) -> tuple[float, float] | None:
+def _sized(stored: _Stored, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
+    record, contact = int(labels["record"]), _stiffness(stored.text) if load_known else None
+    return SizedRecord(
+        record=record,
+        rate=float(labels["rate_hz"]),
+        acceleration=stored.acceleration,
+        clean=stored.clean,
+        labels=labels,
+        situation=replace(
+            situation_of(labels, contact, wrong_speed(seed, record) if stored.simulated else 1.0),
+            polarity_known=stored.simulated,  # where a sensor looked is not told with a recording
+        ),
+        truth=None if stored.passes is None else _truth(stored.passes, labels),
+    )
+
+
+def _stiffness(text: str) -> tuple[float, float] | None:
     """Hertz factor and exponent from the scenario or the provenance; None if it does not tell them."""
     try:
-        parameters = json.loads(str(file.variables[variable][position]))["parameters"]
+        parameters = json.loads(text)["parameters"]
         return float(parameters["K"]), float(parameters["n"])
     except (KeyError, TypeError, ValueError):
         return None
@@ -124,11 +149,6 @@ def nominal_period(labels: Mapping[str, Any]) -> float:
     return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))
 
 
-def _truth(file: Any, record: int, labels: Mapping[str, Any]) -> EventTruth | None:
-    if not set(PASS_COLUMNS) <= set(file.variables):
-        return None
-    own = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
-    leave, release, regain, fall, rise = (
-        np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS
-    )
+def _truth(passes: list[Array], labels: Mapping[str, Any]) -> EventTruth:
+    leave, release, regain, fall, rise = passes
     return event_truth(release, regain, fall, rise, leave + LATEST_REGAIN_SPACINGS * nominal_period(labels))

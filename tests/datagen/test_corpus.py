@@ -85,6 +85,9 @@ def test_records_of_different_shapes_are_not_stacked(corpus: Corpus) -> None:
 
 
 def test_an_unknown_record_or_signal_is_refused_with_what_is_known(corpus: Corpus) -> None:
+    for nothing in (float("nan"), float("inf"), "three", None, 1.5, True):
+        with pytest.raises(BadInput, match="no index of a record"):
+            corpus.waveform(nothing)
     with pytest.raises(BadInput, match="record = 14: not in this corpus"):
         corpus.waveform(14)
     with pytest.raises(BadInput, match=r"velocity.*allowed: .*acceleration"):

@@ -2,8 +2,8 @@
 
 import csv
 import json
+import math
 
-import numpy as np
 import pytest
 
 from datagen.charts import contestants as entrants
@@ -15,10 +15,8 @@ from datagen.drawing.work_precision import (
     work_precision_png,
 )
 from datagen.files.plain import plain_json
-from physics.integrators.methods import METHODS
+from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.reference_scenes import reference_scene
-from physics.response.stability import longest_stable_step
-from physics.statics.load_distribution import equilibrium
 
 RATE = 65536.0
 PNG = b"\x89PNG\r\n"
@@ -86,6 +84,15 @@ def test_an_edge_is_the_speed_at_the_longest_stable_step_however_fine_the_run_it
     runs = [Run("method", name, f"{steps} steps", 0.1, 0.01 * steps, 10.0 / steps, None, "") for steps in (1, 4)]
     one, four = (measuring._edges(scene, RATE, [run])[name] for run in runs)
     assert one == pytest.approx(four, rel=1e-12)
-    rest = equilibrium(scene, np.zeros(1))
-    longest = longest_stable_step(scene.rig, METHODS[name], rest.stiffness[0], rest.damping[0])
-    assert one == pytest.approx(10.0 * longest / (1.0 / RATE), rel=1e-12)
+    # The classical method holds an undamped mode to 2.83 and modes with up to 30 % of damping to 2.59 at least; the
+    # fastest mode of the fan rig is that of its resonator on the rings.
+    fastest = 2.0 * math.pi * coupled_resonator_frequency(scene.rig, rated_matrices(scene.rig)[0])
+    assert 2.5 < one / 10.0 / RATE * fastest < 2.9
+
+
+def test_the_speed_at_an_error_is_told_of_a_method_without_any_error_too():
+    def made(error, speed):
+        return Run("method", "m", "", 1.0, 1.0 / speed, speed, Score(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0), "")
+
+    assert 90.0 < at_error([made(1e-2, 100.0), made(0.0, 1.0)], "m", 1e-3) < 100.0
+    assert at_error([made(0.0, 1.0)], "m", 1e-3) == 1.0

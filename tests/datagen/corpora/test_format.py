@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import xarray
 
+from datagen.corpora import format
 from datagen.corpora.format import VARIABLE, content_hash, format_hash, to_dataset
 from datagen.errors import BadInput
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes
@@ -185,9 +186,14 @@ def test_the_profile_grid_runs_from_minus_pi_to_pi_without_its_end() -> None:
     assert np.allclose(np.diff(grid), np.pi / 4.0, rtol=1e-15)  # rounding of the products
 
 
-def test_the_format_hash_is_16_hexadecimal_digits() -> None:
-    assert len(format_hash()) == 16
-    assert int(format_hash(), 16) >= 0
+def test_the_format_hash_is_16_hexadecimal_digits_that_change_with_any_label(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = {format_hash()}
+    assert re.fullmatch("[0-9a-f]{16}", *found)
+    for change in ({"unit": "furlong"}, {"name": "other"}, {"sentence": "Something else."}):
+        monkeypatch.setattr(format, "LABELS", (*LABELS[:-1], replace(LABELS[-1], **change)))
+        found.add(format_hash())
+    monkeypatch.setattr(format, "LABELS", LABELS[:-1])
+    assert len(found | {format_hash()}) == 5
 
 
 def test_a_shaft_that_stands_still_between_two_samples_is_named(dataset: xarray.Dataset) -> None:

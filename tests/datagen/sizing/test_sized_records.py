@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from datagen.sizing.sized_records import _truth
+from datagen.sizing.sized_records import _read, _truth
 
 LABELS = {"location": "outer", "speed_rpm": 1800.0, "bpfo": 5.0}
 PERIOD = 1.0 / (30.0 * 5.0)
@@ -17,12 +17,7 @@ def test_a_ball_that_regains_contact_half_a_pass_behind_the_exit_or_later_tells_
     leave = 0.01 + PERIOD * np.arange(4)
     late = np.array([-0.1, 0.49, 0.51, 4.9]) * PERIOD
     unknown = np.full(4, np.nan)
-    columns = {
-        "pass_record": np.array([7, 7, 7, 7]), "exit_time": leave, "release_time": leave - 0.3 * PERIOD,
-        "regain_time": leave + late, "fall_time": unknown, "rise_time": unknown,
-    }  # fmt: skip
-    truth = _truth(SimpleNamespace(variables=columns), 7, LABELS)
-    assert truth is not None
+    truth = _truth([leave, leave - 0.3 * PERIOD, leave + late, unknown, unknown], LABELS)
     assert truth.last == pytest.approx((leave + late)[:2])
     assert truth.first == pytest.approx((leave - 0.3 * PERIOD)[:2])
 
@@ -30,6 +25,8 @@ def test_a_ball_that_regains_contact_half_a_pass_behind_the_exit_or_later_tells_
 def test_passes_of_other_records_are_left_out() -> None:
     time = np.array([0.1, 0.2, 0.3])
     columns = dict.fromkeys(("exit_time", "release_time", "regain_time", "fall_time", "rise_time"), time)
-    truth = _truth(SimpleNamespace(variables=columns | {"pass_record": np.array([1, 2, 1])}), 1, LABELS)
-    assert truth is not None
-    assert truth.first.tolist() == [0.1, 0.3]
+    columns |= {"pass_record": np.array([1, 2, 1]), "acceleration": np.zeros((2, 5, 1))}
+    stored = _read(SimpleNamespace(variables=columns), 0, 1)
+    assert stored.passes is not None
+    assert [column.tolist() for column in stored.passes] == [[0.1, 0.3]] * 5
+    assert stored.text == ""

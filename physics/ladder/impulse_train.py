@@ -62,7 +62,7 @@ def _edges_of(scene: Scene, index: int) -> list[Edges]:
     spall, bearing = scene.spalls[index], scene.rig.bearing
     depth = build_path(spall, bearing).largest_depth
     speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
-    alpha = math.cos(bearing.contact_angle)
+    cos_alpha = math.cos(bearing.contact_angle)
     ends = ((-1.0, spall.entry_taper), (1.0, spall.exit_taper))
     found = []
     for sign, taper in ends:
@@ -70,7 +70,7 @@ def _edges_of(scene: Scene, index: int) -> list[Edges]:
         angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
         position = carried(_sound(scene), crossed.time).displacement
         radial = position[:, 0] * np.cos(angle) + position[:, 1] * np.sin(angle) - bearing.clearance
-        before, inside = np.maximum(radial * alpha, 0.0), np.maximum((radial - depth) * alpha, 0.0)
+        before, inside = np.maximum(radial * cos_alpha, 0.0), np.maximum((radial - depth) * cos_alpha, 0.0)
         lost = bearing.load_deflection * (before**bearing.exponent - inside**bearing.exponent)
         found.append(
             Edges(
@@ -136,8 +136,8 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
     edges = _edges(scene)
     squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())
     damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
-    alpha = math.cos(rig.bearing.contact_angle)
-    along = np.array([np.cos(edges.angle), np.sin(edges.angle)]) * edges.change * alpha
+    cos_alpha = math.cos(rig.bearing.contact_angle)
+    along = np.array([np.cos(edges.angle), np.sin(edges.angle)]) * edges.change * cos_alpha
     acceleration = np.zeros((samples, 2))
     for mode in range(squared.size):
         frequency = math.sqrt(max(float(squared[mode]), 0.0))

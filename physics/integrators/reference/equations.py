@@ -19,19 +19,48 @@ Cubics = tuple[Array, Array]
 Turn = tuple[tuple[float, float], tuple[float, float]]
 
 
+# Columns of `balls`: row from 0, angle ahead of the cage (rad), radial deviation (m).
+BALL_ROW, AHEAD, DEVIATION = range(3)
+# Columns of `spalls`: row from 0, angle (rad), travel sign, race speed (rad/s), first and last entry in `path`.
+SPALL_ROW, ANGLE, SIGN, SPALL_SPEED, FIRST, LAST = range(6)
+# Columns of `waves`: order, amplitude (m), phase (rad), race speed (rad/s).
+ORDER, AMPLITUDE, PHASE, WAVE_SPEED = range(4)
+
+
+class ContactLaw(NamedTuple):
+    """K (N/mⁿ), n, c_d (N s/m), cos α, radial clearance (m), and whether the force may not pull."""
+
+    hertz_factor: float
+    exponent: float
+    film_damping: float
+    cosine_of_contact_angle: float
+    clearance: float
+    no_tension: bool
+
+
+class Loads(NamedTuple):
+    """Static load (N), shaft speed (rad/s), and what turns with it: unbalance (N) and its phase (rad), and the static
+    load's fluctuation (1) and its phase (rad)."""
+
+    static: float
+    shaft_speed: float
+    unbalance: float
+    unbalance_phase: float
+    fluctuation: float
+    fluctuation_phase: float
+
+
 class Equations(NamedTuple):
     """A scene as numbers and arrays.
 
     `axes` (7, 2): columns x and y of inner, outer and resonator mass, support stiffness and damping, resonator
-    stiffness and damping; `law` (7,): K, n, c_d, cos α, clearance, 1 for the no-tension law, shaft speed; `loads` (5,):
-    static load, unbalance force and phase, fluctuation and phase; `balls` (B, 3): row from 0, angle ahead of the cage,
-    diameter deviation; `cages`: edges and polynomials of both rows' cage angles; `spalls` (S, 6): row from 0, angle,
-    travel sign, race speed, first and last entry in `path`; `path`: edges and polynomials of all drops; `waves` (W, 4).
+    stiffness and damping; `balls` (B, 3); `cages`: edges and polynomials of both rows' cage angles; `spalls` (S, 6);
+    `path`: edges and polynomials of all drops; `waves` (W, 4).
     """
 
     axes: Array
-    law: Array
-    loads: Array
+    law: ContactLaw
+    loads: Loads
     balls: Array
     cages: tuple[Cubics, Cubics]
     spalls: Array
@@ -58,19 +87,21 @@ def write_equations(scene: Scene) -> Equations:
                 [rig.resonator_damping] * 2,
             ]
         ),
-        law=np.array(
-            [
-                bearing.load_deflection,
-                bearing.exponent,
-                rig.film_damping,
-                math.cos(bearing.contact_angle),
-                bearing.clearance,
-                float(scene.contact_law == "no_tension"),
-                run.shaft_speed,
-            ]
+        law=ContactLaw(
+            hertz_factor=float(bearing.load_deflection),
+            exponent=float(bearing.exponent),
+            film_damping=float(rig.film_damping),
+            cosine_of_contact_angle=math.cos(bearing.contact_angle),
+            clearance=float(bearing.clearance),
+            no_tension=scene.contact_law == "no_tension",
         ),
-        loads=np.array(
-            [run.load, run.unbalance_force, run.unbalance_phase, run.load_fluctuation, run.fluctuation_phase]
+        loads=Loads(
+            static=float(run.load),
+            shaft_speed=float(run.shaft_speed),
+            unbalance=float(run.unbalance_force),
+            unbalance_phase=float(run.unbalance_phase),
+            fluctuation=float(run.load_fluctuation),
+            fluctuation_phase=float(run.fluctuation_phase),
         ),
         balls=np.column_stack([row, bearing.spacing * ball + bearing.stagger * row, radial_deviation.ravel()]),
         cages=(_cage_pieces(scene.cage), _cage_pieces(scene.second_cage or scene.cage)),
@@ -136,18 +167,18 @@ def _missing(equations: Equations, row: float, angle: float, speed: float, time:
     depth, rate = 0.0, 0.0
     edges, cubics = equations.path
     for spall in equations.spalls:
-        if spall[0] == row:
-            first, last = int(spall[4]), int(spall[5])
-            arc = spall[2] * (angle - spall[1] - spall[3] * time)
+        if spall[SPALL_ROW] == row:
+            first, last, sign = int(spall[FIRST]), int(spall[LAST]), spall[SIGN]
+            arc = sign * (angle - spall[ANGLE] - spall[SPALL_SPEED] * time)
             arc -= 2.0 * math.pi * math.floor(arc / (2.0 * math.pi) + 0.5)
             if edges[first] <= arc <= edges[last - 1]:
                 drop, slope = polynomial_at(edges, cubics, first, last, arc)
                 depth += drop
-                rate += slope * spall[2] * (speed - spall[3])
+                rate += slope * sign * (speed - spall[SPALL_SPEED])
     for wave in equations.waves:
-        phase = wave[0] * (angle - wave[3] * time) + wave[2]
-        depth += wave[1] * math.cos(phase)
-        rate -= wave[1] * wave[0] * math.sin(phase) * (speed - wave[3])
+        phase = wave[ORDER] * (angle - wave[WAVE_SPEED] * time) + wave[PHASE]
+        depth += wave[AMPLITUDE] * math.cos(phase)
+        rate -= wave[AMPLITUDE] * wave[ORDER] * math.sin(phase) * (speed - wave[WAVE_SPEED])
     return depth, rate
 
 
@@ -166,17 +197,17 @@ def _closing(
     equations: Equations, turn: Turn, time: float, state: Array, ball: int
 ) -> tuple[float, float, float, float]:
     """Compression of one ball along its normal (m), its rate (m/s), and cosine and sine of the ball's angle."""
-    row = equations.balls[ball, 0]
+    law, row = equations.law, equations.balls[ball, BALL_ROW]
     angle, speed = turn[0] if row == 0.0 else turn[1]
-    angle += equations.balls[ball, 1]
+    angle += equations.balls[ball, AHEAD]
     cosine, sine = math.cos(angle), math.sin(angle)
     dx, dy = state[0] - state[2], state[1] - state[3]
     vx, vy = state[6] - state[8], state[7] - state[9]
     depth, depth_rate = _missing(equations, row, angle, speed, time)
-    tight = equations.balls[ball, 2] - equations.law[4]
+    tight = equations.balls[ball, DEVIATION] - law.clearance
     compression = dx * cosine + dy * sine - depth + tight
     rate = vx * cosine + vy * sine + speed * (dy * cosine - dx * sine) - depth_rate
-    return equations.law[3] * compression, equations.law[3] * rate, cosine, sine
+    return law.cosine_of_contact_angle * compression, law.cosine_of_contact_angle * rate, cosine, sine
 
 
 @njit
@@ -186,7 +217,8 @@ def _pressed(
     """Compression (m) of one ball, its force along the normal if it touches (N), and cosine and sine of its angle."""
     compression, rate, cosine, sine = _closing(equations, turn, time, state, ball)
     law = equations.law
-    return compression, law[0] * max(compression, 0.0) ** law[1] + law[2] * rate, cosine, sine
+    elastic = law.hertz_factor * max(compression, 0.0) ** law.exponent
+    return compression, elastic + law.film_damping * rate, cosine, sine
 
 
 @njit
@@ -196,7 +228,7 @@ def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.b
     turn = _turn(equations, time)
     for ball in range(touching.size):
         compression, force, _, _ = _pressed(equations, turn, time, state, ball)
-        touching[ball] = compression > 0.0 and (equations.law[5] == 0.0 or force > 0.0)
+        touching[ball] = compression > 0.0 and (force > 0.0 or not equations.law.no_tension)
     return touching
 
 
@@ -204,17 +236,18 @@ def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.b
 def slopes(equations: Equations, touching: NDArray[np.bool_], time: float, state: Array) -> Array:
     """Time derivative (12,) of the state while exactly the balls `touching` (B,) are in contact."""
     contact = np.zeros(2)
-    law, turn = equations.law, _turn(equations, time)
+    loads, turn = equations.loads, _turn(equations, time)
     for ball in range(touching.size):
         if touching[ball]:
             _, force, cosine, sine = _pressed(equations, turn, time, state, ball)
-            contact[0] += force * law[3] * cosine
-            contact[1] += force * law[3] * sine
-    phase = law[6] * time
+            radial = force * equations.law.cosine_of_contact_angle
+            contact[0] += radial * cosine
+            contact[1] += radial * sine
+    turned = loads.shaft_speed * time
     load = np.empty(2)
-    load[0] = equations.loads[1] * math.cos(phase + equations.loads[2])
-    load[1] = equations.loads[1] * math.sin(phase + equations.loads[2])
-    load[1] -= equations.loads[0] * (1.0 + equations.loads[3] * math.cos(phase + equations.loads[4]))
+    load[0] = loads.unbalance * math.cos(turned + loads.unbalance_phase)
+    load[1] = loads.unbalance * math.sin(turned + loads.unbalance_phase)
+    load[1] -= loads.static * (1.0 + loads.fluctuation * math.cos(turned + loads.fluctuation_phase))
     result = np.empty(12)
     result[:6] = state[6:]
     for axis in range(2):

@@ -8,7 +8,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.integrators.reference.equations import Equations, polynomial_at
+from physics.integrators.reference.equations import (
+    AHEAD,
+    AMPLITUDE,
+    ANGLE,
+    BALL_ROW,
+    DEVIATION,
+    FIRST,
+    LAST,
+    ORDER,
+    PHASE,
+    SIGN,
+    SPALL_ROW,
+    SPALL_SPEED,
+    WAVE_SPEED,
+    Equations,
+    polynomial_at,
+)
 
 Array = NDArray[np.float64]
 
@@ -24,30 +40,30 @@ def ball_by_ball_slopes(equations: Equations, time: float, state: Array) -> Arra
     cage_edges, cage_pieces = equations.cages[1]
     angles[1], speeds[1] = polynomial_at(cage_edges, cage_pieces, 0, cage_edges.size, time)
     dx, dy, vx, vy = state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9]
-    push_x, push_y = 0.0, 0.0
+    cos_alpha, push_x, push_y = law.cosine_of_contact_angle, 0.0, 0.0
     for ball in range(balls.shape[0]):
-        row = int(balls[ball, 0])
-        angle, speed = angles[row] + balls[ball, 1], speeds[row]
+        row = int(balls[ball, BALL_ROW])
+        angle, speed = angles[row] + balls[ball, AHEAD], speeds[row]
         c, s = math.cos(angle), math.sin(angle)
-        depth, rate = law[4] - balls[ball, 2], 0.0
+        depth, rate = law.clearance - balls[ball, DEVIATION], 0.0
         for k in range(spalls.shape[0]):
-            if spalls[k, 0] == row:
-                arc = spalls[k, 2] * (angle - spalls[k, 1] - spalls[k, 3] * time)
+            if spalls[k, SPALL_ROW] == row:
+                arc = spalls[k, SIGN] * (angle - spalls[k, ANGLE] - spalls[k, SPALL_SPEED] * time)
                 arc -= 2.0 * math.pi * math.floor(arc / (2.0 * math.pi) + 0.5)
-                first, last = int(spalls[k, 4]), int(spalls[k, 5])
+                first, last = int(spalls[k, FIRST]), int(spalls[k, LAST])
                 if edges[first] <= arc <= edges[last - 1]:
                     drop, slope = polynomial_at(edges, cubics, first, last, arc)
                     depth += drop
-                    rate += slope * spalls[k, 2] * (speed - spalls[k, 3])
+                    rate += slope * spalls[k, SIGN] * (speed - spalls[k, SPALL_SPEED])
         for k in range(waves.shape[0]):
-            phase = waves[k, 0] * (angle - waves[k, 3] * time) + waves[k, 2]
-            depth += waves[k, 1] * math.cos(phase)
-            rate -= waves[k, 1] * waves[k, 0] * math.sin(phase) * (speed - waves[k, 3])
-        compression = law[3] * (dx * c + dy * s - depth)
+            phase = waves[k, ORDER] * (angle - waves[k, WAVE_SPEED] * time) + waves[k, PHASE]
+            depth += waves[k, AMPLITUDE] * math.cos(phase)
+            rate -= waves[k, AMPLITUDE] * waves[k, ORDER] * math.sin(phase) * (speed - waves[k, WAVE_SPEED])
+        compression = cos_alpha * (dx * c + dy * s - depth)
         if compression > 0.0:
-            closing = law[3] * (vx * c + vy * s + speed * (dy * c - dx * s) - rate)
-            force = law[3] * (law[0] * compression ** law[1] + law[2] * closing)
-            if law[5] == 0.0 or force > 0.0:
+            closing = cos_alpha * (vx * c + vy * s + speed * (dy * c - dx * s) - rate)
+            force = cos_alpha * (law.hertz_factor * compression**law.exponent + law.film_damping * closing)
+            if force > 0.0 or not law.no_tension:
                 push_x += force * c
                 push_y += force * s
     return _accelerated(equations, push_x, push_y, time, state)
@@ -56,13 +72,14 @@ def ball_by_ball_slopes(equations: Equations, time: float, state: Array) -> Arra
 @njit
 def _accelerated(equations: Equations, push_x: float, push_y: float, time: float, state: Array) -> Array:
     loads, axes = equations.loads, equations.axes
-    phase = equations.law[6] * time
+    turned = loads.shaft_speed * time
     result = np.empty(12)
     for axis in range(2):
         push = push_x if axis == 0 else push_y
-        load = loads[1] * (math.cos(phase + loads[2]) if axis == 0 else math.sin(phase + loads[2]))
+        phase = turned + loads.unbalance_phase
+        load = loads.unbalance * (math.cos(phase) if axis == 0 else math.sin(phase))
         if axis == 1:
-            load -= loads[0] * (1.0 + loads[3] * math.cos(phase + loads[4]))
+            load -= loads.static * (1.0 + loads.fluctuation * math.cos(turned + loads.fluctuation_phase))
         link = axes[5, axis] * (state[2 + axis] - state[4 + axis]) + axes[6, axis] * (
             state[8 + axis] - state[10 + axis]
         )

@@ -22,9 +22,10 @@ from physics.contact.track import (
     SIGN,
     SPALL_COLUMNS,
     SPEED,
-    WAVE_COLUMNS,
+    WAVE_COEFFICIENTS,
     Track,
 )
+from physics.imperfections import Waviness
 from physics.paths.depth_path import DepthPath, paths_of
 from physics.paths.profile import build_path
 from physics.scene import Scene
@@ -33,6 +34,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 PADDING_GAP = 1.0
+WAVINESS_CELLS_PER_WAVE = 48
 TABLES_KEPT = 8
 
 
@@ -82,14 +84,12 @@ def _track(scene: Scene) -> Track:
     bearing = scene.rig.bearing
     paths = [build_path(spall, bearing) for spall in scene.spalls]
     cage, clock = _cage_arrays(scene.cages)
-    waves, turns = _wave_tables(scene)
     return Track(
         cage=cage,
         clock=clock,
         spalls=_spall_table(scene, paths, len(scene.cages)),
         paths=paths_of(paths),
-        waves=waves,
-        turns=turns,
+        waviness=_wave_cells(scene.imperfections.waviness, bearing.balls),
         row_size=bearing.balls,
         spacing=bearing.spacing,
         shaft_speed=scene.operation.shaft_speed,
@@ -128,11 +128,35 @@ def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
     return quartics, clock
 
 
-def _wave_tables(scene: Scene) -> tuple[Array, Array]:
-    """`waves` (W, 4) and `turns` (W, 2, B) as `Track` keeps them."""
-    bearing, waviness = scene.rig.bearing, scene.imperfections.waviness
-    waves = np.array([[scene.race_speed(wave.race), wave.order, wave.amplitude, wave.phase] for wave in waviness])
-    order = np.array([wave.order for wave in waviness], dtype=np.float64)
-    turned = order[:, None] * (bearing.spacing * np.arange(bearing.balls))
-    turns = np.stack([np.cos(turned), np.sin(turned)], axis=-2)
-    return waves.reshape(-1, WAVE_COLUMNS), turns.reshape(-1, 2, bearing.balls)
+@lru_cache(maxsize=TABLES_KEPT)
+def _wave_cells(waves: tuple[Waviness, ...], balls: int) -> Array:
+    """Polynomials (2, C, 12 B) of the waves over C cells a spacing of B `balls`, as `Track` keeps them; read only.
+
+    They have the waves' values, slopes and curvatures at both ends of their cells, so that nothing jumps there that
+    could ring a mode.
+    """
+    if not waves:
+        return np.zeros((2, 0, 2 * WAVE_COEFFICIENTS * balls))
+    count = balls * -(-WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves)) // balls)
+    nodes = 2.0 * np.pi * np.arange(count + 1) / count
+    value, slope, bend = np.zeros((3, 2, count + 1))
+    for wave in waves:
+        race = 0 if wave.race == "outer" else 1
+        turn, place = 2.0 * np.pi * wave.order / count, wave.order * nodes + wave.phase
+        value[race] += wave.amplitude * np.cos(place)
+        slope[race] -= wave.amplitude * turn * np.sin(place)
+        bend[race] -= wave.amplitude * turn**2 * np.cos(place)
+    rise, d0, d1, s0, s1 = np.diff(value), slope[:, :-1], slope[:, 1:], bend[:, :-1], bend[:, 1:]
+    cells = np.stack(
+        [
+            6.0 * rise - 3.0 * (d0 + d1) - 0.5 * (s0 - s1),
+            -15.0 * rise + 8.0 * d0 + 7.0 * d1 + 1.5 * s0 - s1,
+            10.0 * rise - 6.0 * d0 - 4.0 * d1 - 1.5 * s0 + 0.5 * s1,
+            0.5 * s0,
+            d0,
+            value[:, :-1],
+        ],
+        axis=2,
+    )
+    of_cell = cells.reshape(2, balls, -1, WAVE_COEFFICIENTS).transpose(0, 2, 3, 1)
+    return np.concatenate([of_cell, of_cell], axis=3).reshape(2, -1, 2 * WAVE_COEFFICIENTS * balls)

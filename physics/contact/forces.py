@@ -31,7 +31,8 @@ from physics.contact.track import (
     hindmost,
     place_of,
     spall_under,
-    wave_at,
+    wave_cell,
+    waves_per_radian,
     waviness_at,
 )
 from physics.contact.turning import cosine_sine
@@ -88,7 +89,7 @@ def move_to(contacts: Contacts, time: float) -> None:
         angle, speed = cage_at(track, cage, time)
         frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE] = cosine_sine(angle)
         frames[cage, FRAME_SPEED] = speed
-        if track.waves.shape[0] > 0:
+        if track.waviness.shape[1] > 0:
             _add_waviness(contacts, cage, angle, speed, time)
         for spall in range(track.spalls.shape[0]):
             if track.spalls[spall, CAGE] == cage:
@@ -111,17 +112,29 @@ def _add_spall(contacts: Contacts, cage: int, spall: int, angle: float, speed: f
 
 @njit_inner
 def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, time: float) -> None:
-    """All waves under every ball: from the first ball of a row to the others a wave has turned by known angles."""
-    balls, track, turns = contacts.balls, contacts.track, contacts.track.turns
+    """Both races' waves under every ball: those of a row are whole spacings apart, at the same place within theirs."""
+    balls, track, waves = contacts.balls, contacts.track, contacts.track.waviness
     row = track.row_size
-    for wave in range(track.waves.shape[0]):
-        for first in range(0, balls.shape[2] - row + 1, row):
-            cosine, sine, pace = wave_at(track, wave, angle + balls[cage, PLACE, first], speed, time)
-            # Unsigned places need no look at their sign, so that the loop over the balls takes vectors.
-            for j in range(np.uint64(row)):
-                here = np.uint64(first) + j
-                balls[cage, FLOOR, here] += cosine * turns[wave, 0, j] - sine * turns[wave, 1, j]
-                balls[cage, FALL, here] += pace * (sine * turns[wave, 0, j] + cosine * turns[wave, 1, j])
+    pace = speed * waves_per_radian(track)
+    inner_pace = pace - track.shaft_speed * waves_per_radian(track)
+    # Unsigned places need no look at their sign, so that the loop over the balls takes vectors.
+    r4, r3, r2 = np.uint64(2 * row), np.uint64(4 * row), np.uint64(6 * row)
+    r1, r0 = np.uint64(8 * row), np.uint64(10 * row)
+    for first in range(0, balls.shape[2] - row + 1, row):
+        outer, outer_spacing, x = wave_cell(track, angle + balls[cage, PLACE, first])
+        inner, inner_spacing, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
+        for j in range(np.uint64(row)):
+            a, b, here = np.uint64(outer_spacing) + j, np.uint64(inner_spacing) + j, np.uint64(first) + j
+            a5, a4, a3 = waves[0, outer, a], waves[0, outer, a + r4], waves[0, outer, a + r3]
+            a2, a1, a0 = waves[0, outer, a + r2], waves[0, outer, a + r1], waves[0, outer, a + r0]
+            b5, b4, b3 = waves[1, inner, b], waves[1, inner, b + r4], waves[1, inner, b + r3]
+            b2, b1, b0 = waves[1, inner, b + r2], waves[1, inner, b + r1], waves[1, inner, b + r0]
+            outer_depth = ((((a5 * x + a4) * x + a3) * x + a2) * x + a1) * x + a0
+            inner_depth = ((((b5 * z + b4) * z + b3) * z + b2) * z + b1) * z + b0
+            balls[cage, FLOOR, here] += outer_depth + inner_depth
+            outer_slope = (((5.0 * a5 * x + 4.0 * a4) * x + 3.0 * a3) * x + 2.0 * a2) * x + a1
+            inner_slope = (((5.0 * b5 * z + 4.0 * b4) * z + 3.0 * b3) * z + 2.0 * b2) * z + b1
+            balls[cage, FALL, here] += outer_slope * pace + inner_slope * inner_pace
 
 
 @njit_inline
@@ -136,7 +149,7 @@ def compression_of(
     c = c0 * balls[cage, COSINE, place] - s0 * balls[cage, SINE, place]
     s = s0 * balls[cage, COSINE, place] + c0 * balls[cage, SINE, place]
     floor, fall = balls[cage, GAP, place], 0.0
-    if track.waves.shape[0] > 0:
+    if track.waviness.shape[1] > 0:
         depth, rate = waviness_at(track, angle + balls[cage, PLACE, place], speed, time)
         floor += depth
         fall += rate

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline
-from physics.contact.turning import cosine_sine
 from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
 
 Array = NDArray[np.float64]
@@ -19,9 +18,8 @@ Array = NDArray[np.float64]
 # cells (rad), 1 if it is rough, and how far it strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
 FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, ENTRY, LEAVE, CELL, ROUGH, RELIEF = range(10)
 SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
-# Columns of `waves`: speed of the race (rad/s), waves around it, amplitude (m), phase (rad).
-RACE_SPEED, ORDER, AMPLITUDE, PHASE = range(4)
-WAVE_COLUMNS = 4
+# Of the polynomial of a cell of the waviness.
+WAVE_COEFFICIENTS = 6
 
 TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
 
@@ -32,16 +30,16 @@ class Track(NamedTuple):
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 3) first knot (s), knots per second and
     seconds per knot.
     Spalls (D, 18) with as many `paths`.
-    `waves` (W, 4) of both races, and the cosine and sine of their `turns` (W, 2, B) from the first ball of a row to
-    each of its B balls.
+    `waviness` (2, C, 12 B): polynomials of degree five of the outer and inner race over C equal cells of each of the B
+    spacings of a row; of every cell the fifth powers of the spacings, twice round so that B of them follow any one,
+    then the fourth ones and so on. C is 0 for smooth races.
     """
 
     cage: Array
     clock: Array
     spalls: Array
     paths: Paths
-    waves: Array
-    turns: Array
+    waviness: Array
     row_size: int
     spacing: float
     shaft_speed: float
@@ -65,23 +63,39 @@ def cage_at(track: Track, cage: int, time: float) -> tuple[float, float]:
 
 @njit_inline
 def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[float, float]:
-    """Depth (m) of all waves under a ball at the angle `place`, and its rate (m/s)."""
-    depth, rate = 0.0, 0.0
-    for wave in range(track.waves.shape[0]):
-        cosine, sine, pace = wave_at(track, wave, place, speed, time)
-        depth += cosine
-        rate += pace * sine
-    return depth, rate
+    """Depth (m) of both races' waves under a ball at the angle `place`, and its rate (m/s)."""
+    outer, outer_slope = wave_at(track, 0, place)
+    inner, inner_slope = wave_at(track, 1, place - track.shaft_speed * time)
+    return outer + inner, outer_slope * speed + inner_slope * (speed - track.shaft_speed)
 
 
 @njit_inline
-def wave_at(track: Track, wave: int, place: float, speed: float, time: float) -> tuple[float, float, float]:
-    """Depth (m) of one wave at the angle `place` (rad), the same a quarter of its length before, and the factor (1/s)
-    with which that is the rate of the depth under a ball there at a cage `speed` (rad/s)."""
-    race_speed, order = track.waves[wave, RACE_SPEED], track.waves[wave, ORDER]
-    cosine, sine = cosine_sine(order * (place - race_speed * time) + track.waves[wave, PHASE])
-    amplitude = track.waves[wave, AMPLITUDE]
-    return amplitude * cosine, amplitude * sine, -order * (speed - race_speed)
+def wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
+    """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
+    cell, spacing, x = wave_cell(track, angle)
+    depth, slope = 0.0, 0.0
+    for power in range(WAVE_COEFFICIENTS):
+        slope = slope * x + depth
+        depth = depth * x + track.waviness[race, cell, spacing + power * 2 * track.row_size]
+    return depth, slope * waves_per_radian(track)
+
+
+@njit_inline
+def waves_per_radian(track: Track) -> float:
+    """Cells of the waviness a radian."""
+    return track.row_size * track.waviness.shape[1] * TURNS_PER_RADIAN
+
+
+@njit_inline
+def wave_cell(track: Track, angle: float) -> tuple[int, int, float]:
+    """Where an angle (rad) lies on the circle: in which cell of its spacing, in which spacing, and where in that cell,
+    0 to 1."""
+    cells, turns = track.waviness.shape[1], angle * TURNS_PER_RADIAN
+    spacings = (turns - math.floor(turns)) * track.row_size
+    spacing = min(int(spacings), track.row_size - 1)
+    place = (spacings - spacing) * cells
+    cell = min(int(place), cells - 1)
+    return cell, spacing, place - cell
 
 
 @njit_inline

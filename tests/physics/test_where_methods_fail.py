@@ -7,6 +7,8 @@ import pytest
 from measures import rms
 from variants import changed
 
+from physics.cage import CagePath
+from physics.imperfections import Imperfections, Waviness
 from physics.integrators.methods import MARCHES, METHODS
 from physics.integrators.output import Grid
 from physics.motion import motion_model, starting_state
@@ -121,6 +123,18 @@ def test_a_free_ball_that_touches_the_lip_of_a_measured_spall_within_a_step_is_n
     trace = simulate(scene, RATE)
     assert trace.changes.time.size == exact.changes.time.size > 40
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
+
+
+@pytest.mark.parametrize(("rpm", "race"), [(163.0, "outer"), (114.0, "inner")])
+def test_the_tables_of_waves_ring_no_mode(rpm, race, reference_scene):
+    """At these speeds 64 times the frequency of 28 waves meets a mode."""
+    speed, scene = rpm * math.pi / 30.0, reference_scene("F0", 0.05)
+    waves = Imperfections((Waviness(race, 28, 1e-6, 0.3),))
+    cage = CagePath(scene.rig.bearing.cage_speed(speed), 0.05, 0.1)
+    scene = changed(scene, operation={"shaft_speed": speed}, cage=cage, imperfections=waves)
+    exact, trace = simulate(scene, RATE, method="reference"), simulate(scene, RATE, accuracy=1e-4)
+    assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
+    assert trace.error_estimate < 1e-4
 
 
 @pytest.mark.parametrize("seed", [0, 3, 4])

@@ -172,7 +172,8 @@ def _changes(scene: Scene, edges: Edges) -> ContactChanges:
 IMPULSE_TRAIN = Model(
     name="impulse train",
     computes="the ringing of the linear modes after each edge of each spall",
-    holds_where="times of edges and the lines they make in spectra; levels to within some decibels for line spalls",
+    holds_where="times of edges and the lines they make in spectra; levels to within some decibels for line spalls "
+    "with tapers",
     leaves_out="release and regain other than the edges, variation of stiffness, hardening, healthy vibration, and "
     "modes that do not swing",
     rings=True,

@@ -19,7 +19,7 @@ def drawn(rng, pieces, narrow):
     """A path with jumps in depth and slope at every break; some pieces are `narrow` times as wide as others."""
     breaks = np.cumsum(np.where(rng.random(pieces + 1) < 0.5, 1.0, narrow) * rng.uniform(0.5, 1.5, pieces + 1))
     cells = rng.integers(1, 6, pieces)
-    return DepthPath(breaks, cells, rng.normal(size=(cells.sum(), 4)), 0.0, 1.0, False, np.zeros(RELIEF_LEVELS))
+    return DepthPath(breaks, cells, rng.normal(size=(cells.sum(), 4)), 0.0, 1.0, False, False, np.zeros(RELIEF_LEVELS))
 
 
 def as_polynomial(path):
@@ -49,6 +49,6 @@ def test_every_path_is_found_among_several(seed, pieces):
 def test_an_edge_belongs_to_the_piece_before_it():
     breaks = np.array([0.0, 1.0, 1.5, 4.0])
     levels = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 2.0], [0.0, 0.0, 0.0, 3.0]])
-    path = DepthPath(breaks, np.ones(3, dtype=np.int64), levels, 0.0, 3.0, False, np.zeros(RELIEF_LEVELS))
+    path = DepthPath(breaks, np.ones(3, dtype=np.int64), levels, 0.0, 3.0, False, False, np.zeros(RELIEF_LEVELS))
     assert path.depth(np.array([0.0, 1.0, 1.0 + 1e-9, 1.5, 1.5 + 1e-9, 4.0])).tolist() == [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]
     assert path.depth(np.array([-1e-9, 4.0 + 1e-9])).tolist() == [0.0, 0.0]

@@ -100,7 +100,10 @@ def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Index, Array
     spall = scene.spalls[defect]
     half = spall.extent / 2.0
     # Outside the record the cage goes on at its mean speed, so no pass under way at either end takes longer than this.
-    margin = spall.extent / abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+    speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+    if speed == 0.0:  # a cage that turns with the race
+        return np.zeros(0, np.int16), np.zeros(0), np.zeros(0), np.zeros(0)
+    margin = spall.extent / speed
     entries = passages(scene, defect, -half, -1.001 * margin, duration)
     if entries.time.size == 0:
         return entries.ball.astype(np.int16), entries.time, entries.time, entries.time

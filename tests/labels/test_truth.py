@@ -255,6 +255,12 @@ def test_a_braked_or_dragged_cage_leaves_no_pass_out(make_scene, race, share):
     assert np.all(table.exit_time > table.entry_time)
 
 
+def test_no_ball_passes_a_spall_that_its_cage_turns_with(make_scene):
+    scene = make_scene(Spall("inner", 1, 4.71, 0.2, 12e-6))
+    scene = replace(scene, cage=CagePath(scene.operation.shaft_speed, DURATION, 0.1))
+    assert len(ball_passes(scene, None, DURATION)) == 0
+
+
 def test_a_pass_cut_by_an_end_of_the_record_tells_neither_fall_nor_rise_of_its_load(make_scene):
     # Shallow, so that balls keep contact, and long, so that some are inside when the record begins and when it ends.
     spall = Spall("outer", 1, 4.71, 0.45, 4e-6, 0.1, 0.1)

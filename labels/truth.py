@@ -104,6 +104,7 @@ def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Index, Array
     if speed == 0.0:  # a cage that turns with the race
         return np.zeros(0, np.int16), np.zeros(0), np.zeros(0), np.zeros(0)
     margin = spall.extent / speed
+    # A little earlier, so that none is lost to rounding; those that are over by then are left out below.
     entries = passages(scene, defect, -half, -1.001 * margin, duration)
     if entries.time.size == 0:
         return entries.ball.astype(np.int16), entries.time, entries.time, entries.time

@@ -20,6 +20,7 @@ from physics.response.lead_in import from_start, respond_behind, started_earlier
 from physics.response.march import MODEL, respond_by_reference
 from physics.response.modal_case import resting
 from physics.response.oversampling import oversampling
+from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
 from physics.response.resampling import decimate
 from physics.scene import Scene
@@ -207,7 +208,7 @@ def _respond_modally(scene: Scene, wanted: Request) -> Trace:
     repeated = wanted.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
     trace = respond_until_repeated(*asked) if repeated else respond_accurately(*asked, wanted.kept)
     lowered = _lowered(trace, rate, factor, samples)
-    if repeated and rms(lowered.acceleration) < LEAST_LEFT * rms(trace.acceleration):
+    if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * rms(trace.acceleration):
         # What repeating leaves out lies at low frequencies, where hardly anything of the signal is.
         lowered = _lowered(respond_accurately(*asked, wanted.kept), rate, factor, samples)
     return lowered

@@ -54,7 +54,7 @@ def spallgen(
 
 
 def command(
-    example: str, name: str | None = None, *, kept: str = "no results were written"
+    example: str, name: str | None = None, *, kept: str = "what was not yet written is lost"
 ) -> Callable[[Command], Command]:
     """Add a command to the program, called `name` or like its function: bad input, a scene that cannot be simulated
     and Ctrl-C, after which `kept` is said, end it with a sentence and their exit code."""

@@ -206,7 +206,9 @@ def test_so_can_that_of_a_corpus_without_y_and_without_a_first_shard(
 
 def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured: Path, tmp_path: Path) -> None:
     write_report(measured, tmp_path / "card")
-    write_report(measured, tmp_path / "card")
+    (tmp_path / "card" / "record_000999.png").write_bytes(b"of another corpus")
+    written = write_report(measured, tmp_path / "card")
+    assert {path.name for path in (tmp_path / "card").iterdir()} == set(written.files)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "letter.txt").write_text("keep")
     with pytest.raises(BadInput, match="this folder holds other things than a report"):

@@ -112,6 +112,14 @@ def test_a_response_that_repeats_itself_only_after_two_periods_is_not_read_from_
     assert trace.error_estimate <= 1e-3
 
 
+def test_a_response_of_which_a_low_rate_leaves_little_is_not_repeated(reference_scene):
+    scene = _without_slip(reference_scene("F1s"), 0.4)
+    low, exact = simulate(scene, 1000.0), simulate(scene, 1000.0, accuracy=1e-6)
+    assert rms(low.acceleration - exact.acceleration) <= low.error_estimate * rms(exact.acceleration)
+    assert low.method == MODAL
+    assert simulate(scene, 8000.0).method == METHOD
+
+
 def test_a_polynomial_of_degree_five_is_read_exactly_anywhere():
     grid, place = np.arange(40.0), np.array([0.0, 0.3, 1.7, 12.5, 20.0, 37.9, 39.0])
     rows = np.column_stack([grid**5 - 3.0 * grid**2, 2.0 - grid**3])

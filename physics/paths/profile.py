@@ -16,6 +16,7 @@ from physics.paths.spall_surface import (
     gap_surface,
     reaches_floor,
     roughness_curve,
+    table_arcs,
     table_surface,
     turning_points,
     window,
@@ -122,10 +123,11 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
 
 
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
-    surface = table_surface(spall) if spall.profile == "table" else gap_surface(spall)
+    measured = spall.profile == "table"
+    surface = table_surface(spall) if measured else gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
     half, step, rough = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
-    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, rough)
+    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, table_arcs(spall))
     smooth = branches(rolled)
     width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
@@ -137,7 +139,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         lambda arc: _on_branches(smooth, arc)[1],
         bridged=not reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
         # One lip is enough for a free ball to touch it within a step.
-        bumps=rough or spall.profile == "table",
+        bumps=rough or measured,
         rough=rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS,
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,25 +12,30 @@ from numpy.typing import NDArray
 from physics._jit import njit, njit_inline, njit_lean
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 Curve = Callable[[Array], Array]
 
 FEWEST_STEPS = 512
-# Points of the surface for each one of the path: more where it bends so sharply that the ball, held between two of
-# them, would sink by more than `SUNK` (m); not for a rough one, whose bumps are found between points.
-FEWEST_POINTS, MOST_POINTS = 4, 128
-SUNK = 2e-10
-PROBES = 20_001
+# Points of the surface for each one of the path.
+POINTS_A_STEP = 4
 # Points of the surface that are passed over together, for each one of the path's.
 BLOCKED = 4
 # What rounding leaves of a height (m).
 ROUNDING = 1e-15
-# A contact point between points of the surface is looked for where their curvatures agree to this share, that is not
-# on an edge.
-SMOOTH = 0.02
+# How often the two spaces beside a point of the surface are halved, and then cut where a straight line through what both
+# ends say has the ball touch.
+HALVINGS, CUTS = 3, 3
 # Where the contact point leaps by more than this many steps of the path the ball has changed from one bump to another.
 LEAP = 3.0
 # Both sides of a corner are nearly parabolas; one nearer to a node than this share of a step is put onto it.
 NEWTON_STEPS, NEAREST = 4, 1e-3
+
+
+class Surface(Protocol):
+    """Depth of a surface (m, positive where material is missing) against the arc (rad) from the spall's centre, or its
+    slope (m/rad) where `order` is 1."""
+
+    def __call__(self, arc: Array, order: int = 0) -> Array: ...
 
 
 class RolledPath(NamedTuple):
@@ -89,43 +94,170 @@ def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float
 
 
 def rolled_path(
-    surface: Curve, half: float, race: str, race_radius: float, ball_radius: float, step: float, rough: bool = False
+    surface: Surface,
+    half: float,
+    race: str,
+    race_radius: float,
+    ball_radius: float,
+    step: float,
+    lips: Array | None = None,
 ) -> RolledPath:
-    """The path of the ball's centre over a surface.
+    """The path of the ball's centre over the `surface` of a spall of half width `half` (rad).
 
-    `surface(arc)` is the depth of the surface (m, positive where material is missing) against the arc (rad) from the
-    spall's centre, of half width `half`; `step` is the wanted distance between the returned arcs (rad); `rough` if it
-    has bumps all over. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there.
+    `step` is the wanted distance between the returned arcs (rad); between its `lips` (L,), rad, rising, the surface has
+    no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
+    ball touches is looked for among points of the surface and then, exactly, between the neighbours of the point found.
     """
     count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
-    points_a_step = FEWEST_POINTS if rough else _points_a_step(surface, half, race_radius, 2.0 * half / count)
-    fine = 2.0 * half / (count * points_a_step)
-    probe = surface(np.linspace(-half, half, count * points_a_step + 1))
-    outer, proud = race == "outer", max(0.0, -float(probe.min()))
+    lips = np.zeros(0) if lips is None else lips
+    fine = 2.0 * half / (count * POINTS_A_STEP)
+    probe = surface(np.linspace(-half, half, count * POINTS_A_STEP + 1))
+    extremes = np.concatenate([probe, surface(lips)])
+    outer, proud = race == "outer", max(0.0, -float(extremes.min()))
     bump_radius = race_radius - proud if outer else race_radius + proud
     lifted = hanging_reach(race, bump_radius, ball_radius, proud)
     # Whole steps beyond the edges, so that both edges stay on a point of the grid.
-    beyond = math.ceil(lifted / (fine * points_a_step))
-    hung = hanging_reach(race, bump_radius, ball_radius, max(float(probe.max(initial=0.0)) + proud, 1e-9))
+    beyond = math.ceil(lifted / (fine * POINTS_A_STEP))
+    hung = hanging_reach(race, bump_radius, ball_radius, max(float(extremes.max(initial=0.0)) + proud, 1e-9))
     reach = math.ceil(1.05 * hung / fine) + 2
-    first, last = -beyond * points_a_step, (count + beyond) * points_a_step
+    first, last = -beyond * POINTS_A_STEP, (count + beyond) * POINTS_A_STEP
     points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
-    depth = np.where(np.abs(points) < half * (1.0 - 1e-12), surface(points), 0.0)
+
+    def inside(arc: Array, order: int = 0) -> Array:
+        return np.where(np.abs(arc) < half * (1.0 - 1e-12), surface(arc, order), 0.0)
+
+    depth = inside(points)
     # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.
-    corners = [reach - first, reach - first + count * points_a_step]
+    corners = [reach - first, reach - first + count * POINTS_A_STEP]
     depth[corners] = np.minimum(probe[[0, -1]], 0.0)
-    drop, slope, contact = _roll(depth, reach, points_a_step, fine, race_radius, ball_radius, outer)
-    return RolledPath(points[reach : points.size - reach : points_a_step], drop, slope, contact / points_a_step)
+    ball = _Ball(race_radius, ball_radius, -1.0 if outer else 1.0)
+    drop, place = _roll(depth, reach, fine, race_radius, ball_radius, outer)
+    arc = points[reach : points.size - reach : POINTS_A_STEP]
+    held = _Held(points[place], depth[place], drop)
+    _hold_on_lips(arc, lips, surface(lips), fine * reach, race_radius, ball_radius, outer, *held)
+    _hold_between_points(inside, ball, arc, held, fine)
+    _hold_as_neighbours(inside, ball, arc, held, fine)
+    slope = ball.slope(held.depth, held.place - arc)
+    return RolledPath(arc, held.drop, slope, (held.place - arc[0]) / (fine * POINTS_A_STEP))
 
 
-def _points_a_step(surface: Curve, half: float, race_radius: float, step: float) -> int:
-    """Points of the surface for each `step` (rad) of the path: of a bend κ (1/m) and points h (m) apart a ball may sink
-    by κ h² / 8."""
-    probe = surface(np.linspace(-half, half, PROBES))[1:-1]
-    apart = 2.0 * half / (PROBES - 1) * race_radius
-    bend = float(np.abs(np.diff(probe, 2)).max()) / apart**2
-    points = math.ceil(step * race_radius * math.sqrt(bend / (8.0 * SUNK)))
-    return min(max(points, FEWEST_POINTS), MOST_POINTS)
+class _Held(NamedTuple):
+    """What holds a ball at each arc (N,): the `place` (rad) where it touches, the `depth` (m) of the surface there, and
+    the `drop` (m) of the ball."""
+
+    place: Array
+    depth: Array
+    drop: Array
+
+    def take(self, at: Index, other: _Held, deeper: float) -> int:
+        """Take over what holds balls at these numbers (N,) of the arcs less than so much `deeper` (m); how many it
+        holds."""
+        holds = other.drop < self.drop[at] + deeper
+        for mine, found in zip(self, other, strict=True):
+            mine[at[holds]] = found[holds]
+        return int(np.count_nonzero(holds))
+
+
+class _Ball(NamedTuple):
+    """A ball and the race it rolls on: both radii (m), and `turn`, 1 on the inner race, −1 on the outer."""
+
+    race_radius: float
+    ball_radius: float
+    turn: float
+
+    def _lever(self, depth: Array, away: Array) -> tuple[Array, Array, Array]:
+        """Where a ball touches the surface at depths (N,), m, so far ahead of it (N,), rad: the radius there (m), how
+        far it lies beside the ball's own (m), and how far from the ball's centre along that (m)."""
+        radius = self.race_radius - self.turn * depth
+        longest = self.ball_radius * (1.0 - 1e-12)
+        lever = np.clip(radius * np.sin(away), -longest, longest)
+        return radius, lever, np.sqrt(self.ball_radius**2 - lever**2)
+
+    def drop(self, depth: Array, away: Array) -> Array:
+        """Drop (N,) of its centre, m."""
+        radius, _, hanging = self._lever(depth, away)
+        return self.turn * (self.race_radius - radius * np.cos(away)) + self.ball_radius - hanging
+
+    def slope(self, depth: Array, away: Array) -> Array:
+        """Slope (N,) of its path, m/rad."""
+        radius, lever, hanging = self._lever(depth, away)
+        return -radius * (self.turn * np.sin(away) + np.cos(away) * lever / hanging)
+
+    def gain(self, depth: Array, steepness: Array, away: Array) -> Array:
+        """How much deeper (N,), m/rad, it would lie if it touched farther ahead on a surface of this `steepness` (N,),
+        m/rad; zero where it touches."""
+        _, lever, hanging = self._lever(depth, away)
+        sinking = np.cos(away) - self.turn * np.sin(away) * lever / hanging
+        return steepness * sinking - self.slope(depth, away)
+
+    def on(self, surface: Surface, place: Array, arc: Array) -> _Held:
+        """The ball at the arcs (N,), rad, that touches the surface at the places (N,), rad."""
+        depth = surface(place)
+        return _Held(place, depth, self.drop(depth, place - arc))
+
+
+def _between_points(surface: Surface, ball: _Ball, arc: Array, place: Array, apart: float) -> _Held:
+    """The ball at the arcs (N,), rad, where it touches the surface no farther than `apart` (rad) from the places (N,),
+    rad, or at these if it would fall from both sides."""
+
+    def gain(place: Array) -> Array:
+        return ball.gain(surface(place), surface(place, 1), place - arc)
+
+    left, right = place - apart, place + apart
+    low, high = gain(left), gain(right)
+    between = (low < 0.0) & (high > 0.0)
+    touching = place
+    for cut in range(HALVINGS + CUTS):
+        share = 0.5 if cut < HALVINGS else low / np.where(between, low - high, 1.0)
+        touching = left + (right - left) * share
+        found = gain(touching)
+        ahead = found < 0.0
+        left, low = np.where(ahead, touching, left), np.where(ahead, found, low)
+        right, high = np.where(ahead, right, touching), np.where(ahead, high, found)
+    return ball.on(surface, np.where(between, touching, place), arc)
+
+
+def _hold_between_points(surface: Surface, ball: _Ball, arc: Array, held: _Held, apart: float) -> None:
+    """Let balls touch the surface between its points, `apart` (rad), beside those that hold them."""
+    held.take(np.arange(arc.size), _between_points(surface, ball, arc, held.place, apart), ROUNDING)
+
+
+def _hold_as_neighbours(surface: Surface, ball: _Ball, arc: Array, held: _Held, apart: float) -> None:
+    """Let balls beside a corner of the path touch the bump that holds their neighbours, where that holds them higher:
+    of two bumps, points of the surface may show the lower one as the higher."""
+    leap, improved = LEAP * POINTS_A_STEP * apart, 1
+    while improved > 0:
+        corners = np.flatnonzero(np.abs(np.diff(held.place)) > leap)
+        improved = 0
+        for at, neighbour in ((corners, corners + 1), (corners + 1, corners)):
+            found = _between_points(surface, ball, arc[at], held.place[neighbour], apart)
+            improved += held.take(at, found, -ROUNDING)
+
+
+@njit
+def _hold_on_lips(
+    arc: Array,
+    lips: Array,
+    height: Array,
+    reach: float,
+    race_radius: float,
+    ball_radius: float,
+    outer: bool,
+    place: Array,
+    depth: Array,
+    drop: Array,
+) -> None:
+    """Let balls at evenly spaced arcs (N,), rad, touch `lips` (L,), rad, at the depth `height` (L,), m, within `reach`
+    (rad), where these hold them higher than what does at the places (N,), rad, depths (N,) and drops (N,), m."""
+    step = (arc[-1] - arc[0]) / (arc.size - 1)
+    for lip in range(lips.size):
+        first = max(0, int((lips[lip] - reach - arc[0]) / step))
+        last = min(arc.size - 1, int((lips[lip] + reach - arc[0]) / step))
+        for k in range(first, last + 1):
+            away = abs(lips[lip] - arc[k])
+            found = _drop_on(height[lip], math.cos(away), math.sin(away), race_radius, ball_radius, outer)
+            if found < drop[k]:
+                place[k], depth[k], drop[k] = lips[lip], height[lip], found
 
 
 def branches(path: RolledPath) -> Branches:
@@ -169,24 +301,24 @@ def branches(path: RolledPath) -> Branches:
 
 @njit
 def _roll(
-    depth: Array, reach: int, stride: int, step: float, race_radius: float, ball_radius: float, outer: bool
-) -> tuple[Array, Array, Array]:
-    """Drop, slope and contact at every `stride`-th point of the surface, by trying each of the `reach` neighbours on
-    both sides as the contact.
+    depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool
+) -> tuple[Array, Index]:
+    """Drop at every point of the path and the number of the surface's point that holds the ball, by trying each of the
+    `reach` neighbours on both sides.
 
     Neighbours are taken block by block, and blocks whose highest point cannot touch first are passed over.
     """
-    count = (depth.size - 2 * reach - 1) // stride + 1
-    size = BLOCKED * stride
+    count = (depth.size - 2 * reach - 1) // POINTS_A_STEP + 1
+    size = BLOCKED * POINTS_A_STEP
     cosine = np.cos(step * np.arange(reach + 3))
     sine = np.sin(step * np.arange(reach + 3))
     blocks = (depth.size - 1) // size + 1
     highest, deepest = np.empty(blocks), depth.max()
     for block in range(blocks):
         highest[block] = depth[block * size : (block + 1) * size].min()
-    drop, slope, contact = np.empty(count), np.empty(count), np.empty(count)
+    drop, contact = np.empty(count), np.empty(count, dtype=np.int64)
     for k in range(count):
-        centre = k * stride + reach
+        centre = k * POINTS_A_STEP + reach
         least, best = _drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer), centre
         for block in range((centre - reach) // size, (centre + reach) // size + 1):
             first, last = max(block * size, centre - reach), min(block * size + size - 1, centre + reach)
@@ -198,51 +330,8 @@ def _roll(
                 found = _drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer)
                 if found < least:
                     least, best = found, place
-        shift, gain = 0.0, 0.0
-        if 2 <= best < depth.size - 2:
-            shift, gain = _between_points(depth, best, centre, least, cosine, sine, race_radius, ball_radius, outer)
-        drop[k], contact[k] = least - gain, best + shift
-        height = depth[best] + shift * 0.5 * (depth[min(best + 1, depth.size - 1)] - depth[max(best - 1, 0)])
-        slope[k] = _slope_on(height, (best + shift - centre) * step, race_radius, ball_radius, outer)
-    return drop, slope, contact
-
-
-@njit_inline
-def _between_points(
-    depth: Array,
-    best: int,
-    centre: int,
-    least: float,
-    cosine: Array,
-    sine: Array,
-    race_radius: float,
-    ball_radius: float,
-    outer: bool,
-) -> tuple[float, float]:
-    """How far from the point `best` the ball touches, in points, and by how much (m) it is held higher there; both 0 on
-    an edge, or beside one, where the drops on the neighbours of one side or of both lie on no parabola."""
-    a, b = abs(best - 1 - centre), abs(best + 1 - centre)
-    before = _drop_on(depth[best - 1], cosine[a], sine[a], race_radius, ball_radius, outer) - least
-    after = _drop_on(depth[best + 1], cosine[b], sine[b], race_radius, ball_radius, outer) - least
-    a, b = abs(best - 2 - centre), abs(best + 2 - centre)
-    early = _drop_on(depth[best - 2], cosine[a], sine[a], race_radius, ball_radius, outer) - least
-    late = _drop_on(depth[best + 2], cosine[b], sine[b], race_radius, ball_radius, outer) - least
-    bend = before + after
-    astray = max(abs(early - 3.0 * before - after), abs(late - before - 3.0 * after))
-    if not (bend > ROUNDING and astray < 4.0 * SMOOTH * bend):
-        return 0.0, 0.0
-    shift = 0.5 * (before - after) / bend
-    return shift, 0.5 * bend * shift * shift
-
-
-@njit_inline
-def _slope_on(s: float, away: float, race_radius: float, ball_radius: float, outer: bool) -> float:
-    """Slope (m/rad) of the path of a ball that touches the surface at the depth `s` (m), `away` (rad) ahead of it."""
-    radius = race_radius + s if outer else race_radius - s
-    sine, cosine = math.sin(away), math.cos(away)
-    lever = min(abs(radius * sine), ball_radius * (1.0 - 1e-12))
-    hanging = radius * radius * sine * cosine / math.sqrt(ball_radius * ball_radius - lever * lever)
-    return radius * sine - hanging if outer else -radius * sine - hanging
+        drop[k], contact[k] = least, best
+    return drop, contact
 
 
 @njit_inline

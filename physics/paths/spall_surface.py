@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from physics.paths.depth_path import Curve
+from physics.paths.rolling import Surface
 from physics.spall import Spall
 
 Array = NDArray[np.float64]
@@ -50,24 +50,34 @@ def roughness_curve(spall: Spall) -> CubicSpline | None:
     return CubicSpline(arcs, np.array(spall.roughness_values), bc_type="natural")
 
 
-def gap_surface(spall: Spall) -> Curve:
-    """Depth (m) of a gap with the spall's tapers and roughness against the arc (rad)."""
+def gap_surface(spall: Spall) -> Surface:
+    """A gap with the spall's tapers and roughness."""
     rough = roughness_curve(spall)
 
-    def surface(arc: Array) -> Array:
+    def surface(arc: Array, order: int = 0) -> Array:
         inside = np.abs(arc) <= spall.extent / 2.0
-        bumps = 0.0 if rough is None else np.where(inside, rough(arc), 0.0)
-        return spall.depth * window(spall, arc) + bumps
+        bumps = 0.0 if rough is None else np.where(inside, rough(arc, order), 0.0)
+        return spall.depth * (window if order == 0 else window_slope)(spall, arc) + bumps
 
     return surface
 
 
-def table_surface(spall: Spall) -> Curve:
-    """Depth (m) of the spall's measured table against the arc (rad); zero outside."""
-    rising = slice(None, None, spall.travel_sign)
-    angle = spall.travel_sign * np.array(spall.table_angle)[rising]
-    depth = np.array(spall.table_depth)[rising]
-    return lambda arc: np.interp(arc, angle, depth, left=0.0, right=0.0)
+def table_arcs(spall: Spall) -> Array:
+    """The arcs (N,), rad, rising, of the points of the spall's measured table; none if it has no table."""
+    return spall.travel_sign * np.array(spall.table_angle)[:: spall.travel_sign]
+
+
+def table_surface(spall: Spall) -> Surface:
+    """The straight lines between the points of the spall's measured table; no depth outside."""
+    angle, depth = table_arcs(spall), np.array(spall.table_depth)[:: spall.travel_sign]
+    slopes = np.concatenate([[0.0], np.diff(depth) / np.diff(angle), [0.0]])
+
+    def surface(arc: Array, order: int = 0) -> Array:
+        if order == 0:
+            return np.interp(arc, angle, depth, left=0.0, right=0.0)
+        return np.asarray(slopes[np.searchsorted(angle, arc)])
+
+    return surface
 
 
 def turning_points(depth: Array) -> int:

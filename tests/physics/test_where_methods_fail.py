@@ -125,6 +125,16 @@ def test_a_free_ball_that_touches_the_lip_of_a_measured_spall_within_a_step_is_n
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
 
 
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_ball_that_rolls_slowly_over_a_taper_meets_no_jump_of_its_path(race, reference_scene):
+    speed, scene = 90.0 * math.pi / 30.0, reference_scene("G0", 0.12)
+    spall = Spall(race, 1, 4.712, 0.017, 36e-6, 0.0017, 0.0037, profile="ball_path")
+    cage = CagePath(scene.rig.bearing.cage_speed(speed), 0.12, 0.1)
+    scene = changed(scene, operation={"shaft_speed": speed, "load": 90.0}, cage=cage, spalls=(spall,))
+    exact, trace = simulate(scene, RATE, accuracy=1e-6), simulate(scene, RATE)
+    assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
+
+
 @pytest.mark.parametrize(("rpm", "race"), [(163.0, "outer"), (114.0, "inner")])
 def test_the_tables_of_waves_ring_no_mode(rpm, race, reference_scene):
     """At these speeds 64 times the frequency of 28 waves meets a mode."""

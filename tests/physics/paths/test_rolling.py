@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from measures import hanging
+from scipy.interpolate import CubicSpline
 
 from physics.paths.rolling import branches, deep_gap_drop, hanging_reach, rolled_path
 
@@ -18,8 +19,14 @@ STEP = 5e-6 / RACE["outer"]
 ROUNDING = 1e-15  # m: a few units in the last place of a race's radius
 
 
-def roll(surface, race, half=HALF, step=STEP, rough=False):
-    return rolled_path(surface, half, race, RACE[race], BALL, step, rough)[:2]
+def sloped(depth):
+    """The surface of this depth, with a slope from differences."""
+    apart = 1e-8
+    return lambda arc, order=0: depth(arc) if order == 0 else (depth(arc + apart) - depth(arc - apart)) / (2.0 * apart)
+
+
+def roll(depth, race, half=HALF, step=STEP):
+    return rolled_path(sloped(depth), half, race, RACE[race], BALL, step)[:2]
 
 
 def gap(depth):
@@ -68,7 +75,7 @@ def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
 @RACES
 @pytest.mark.parametrize("steps", [800, 801])  # the corner lies on a node, or in the middle between two
 def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slope(race, steps):
-    path = rolled_path(gap(1e-3), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5))
+    path = rolled_path(sloped(gap(1e-3)), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5))
     assert path.arc.size == steps + 1
     found = branches(path)
     assert found.edges[1:-1] == pytest.approx([0.0], abs=1e-9)
@@ -81,7 +88,7 @@ def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slop
 @RACES
 @pytest.mark.parametrize("seed", range(3))
 def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
-    path = rolled_path(bumpy(seed, 8e-6), HALF, race, RACE[race], BALL, STEP)
+    path = rolled_path(sloped(bumpy(seed, 8e-6)), HALF, race, RACE[race], BALL, STEP)
     found = branches(path)
     assert 2 < found.edges.size < 20
     width, rise = np.diff(found.arc), np.diff(found.drop)
@@ -122,7 +129,7 @@ def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
 def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(race, ball_share):
     ball = ball_share * RACE[race]
     half = 0.98 * math.asin(ball_share)
-    arcs, drop, _, _ = rolled_path(gap(5e-3), half, race, RACE[race], ball, STEP)
+    arcs, drop, _, _ = rolled_path(sloped(gap(5e-3)), half, race, RACE[race], ball, STEP)
     exact, _ = deep_gap_drop(race, RACE[race], ball)
     assert np.max(np.abs(drop - np.minimum(exact(half - np.abs(arcs)), 5e-3))) < ROUNDING * 10  # steep: more rounding
 
@@ -168,7 +175,54 @@ def test_a_ball_neither_sinks_into_a_steep_taper_nor_is_lifted_by_it(race, taper
         hanging = np.sqrt(BALL**2 - lever**2)
         sign = 1.0 if race == "outer" else -1.0
         drops = sign * (radius * np.cos(theta - arc) - RACE[race]) - hanging + BALL
-        assert found == pytest.approx(drops.min(), abs=4e-10)  # twice what a ball may sink between points
+        assert found == pytest.approx(drops.min(), abs=1e-13)  # points 20 to 500 pm apart on a bend of less than 1 µm
+
+
+@RACES
+@pytest.mark.parametrize("taper", [5e-5, 1.5e-4, 3.5e-4])
+def test_over_a_taper_the_ball_runs_on_the_curve_one_radius_off_it(race, taper):
+    width, depth, outward = taper / RACE[race], 36e-6, 1.0 if race == "outer" else -1.0
+
+    def surface(arc, order=0):
+        into = np.clip((HALF - np.abs(arc)) / width, 0.0, 1.0)
+        if order == 0:
+            return depth * np.sin(0.5 * np.pi * into) ** 2
+        return -np.sign(arc) * depth * 0.5 * np.pi / width * np.sin(np.pi * into)
+
+    arcs, drop, slope, _ = rolled_path(surface, HALF, race, RACE[race], BALL, STEP)
+    # Points of the taper near its edge and the ball that lies on each of them, along the normal there.
+    touched = -HALF + width * np.linspace(1e-5, 0.3, 4001)
+    radius, tilt = RACE[race] + outward * surface(touched), outward * surface(touched, 1)
+    length = np.hypot(radius, tilt)
+    inward = RACE[race] - outward * BALL
+    across, along = radius - outward * BALL * radius / length, outward * BALL * tilt / length
+    centre, place = np.hypot(across, along), touched + np.arctan2(along, across)
+    near = (arcs > place[0]) & (arcs < min(place[-1], 0.0))  # beyond the middle it lies on the other taper
+    assert near.sum() > 20
+    expected = CubicSpline(place, outward * (centre - inward))
+    np.testing.assert_allclose(drop[near], expected(arcs[near]), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(slope[near], expected(arcs[near], 1), rtol=1e-7, atol=1e-12)
+
+
+@RACES
+def test_a_ball_turns_around_a_lip_wherever_it_lies_between_points(race):
+    lip, outward = -0.137 * HALF, 1.0 if race == "outer" else -1.0
+    knots, depths = np.array([-HALF, lip - 3e-3, lip, lip + 4e-3, HALF]), np.array([0.0, 20e-6, 2e-6, 30e-6, 0.0])
+
+    def surface(arc, order=0):
+        if order == 0:
+            return np.interp(arc, knots, depths)
+        return np.concatenate([[0.0], np.diff(depths) / np.diff(knots), [0.0]])[np.searchsorted(knots, arc)]
+
+    arcs, drop, slope, _ = rolled_path(surface, HALF, race, RACE[race], BALL, STEP, knots)
+    near = np.abs(arcs - lip) < 1e-3
+    radius, away = RACE[race] + outward * 2e-6, lip - arcs[near]
+    hanging = np.sqrt(BALL**2 - (radius * np.sin(away)) ** 2)
+    expected = outward * (radius * np.cos(away) - RACE[race]) - hanging + BALL
+    np.testing.assert_allclose(drop[near], expected, rtol=0, atol=1e-10)  # the lip within 0.3 nm, on a flank of 0.26
+    np.testing.assert_allclose(
+        np.diff(slope[near]) / np.diff(arcs[near]), np.diff(slope[near]).mean() / np.diff(arcs).mean(), rtol=0.01
+    )
 
 
 @RACES
@@ -176,9 +230,8 @@ def test_a_ball_neither_sinks_into_a_steep_taper_nor_is_lifted_by_it(race, taper
 def test_a_deeper_surface_never_lifts_the_ball(race, seed):
     shallow = bumpy(seed, 10e-6)
     extra = bumpy(seed + 100, 10e-6)
-    # Rough surfaces are all sampled at the same points.
-    _, upper = roll(lambda arc: np.maximum(shallow(arc), 0.0), race, rough=True)
-    arcs, lower = roll(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race, rough=True)
+    _, upper = roll(lambda arc: np.maximum(shallow(arc), 0.0), race)
+    arcs, lower = roll(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race)
     assert np.all(lower >= upper - ROUNDING)
     assert np.max(lower - upper) > 1e-7
     assert arcs.size == upper.size

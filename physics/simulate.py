@@ -15,7 +15,6 @@ from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.adaptive import respond_accurately
 from physics.response.fixed_steps import respond_by_fixed_steps
-from physics.response.goal import rms
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.march import MODEL, respond_by_reference
 from physics.response.modal_case import resting
@@ -23,6 +22,7 @@ from physics.response.oversampling import oversampling
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
 from physics.response.resampling import decimate
+from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import carried
 from physics.trace import ACCELERATION_ALONE, Kept, Trace

@@ -12,6 +12,7 @@ from datagen.charts.response import Response
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import line_amplitude
 from labels.truth import PassTable, ball_passes
+from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.stiffness import stiffness_at
 from physics.trace import ContactChanges
@@ -46,7 +47,7 @@ def score(scene: Scene, rate: float, response: Response, reference: Response) ->
     samples = response.acceleration.shape[0]
     scored = slice(round(SCORED_FROM * rate), samples)
     exact = reference.acceleration[scored]
-    acceleration = _relative(response.acceleration[scored], exact)
+    acceleration = _error(response.acceleration[scored], exact)
     release, regain, missed = _event_errors(scene, response.changes, reference.changes, samples / rate)
     events = np.concatenate([release, regain])
     return Score(
@@ -60,11 +61,11 @@ def score(scene: Scene, rate: float, response: Response, reference: Response) ->
     )
 
 
-def _relative(found: Array, exact: Array) -> float:
-    size = float(np.sqrt(np.mean(exact**2)))
+def _error(found: Array, exact: Array) -> float:
+    """Relative RMS error: infinite where `found` is not finite, NaN beside silence."""
     if not np.all(np.isfinite(found)):
         return math.inf
-    return float(np.sqrt(np.mean((found - exact) ** 2))) / size if size > 0.0 else math.nan
+    return relative_error(found, exact) if exact.any() else math.nan
 
 
 def _envelope_error(scene: Scene, rate: float, found: Array, exact: Array) -> float:
@@ -115,4 +116,4 @@ def _stiffness_error(scene: Scene, rate: float, response: Response, reference: R
         return math.nan
     time = np.arange(response.displacement.shape[0])[scored] / rate
     found = stiffness_at(scene, time, response.displacement[scored])[:, 1]
-    return _relative(found, stiffness_at(scene, time, reference.displacement[scored])[:, 1])
+    return _error(found, stiffness_at(scene, time, reference.displacement[scored])[:, 1])

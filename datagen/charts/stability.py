@@ -21,6 +21,7 @@ from physics.response.adaptive import respond_accurately
 from physics.response.march import respond
 from physics.response.modal_case import Kept, resting
 from physics.response.stability import longest_stable_step, stable_substeps
+from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.load_distribution import equilibrium
 
@@ -175,7 +176,7 @@ def _exact(scene: Scene) -> Array | None:
         fine, finer = (_response(scene, "exponential_rk4", 1.0 / n) for n in (steps, 2 * steps))
     except (SimulationFailed, InvalidParameter):
         return None
-    return finer if _misfit(fine, finer) < CONVERGED else None
+    return finer if relative_error(fine, finer) < CONVERGED else None
 
 
 def _response(scene: Scene, method: str, step: float) -> Array:
@@ -186,11 +187,6 @@ def _response(scene: Scene, method: str, step: float) -> Array:
     return respond(scene, start_of(scene), grid, method).acceleration
 
 
-def _misfit(found: Array, exact: Array) -> float:
-    size = float(np.sqrt(np.mean(exact**2)))
-    return float(np.sqrt(np.mean((found - exact) ** 2))) / size if size > 0.0 else 0.0
-
-
 def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[float, str]:
     """Error and outcome of one method at one step or accuracy."""
     if exact is None:
@@ -199,11 +195,11 @@ def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[f
         if method == MODAL:
             samples = round(scene.duration * RATE)
             trace = respond_accurately(scene, resting(scene), RATE, samples, row, 0.0, Kept())
-            return _misfit(trace.acceleration, exact), VALUE
+            return relative_error(trace.acceleration, exact), VALUE
         found = _response(scene, method, row)
     except SimulationFailed as failure:
         return math.nan, failure.outcome.name.lower().replace("_", " ")
-    return _misfit(found, exact[:: max(1, round(row))][: found.shape[0]]), VALUE
+    return relative_error(found, exact[:: max(1, round(row))][: found.shape[0]]), VALUE
 
 
 def _refused(step: float, longest: float) -> bool:

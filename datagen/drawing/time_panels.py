@@ -12,6 +12,7 @@ from datagen.drawing.style import BLUE, GREEN, GREY, INK, MAP, ORANGE, PALE, VER
 from labels.spectrogram import spectrogram
 from physics.modes import modes
 from physics.outcome import StaticOutcome
+from physics.rms import rms
 from physics.statics.load_distribution import equilibrium
 from physics.statics.stiffness import matrix
 
@@ -40,8 +41,7 @@ def draw_part(axes: Axes, portrait: Portrait, signal: Array, colour: str, title:
     axes.plot(portrait.time, signal[:, 1], color=colour, linewidth=0.5)
     axes.axvspan(*portrait.window, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
     axes.set(xlim=(0.0, portrait.duration), ylabel="m/s²")
-    rms = float(np.sqrt(np.mean(signal[:, 1] ** 2)))
-    axes.set_title(f"{title}: RMS {rms:.3g} m/s²")
+    axes.set_title(f"{title}: RMS {rms(signal[:, 1]):.3g} m/s²")
     faint_grid(axes)
 
 

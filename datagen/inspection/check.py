@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -232,6 +231,7 @@ class _Check:
         from datagen.records.record import make_record
         from datagen.scenarios.scenario import Scenario
         from physics.outcome import SimulationFailed
+        from physics.rms import relative_error
 
         stored = corpus.waveform(record).astype(np.float64)
         try:
@@ -239,7 +239,7 @@ class _Check:
         except (BadInput, SimulationFailed) as problem:
             self.problems.append(f"record {record} cannot be simulated again from its scenario: {problem}")
             return
-        difference = _relative_difference(again.astype(np.float64), stored)
+        difference = relative_error(again.astype(np.float64), stored)
         self.remade.append(record)
         self.difference = max(self.difference, difference)
         if not difference <= LARGEST_DIFFERENCE:
@@ -270,11 +270,3 @@ def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[s
     except READ_ERRORS as problem:
         return None, [*found, f"cannot be read: {problem}"]
     return dataset, found
-
-
-def _relative_difference(again: NDArray[np.float64], stored: NDArray[np.float64]) -> float:
-    """RMS difference of a signal made again from the stored one over the latter's RMS; silence agrees with silence."""
-    difference, level = np.sqrt(np.mean((again - stored) ** 2)), np.sqrt(np.mean(stored**2))
-    if not difference:
-        return 0.0
-    return float(difference / level) if level else math.inf

@@ -33,6 +33,7 @@ from datagen.paper.scenes import (
     wavy_extended_spall,
 )
 from labels.truth import ball_passes
+from physics.rms import rms
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
@@ -83,12 +84,12 @@ class Forces:
     @property
     def crest(self) -> float:
         """Peak over RMS of the net force along the load."""
-        return self.peak / float(np.sqrt(np.mean(self.net[self.settled, 1] ** 2)))
+        return self.peak / rms(self.net[self.settled, 1])
 
     @property
     def fluctuation(self) -> float:
         """RMS of all balls' forces about the quasi-static ones, N."""
-        return float(np.sqrt(np.mean((self.dynamic - self.static)[self.settled] ** 2)))
+        return rms((self.dynamic - self.static)[self.settled])
 
 
 def forces(spall: Spall) -> Forces:

@@ -15,6 +15,7 @@ from datagen.paper.panels import heading, letter
 from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, gradual_line_spall, machine, scene, signal
 from labels.envelope import Band, band_envelope, squared_envelope_spectrum
 from physics.modes import coupled_resonator_frequency, rated_matrices
+from physics.rms import rms
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -144,7 +145,7 @@ def rows(found: list[Smearing]) -> list[Row]:
                     table.append(only_ours(title, height, "dB", comment))
                 else:
                     table.append(beside(NAME, "smearing", title, height, comment, agrees=height < 0.0, unit="dB"))
-            away = float(np.sqrt(np.mean((drop - predicted) ** 2)))
+            away = rms(drop - predicted)
             table.append(only_ours(f"{one.rig} rig, slip {slip:.1%}, RMS of measured less predicted", away, "dB"))
     return table
 

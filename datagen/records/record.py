@@ -22,6 +22,7 @@ from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
 from physics.paths.profile import race_depth
 from physics.response.lead_in import from_start
+from physics.rms import rms
 from physics.scene import Scene
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.recorder import recorded
@@ -187,7 +188,7 @@ def _missed(scenario: Scenario, trace: Trace) -> str:
     accuracy, least = allowed_error(scenario)
     if trace.chaotic or not trace.error_estimate > accuracy:
         return ""
-    size = float(np.sqrt(np.mean(trace.acceleration**2)))
+    size = rms(trace.acceleration)
     allowed = max(accuracy, least / size if size > 0.0 else 0.0)
     if trace.error_estimate <= allowed:
         return ""
@@ -209,7 +210,7 @@ def sensor_labels(scenario: Scenario, signal: NDArray[np.float64], layers: Layer
     chain = scenario.chain
     along, noise = np.ascontiguousarray(signal[:, 1]), noise_along_y(layers, len(signal))
     ratios = [signal_to_noise(along, noise, scenario.rate, band) for band in (None, scenario.noise_band)]
-    levels = {name: float(np.sqrt(np.mean(layer[:, 1] ** 2))) for name, layer in layers.items()}
+    levels = {name: rms(layer[:, 1]) for name, layer in layers.items()}
     return {
         "snr_db": ratios[0],
         "snr_band_db": ratios[1],

@@ -7,6 +7,7 @@ import numpy as np
 from labels.features.analysis import Analysis
 from labels.features.conditioning import Array, Spectrum
 from labels.features.feature import Feature
+from physics.rms import rms
 
 DYER = "Dyer & Stewart 1978, J. Mech. Design 100"
 SHAPES = "Lei et al. 2008, Expert Syst. Appl. 35, table of dimensionless parameters"
@@ -27,7 +28,7 @@ ROWS = (
 def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
     wave = analysis.record.waveform(_without_drift(analysis))
-    wave = wave / np.sqrt(np.mean(wave**2))
+    wave = wave / rms(wave)
     size = np.abs(wave)
     mean = float(size.mean())
     high, higher = np.quantile(size, (0.999, 0.9999))

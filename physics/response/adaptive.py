@@ -16,12 +16,12 @@ from physics.response.goal import (
     GoOn,
     fewest_touching,
     observed_sensitivity,
-    rms,
     rms_distance,
     steady,
 )
 from physics.response.march import trace_of
 from physics.response.modal_case import March, case_of
+from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import ACCELERATION_ALONE, Kept, Trace

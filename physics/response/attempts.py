@@ -16,11 +16,11 @@ from physics.response.goal import (
     fewest_touching,
     finer,
     observed_sensitivity,
-    rms,
     rms_distance,
     safety_factor,
 )
 from physics.response.modal_case import March
+from physics.rms import rms
 
 # A beginning made with more than this many times the tolerance that the scene turns out to need is made again.
 CALM = 1.5

@@ -15,6 +15,7 @@ from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.march import respond
 from physics.response.stability import require_stable, stable_substeps
+from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import Kept, Trace
@@ -82,11 +83,11 @@ def _pilot(
         return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method).acceleration
 
     coarse, fine = response(steps), response(2 * steps)
-    error = _relative_error(coarse, fine)
+    error = _estimated_error(coarse, fine)
     while error > accuracy and 2 * steps <= most:
         steps *= 2
         coarse, fine = fine, response(2 * steps)
-        error = _relative_error(coarse, fine)
+        error = _estimated_error(coarse, fine)
     return steps, error
 
 
@@ -97,9 +98,6 @@ def _pilot_duration(scene: Scene) -> float:
     return max(duration, turns) if scene.turns_with_the_shaft else duration
 
 
-def _relative_error(coarse: Array, fine: Array) -> float:
+def _estimated_error(coarse: Array, fine: Array) -> float:
     """Estimated RMS error of `coarse`, relative to its RMS, from a response at half the step."""
-    size = np.sqrt(np.mean(fine**2))
-    if size == 0.0:
-        return 0.0
-    return float(np.sqrt(np.mean((coarse - fine) ** 2)) / size / (1.0 - 2.0**-PILOT_ORDER))
+    return relative_error(coarse, fine) / (1.0 - 2.0**-PILOT_ORDER)

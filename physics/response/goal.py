@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from physics.integrators.modal.memory import STRIDES, Stride
 from physics.integrators.output import LOGGED, Output
 from physics.response.modal_case import USUAL_PUSHES, Case, March
+from physics.rms import rms
 from physics.trace import Kept
 
 Array = NDArray[np.float64]
@@ -123,8 +124,3 @@ def fewest_touching(output: Output) -> int:
     made = output.change_made[: output.tally[LOGGED]]
     touching = output.initial.sum() + np.cumsum(np.where(made, 1, -1))
     return int(touching.min(initial=output.initial.sum()))
-
-
-def rms(values: Array) -> float:
-    """Root mean square over all entries."""
-    return float(np.sqrt(np.mean(np.square(values))))

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from physics.cage import CagePath
-from physics.response.goal import rms
+from physics.rms import rms
 from physics.scene import Scene
 from physics.trace import ContactChanges, Trace
 

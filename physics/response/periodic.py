@@ -17,9 +17,9 @@ from physics.integrators.modal.memory import Stride
 from physics.integrators.output import Output
 from physics.paths.profile import is_rough
 from physics.response.adaptive import PILOT_SAMPLES, respond_accurately
-from physics.response.goal import rms
 from physics.response.modal_case import March
 from physics.response.resampling import POINTS, read_at
+from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import ContactChanges, Trace

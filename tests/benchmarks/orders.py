@@ -18,6 +18,7 @@ from datagen.versions import in_words, measured_on
 from physics.integrators.methods import MARCHES, METHODS
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
+from physics.rms import relative_error
 from physics.scene import Scene
 from physics.simulate import simulate
 from tests.physics.smooth import always_in_contact
@@ -41,17 +42,12 @@ def response(scene: Scene, method: str, substeps: int) -> Array:
     return simulate(scene, RATE, method=method, substeps=substeps, estimate_error=False).acceleration
 
 
-def relative(found: Array, exact: Array) -> float:
-    """RMS of the difference over the RMS of the exact one."""
-    return float(np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2)))
-
-
 def measure(scene: Scene, method: str, exact: Array) -> dict[str, object]:
     """Errors by steps a sample; order, constant (error of one step a sample, were it on the line) and floor."""
     errors: dict[int, float] = {}
     for substeps in SUBSTEPS:
         try:
-            errors[substeps] = relative(response(scene, method, substeps), exact)
+            errors[substeps] = relative_error(response(scene, method, substeps), exact)
         except SimulationFailed:
             continue  # a step that is not stable is refused
     floor = min(errors.values())
@@ -80,7 +76,9 @@ def table(rows: dict[str, dict[str, dict[str, object]]], checked: dict[str, floa
 def main() -> None:
     """Measure every method on every scene and write both files."""
     exact = {name: response(scene, EXACT, FINEST) for name, scene in SCENES.items()}
-    checked = {name: relative(response(scene, CHECKED_BY, CHECKED_AT), exact[name]) for name, scene in SCENES.items()}
+    checked = {
+        name: relative_error(response(scene, CHECKED_BY, CHECKED_AT), exact[name]) for name, scene in SCENES.items()
+    }
     rows = {method: {name: measure(scene, method, exact[name]) for name, scene in SCENES.items()} for method in MARCHES}
     made_with = measured_on("numpy", "scipy", "numba")
     report = {"made_with": made_with, "exact_apart": checked, "methods": rows}

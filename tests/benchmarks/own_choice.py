@@ -30,6 +30,7 @@ from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import measured_on
 from physics.outcome import SimulationFailed
+from physics.rms import relative_error, rms
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.warming import warm_up
@@ -42,11 +43,6 @@ CERTAIN = 0.2
 THIRD_OCTAVES = 2.0 ** (np.arange(-12, 13) / 3.0) * 1000.0
 CHEAP_METHODS = ("exponential_rk4", "exponential_adams4", "runge_kutta4", "dormand_prince")
 Array = NDArray[np.float64]
-
-
-def rms(values: Array) -> float:
-    """Root mean square over all entries."""
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def timed(run: Callable[[], Array]) -> tuple[float, Array]:
@@ -72,10 +68,10 @@ def judge(scene: Scene, rate: float) -> tuple[Array, float]:
         for count in (JUDGING_SUBSTEPS[0] // 2, JUDGING_SUBSTEPS[0])
     )
     last = fine
-    apart = rms(coarse - fine) / rms(fine)
+    apart = relative_error(coarse, fine)
     if apart > CERTAIN * ACCURACY:
         last = simulate(scene, rate, substeps=JUDGING_SUBSTEPS[1], estimate_error=False).acceleration
-        apart = rms(fine - last) / rms(last)
+        apart = relative_error(fine, last)
     return last, apart
 
 
@@ -91,7 +87,7 @@ def rivals(scene: Scene, rate: float, exact: Array) -> dict[str, float]:
             seconds, found = timed(lambda setting=setting: simulate(scene, rate, **setting).acceleration)
         except SimulationFailed:
             continue
-        if rms(found - exact) <= ACCURACY * rms(exact):
+        if relative_error(found, exact) <= ACCURACY:
             kept[name] = seconds
     return kept
 
@@ -115,7 +111,7 @@ def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: 
     own = simulate(scene, rate, accuracy=accuracy, least_error=least)
     row: dict[str, object] = {
         "seconds": seconds,
-        "error": rms(trace.acceleration - exact) / rms(exact),
+        "error": relative_error(trace.acceleration, exact),
         "estimate": trace.error_estimate,
         "spalls": len(scene.spalls),
         "sensitivity": trace.sensitivity,

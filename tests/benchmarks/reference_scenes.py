@@ -11,12 +11,11 @@ import statistics
 import time
 from pathlib import Path
 
-import numpy as np
-
 from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.response.periodic import METHOD as REPEATED
+from physics.rms import relative_error
 from physics.simulate import simulate
 from physics.warming import warm_up
 
@@ -28,11 +27,6 @@ RIVAL_SCENES = ("G1", "F1")
 RIVAL_DURATION = 0.05
 DURATION, LONG_DURATION = 0.5, 5.0
 SLIP_SEED = 1
-
-
-def rms(values: np.ndarray) -> float:
-    """Root mean square over all entries."""
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def timed(scene: object, rounds: int) -> tuple[object, float]:
@@ -64,7 +58,7 @@ def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]
     trace, factor = timed(scene, rounds)
     scored = trace.time >= SCORED_FROM
     return {
-        "error": rms((trace.acceleration - finer.acceleration)[scored]) / rms(finer.acceleration[scored]),
+        "error": relative_error(trace.acceleration[scored], finer.acceleration[scored]),
         "estimate": trace.error_estimate,
         "samples_per_step": trace.step * RATE,
         "repeated": trace.method == REPEATED,

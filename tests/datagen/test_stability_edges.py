@@ -1,11 +1,11 @@
 """The edges of the stability maps from both sides: inside a method keeps the accuracy asked for, outside it says no."""
 
-import numpy as np
 import pytest
 
 from datagen.charts.stability import DURATION, RATE, SWEEPS
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import reference_scene
+from physics.rms import relative_error
 from physics.simulate import simulate
 
 # Method, quantity, accuracy asked for, and neighbouring values of the maps: the last at which up to 32 steps a
@@ -35,7 +35,7 @@ def scene_with(quantity, value):
 def error(trace, scene):
     """RMS error of the acceleration over its RMS, against a run with many short steps."""
     exact = simulate(scene, RATE, method="exponential_rk4", substeps=FINE_STEPS, estimate_error=False).acceleration
-    return np.sqrt(np.mean((trace.acceleration - exact) ** 2) / np.mean(exact**2))
+    return relative_error(trace.acceleration, exact)
 
 
 @EDGE

@@ -1,11 +1,6 @@
-"""What several physics tests measure by: how loud a signal is, and how far a ball hangs into a gap."""
+"""How far a ball hangs into a gap, by which several physics tests measure."""
 
 import numpy as np
-
-
-def rms(values):
-    """Root of the mean square of all `values`, in their unit."""
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def hanging(race, race_radius, ball_radius, psi):

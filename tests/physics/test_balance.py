@@ -5,13 +5,13 @@ import math
 
 import numpy as np
 import pytest
-from measures import rms
 from scipy.integrate import simpson
 
 from physics.cage import CagePath
 from physics.integrators.output import Grid
 from physics.operation import Operation
 from physics.response.march import respond
+from physics.rms import rms
 from physics.simulate import simulate
 from physics.trace import Kept
 

@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 import pytest
-from measures import rms
 
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import _edges, impulse_response
@@ -14,6 +13,7 @@ from physics.ladder.models import SIMPLER_MODELS
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
+from physics.rms import rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
 from physics.statics.stiffness import stiffness_at, stiffness_trace

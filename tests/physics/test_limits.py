@@ -5,11 +5,11 @@ import math
 
 import numpy as np
 import pytest
-from measures import rms
 from variants import changed
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
+from physics.rms import rms
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall

@@ -5,12 +5,12 @@ import math
 
 import numpy as np
 import pytest
-from measures import rms
 
 import physics.response.march
 import physics.response.modal_case
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
+from physics.rms import rms
 from physics.simulate import simulate
 
 RATE = 65536.0

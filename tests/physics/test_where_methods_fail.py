@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from measures import rms
 from variants import changed
 
 from physics.cage import CagePath
@@ -15,6 +14,7 @@ from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.march import respond
 from physics.response.stability import limiting_modes, longest_stable_step, stable_substeps
+from physics.rms import rms
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium

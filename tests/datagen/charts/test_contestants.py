@@ -18,6 +18,7 @@ from physics.integrators.rivals.general_purpose import (
     integrate_compiled,
 )
 from physics.reference_scenes import reference_scene
+from physics.rms import relative_error
 from physics.simulate import simulate
 
 RATE = 65536.0
@@ -32,8 +33,7 @@ def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(p
     start = entrants.start_of(scene)
     states, evaluations = integrate_compiled(scene, pair, kind_of_slope, start, RATE, samples, 1e-8)
     found = of_states(scene, RATE, states)
-    size = np.sqrt(np.mean(exact.acceleration**2))
-    assert np.sqrt(np.mean((found.acceleration - exact.acceleration) ** 2)) < 1e-3 * size  # steps over jumps of force
+    assert relative_error(found.acceleration, exact.acceleration) < 1e-3  # steps over jumps of force
     assert evaluations > 8 * samples  # a dozen stages for a step of about a sample
     loose, fewer = integrate_compiled(scene, pair, kind_of_slope, start, RATE, samples, 1e-4)
     assert fewer < evaluations
@@ -44,11 +44,11 @@ def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(p
 def test_fixed_steps_through_changes_of_contact_reach_the_same_response_slowly(kind_of_slope):
     scene = reference_scene("F1", 0.03)
     exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False)
-    start, size = entrants.start_of(scene), np.sqrt(np.mean(exact.acceleration**2))
+    start = entrants.start_of(scene)
 
     def error(substeps):
         states = integrate_by_fixed_steps(scene, kind_of_slope, start, RATE, exact.time.size, substeps)
-        return np.sqrt(np.mean((of_states(scene, RATE, states).acceleration - exact.acceleration) ** 2)) / size
+        return relative_error(of_states(scene, RATE, states).acceleration, exact.acceleration)
 
     coarse, fine = error(16), error(64)
     # Over a jump of force any method is of order 1: a quarter of the step, a quarter of the error, or a little less.
@@ -73,8 +73,7 @@ def test_numbalsoda_reaches_the_same_response_where_it_is_installed(solver, kind
     name = f"numbalsoda {solver}, {kind_of_slope}"
     finest = [one for one in entrants.contestants(scene, quick=False) if one.name == name][-1]
     found = finest.read(scene, RATE, finest.run(scene, RATE))
-    size = np.sqrt(np.mean(exact.acceleration**2))
-    assert np.sqrt(np.mean((found.acceleration - exact.acceleration) ** 2)) < 1e-3 * size  # steps over jumps of force
+    assert relative_error(found.acceleration, exact.acceleration) < 1e-3  # steps over jumps of force
 
 
 def test_numbalsoda_takes_part_only_where_it_is_installed(monkeypatch):

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from datagen.recipes.recipe import load_recipe
@@ -10,6 +9,7 @@ from datagen.records.record import _missed, make_record
 from datagen.scenarios.sampling import draw_scenario
 from labels.description import label_values
 from physics.response.modal_case import March
+from physics.rms import rms
 from physics.simulate import simulate
 
 LOOSE_RECORD = 5697  # of the wide corpus: 0.6 changes of contact a millisecond and ball
@@ -122,7 +122,7 @@ def test_changes_of_contact_that_could_not_be_located_are_told(scenario, monkeyp
 def test_an_error_below_what_noise_hides_is_no_missed_accuracy(monkeypatch):
     tame = draw_scenario(load_recipe("gearbox_rig"), 0)
     trace = replace(simulate(tame.scene, tame.rate), error_estimate=0.02)
-    level = float(np.sqrt(np.mean(trace.acceleration**2)))
+    level = rms(trace.acceleration)
     for hidden, told in ((0.03, False), (0.01, True), (0.0, True)):
         monkeypatch.setattr("datagen.records.record.allowed_error", lambda _, least=hidden * level: (1e-3, least))
         assert ("was not reached: it may be 0.02 off" in _missed(tame, trace)) is told

@@ -2,13 +2,13 @@
 
 import dataclasses
 
-import numpy as np
 import pytest
 
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
 from physics.response import adaptive
 from physics.response.attempts import CHAOTIC
+from physics.rms import relative_error
 from physics.simulate import simulate
 
 
@@ -17,7 +17,7 @@ def _drawn(seed, record):
 
 
 def _apart(one, other):
-    return np.sqrt(((one.acceleration - other.acceleration) ** 2).mean() / (other.acceleration**2).mean())
+    return relative_error(one.acceleration, other.acceleration)
 
 
 def _shortened(scene, seconds):

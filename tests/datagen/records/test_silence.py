@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.corpus import Corpus
-from datagen.inspection.check import _relative_difference, check_corpus
+from datagen.inspection.check import check_corpus
 from datagen.recipes.recipe import parse_recipe
 from datagen.records.record import make_record
 from datagen.scenarios.sampling import draw_scenario
@@ -66,13 +65,6 @@ def test_a_bearing_without_load_is_silent_and_its_corpus_sound_and_drawn(tmp_pat
     assert verdict.remade == (0, 1)
     assert verdict.largest_difference == 0.0
     assert CliRunner().invoke(app, ["report", str(tmp_path / "out")], catch_exceptions=False).exit_code == 0
-
-
-@pytest.mark.parametrize(
-    ("again", "stored", "expected"), [(0.0, 0.0, 0.0), (1.0, 0.0, np.inf), (1.0, 2.0, 0.5), (0.0, 2.0, 1.0)]
-)
-def test_silence_agrees_with_silence_and_with_nothing_else(again: float, stored: float, expected: float) -> None:
-    assert _relative_difference(np.full((4, 2), again), np.full((4, 2), stored)) == expected
 
 
 def test_noise_at_a_ratio_to_a_silent_bearing_keeps_the_level_of_the_machine() -> None:

@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 import pytest
-from measures import rms
 from smooth import always_in_contact
 
+from physics.rms import relative_error
 from physics.simulate import simulate
 
 RATE = 65536.0
@@ -18,7 +18,7 @@ def errors(scene, substeps):
     """Relative RMS error of the acceleration for each number of steps a sample, against a much finer run."""
     finest = simulate(scene, RATE, substeps=FINEST, estimate_error=False).acceleration
     runs = [simulate(scene, RATE, substeps=count, estimate_error=False).acceleration for count in substeps]
-    return np.array([rms(run - finest) / rms(finest) for run in runs])
+    return np.array([relative_error(run, finest) for run in runs])
 
 
 def order(substeps, error):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from stand_ins import LOAD, MASS, PUSH, RATE, SAMPLES, World, a_case, a_goal, an_output, tolerance
 
-from physics.response.goal import fewest_touching, finer, observed_sensitivity, rms, rms_distance, safety_factor, steady
+from physics.response.goal import fewest_touching, finer, observed_sensitivity, rms_distance, safety_factor, steady
 
 ONES = np.ones((SAMPLES, 2))
 
@@ -80,7 +80,3 @@ def test_the_fewest_balls_that_touch_at_once_are_counted_through_the_logged_chan
     assert fewest_touching(an_output(ONES)) == 2
     assert fewest_touching(an_output(ONES, made=(True, False, False, False, True))) == 0  # 2, 3, 2, 1, 0, 1
     assert fewest_touching(an_output(ONES, initial=(0.0, 0.0, 0.0), made=(True, True))) == 0
-
-
-def test_the_root_mean_square_is_over_all_entries():
-    assert rms(np.array([[3.0, 4.0], [0.0, 5.0]])) == pytest.approx(math.sqrt(12.5), rel=1e-15)

@@ -1,0 +1,28 @@
+"""Loudness and relative error, on numbers worked out by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics.rms import relative_error, rms
+
+
+def test_the_root_mean_square_is_over_all_entries():
+    assert rms(np.array([[3.0, 4.0], [0.0, 5.0]])) == pytest.approx(math.sqrt(12.5), rel=1e-15)
+
+
+def test_the_error_is_measured_by_the_exact_signal_and_not_by_the_one_found():
+    assert relative_error(np.array([[3.0, 0.0], [0.0, 8.0]]), np.array([[3.0, 0.0], [0.0, 4.0]])) == 4.0 / 5.0
+
+
+@pytest.mark.parametrize(
+    ("found", "exact", "error"), [(0.0, 0.0, 0.0), (1.0, 0.0, np.inf), (1.0, 2.0, 0.5), (0.0, 2.0, 1.0)]
+)
+def test_silence_agrees_with_silence_and_with_nothing_else(found, exact, error):
+    assert relative_error(np.full((4, 2), found), np.full((4, 2), exact)) == error
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_what_is_not_finite_never_passes_for_exact(bad):
+    assert not relative_error(np.array([bad, 1.0]), np.ones(2)) <= 1.0

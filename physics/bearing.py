@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from physics.checks import require, require_between, require_count, require_finite, require_one_of, require_positive
+from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
 
 RACES = ("outer", "inner")
 DEFAULT_CONFORMITY = 0.52
@@ -86,27 +87,27 @@ class Bearing:
 
     def cage_speed(self, shaft_speed: float) -> float:
         """Nominal cage speed in rad/s for a shaft speed in rad/s [P14 Eq. 1]."""
-        return 0.5 * shaft_speed * (1.0 - self.diameter_ratio)
+        return shaft_speed * self.ftf
 
     @property
     def ftf(self) -> float:
         """Fundamental train (cage) frequency in orders of the shaft."""
-        return 0.5 * (1.0 - self.diameter_ratio)
+        return cage_order(self.diameter_ratio)
 
     @property
     def bpfo(self) -> float:
         """Ball-pass frequency of the outer race in orders of the shaft."""
-        return self.balls * self.ftf
+        return outer_pass_order(self.balls, self.diameter_ratio)
 
     @property
     def bpfi(self) -> float:
         """Ball-pass frequency of the inner race in orders of the shaft."""
-        return self.balls * (1.0 - self.ftf)
+        return inner_pass_order(self.balls, self.diameter_ratio)
 
     @property
     def bsf(self) -> float:
         """Ball spin frequency in orders of the shaft."""
-        return 0.5 * self.pitch_diameter / self.ball_diameter * (1.0 - self.diameter_ratio**2)
+        return ball_spin_order(self.pitch_diameter / self.ball_diameter, self.diameter_ratio)
 
     def conformity(self, race: str) -> float:
         """Groove radius over ball diameter, dimensionless: `race` is "outer" or "inner"."""

@@ -14,6 +14,7 @@ from scipy.signal import fftconvolve
 
 from labels.features.kinematics import Kinematics
 from labels.schema import LOCATIONS
+from physics.orders import ball_spin_order
 
 Array = NDArray[np.float64]
 DURATIONS, SHARES = (0.4, 0.8, 2.0, 10.0), (4 / 12, 4 / 12, 3 / 12, 1 / 12)
@@ -90,7 +91,7 @@ def _bearing(own: np.random.Generator, generator: np.random.Generator) -> Kinema
     balls = max(5, int(own.uniform(0.6, 0.95) * most))
     ratio *= np.cos(np.radians(min(abs(own.normal(0.0, 8.0)), 25.0)))
     speed = np.exp(own.uniform(np.log(500.0), np.log(3600.0))) / 60.0 * generator.uniform(0.75, 1.25)
-    return Kinematics(balls, float(ratio), float(0.5 / ratio * (1.0 - ratio**2)), float(speed))
+    return Kinematics(balls, float(ratio), float(ball_spin_order(1.0 / ratio, ratio)), float(speed))
 
 
 def _paths(own: np.random.Generator, drawn: bool) -> list[tuple[float, float, float]]:

@@ -9,6 +9,7 @@ from typing import Any
 from labels.classifier.classes import joint_class
 from labels.features.kinematics import Kinematics, bearing_kinematics
 from labels.schema import LOCATIONS, UNKNOWN
+from physics.orders import ball_spin_order
 
 RPM_PER_HZ = 60.0
 
@@ -36,7 +37,7 @@ def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinem
     if not (balls >= 3 and math.isfinite(outer) and 0.0 < outer < balls / 2.0):
         return None
     ratio = 1.0 - 2.0 * outer / balls
-    guessed = 0.5 / ratio * (1.0 - ratio**2)
+    guessed = ball_spin_order(1.0 / ratio, ratio)
     return Kinematics(int(balls), ratio, spin if math.isfinite(spin) else guessed, speed)
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
+
 SLIP_TOLERANCE, SLIP_PRIOR = 0.025, 0.012
 """Shares by which the cage's slip moves a family at most, and usually."""
 
@@ -36,17 +38,17 @@ class Kinematics:
     @property
     def ftf(self) -> float:
         """Order of the cage."""
-        return 0.5 * (1.0 - self.diameter_ratio)
+        return cage_order(self.diameter_ratio)
 
     @property
     def bpfo(self) -> float:
         """Order at which balls pass a point of the outer race."""
-        return self.balls * self.ftf
+        return outer_pass_order(self.balls, self.diameter_ratio)
 
     @property
     def bpfi(self) -> float:
         """Order at which balls pass a point of the inner race."""
-        return self.balls * (1.0 - self.ftf)
+        return inner_pass_order(self.balls, self.diameter_ratio)
 
     def at(self, shaft_hz: float) -> Kinematics:
         """The same bearing at another speed."""
@@ -60,5 +62,5 @@ def bearing_kinematics(
     if not 0.0 < ball_diameter < pitch_diameter:
         raise ValueError(f"ball_diameter = {ball_diameter} m; allowed: above 0 and below pitch_diameter")
     ratio = ball_diameter * math.cos(contact_angle) / pitch_diameter
-    spin = 0.5 * pitch_diameter / ball_diameter * (1.0 - ratio**2)
+    spin = ball_spin_order(pitch_diameter / ball_diameter, ratio)
     return Kinematics(int(balls), ratio, spin, shaft_hz)

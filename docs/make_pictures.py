@@ -28,15 +28,10 @@ from datagen.drawing.style import (
 )
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.truth import PassTable, ball_passes
-from physics import catalog
-from physics.cage import CagePath, draw_slip_knots
-from physics.hertz import contact_width
-from physics.operation import Operation
 from physics.paths.profile import build_path, wrap
-from physics.paths.roughness import draw_roughness
+from physics.reference_scenes import BOTTOM, reference_scene
 from physics.scene import Scene
 from physics.simulate import simulate
-from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
 from physics.trace import Trace
 
@@ -48,7 +43,6 @@ PICTURES, DATASETS = ROOT / "docs" / "pictures", ROOT / "datasets"
 PREVIEWS = {"preview_fan.png": ("fan_rig", 2), "preview_gearbox.png": ("gearbox_rig", 1)}
 RATE, DURATION, SEED = 65536.0, 2.0, 11
 FLOOR = 0.02  # m/s² RMS, the same machine noise in all three columns
-BOTTOM = math.radians(270.0)
 HIDDEN = 20.0  # times as large as the background, a response leaves nothing of it to see
 ARC_SHOWN = math.radians(33.0)
 SETTLED = 0.3
@@ -82,30 +76,16 @@ def main() -> None:
 
 def columns() -> list[Column]:
     """Healthy, line and extended: the same machine, load, speed, slip and noise."""
-    bearing = catalog.bearing("koyo_1205")
-    extent, deviation = math.radians(40.0), 2e-6
-    width = contact_width(bearing, "outer", bearing.stribeck_peak_load(346.0))
-    rough = draw_roughness(np.random.default_rng(SEED), bearing, "outer", extent, deviation, width)
-    line = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
-    extended = Spall(
-        "outer", 1, BOTTOM, extent, 6e-6, math.radians(1.0), math.radians(1.0),
-        roughness=deviation, roughness_values=rough,
-    )  # fmt: skip
     return [
-        column("Healthy"),
-        column("Line spall: 2° (0.8 mm)", line),
-        column("Extended spall: 40° (16 mm), rough", extended),
+        column("Healthy", "G0"),
+        column("Line spall: 2° (0.8 mm)", "G1"),
+        column("Extended spall: 40° (16 mm), rough", "G2r"),
     ]
 
 
-def column(title: str, *spalls: Spall) -> Column:
-    """One simulated state."""
-    rig = catalog.rig("gearbox")
-    speed = rig.bearing.cage_speed(rig.rated_speed)
-    pass_period = rig.bearing.spacing / speed
-    step, first, knots = draw_slip_knots(np.random.default_rng(SEED), 0.01, pass_period, DURATION)
-    cage = CagePath(speed, DURATION, 0.0, 0.0, step, first, knots)
-    scene = Scene(rig, Operation(rig.rated_speed, rig.rated_load), cage, spalls)
+def column(title: str, name: str) -> Column:
+    """One simulated state, a reference scene of that name."""
+    scene = reference_scene(name, DURATION, slip_seed=SEED, roughness_seed=SEED)
     trace = simulate(scene, RATE, keep_force=True)
     noise = FLOOR * np.random.default_rng(SEED).standard_normal(trace.time.size)
     return Column(title, scene, trace, ball_passes(scene, trace.changes, DURATION), trace.acceleration[:, 1] + noise)

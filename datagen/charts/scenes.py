@@ -7,13 +7,10 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
 from datagen.errors import BadInput
 from datagen.recipes.recipe_files import shipped_recipes
 from datagen.spelling import suggestion
-from physics.cage import draw_slip_knots
-from physics.reference_scenes import REFERENCE_SCENES, reference_scene
+from physics.reference_scenes import REFERENCE_SCENES, reference_scene, slipping
 from physics.scene import Scene
 
 RATE = 65536.0
@@ -92,7 +89,7 @@ def _named(source: str) -> Subject:
         name += f"_{times:g}x"
     if slip > 0.0:
         name, title = f"{name}_slip{slip:g}", f"{title}, {slip:g} % slip"
-        scene = _slipping(scene, 0.01 * slip)
+        scene = slipping(scene, 0.01 * slip, SLIP_SEED)
     return Subject(name, title, scene, RATE)
 
 
@@ -101,11 +98,3 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         return math.nan
-
-
-def _slipping(scene: Scene, deviation: float) -> Scene:
-    """The scene with random slip of one ball pass of correlation time, as `reference_scene` draws its 1 %."""
-    cage = scene.cage
-    one_pass = scene.rig.bearing.spacing / cage.nominal_speed
-    step, start, values = draw_slip_knots(np.random.default_rng(SLIP_SEED), deviation, one_pass, cage.duration)
-    return replace(scene, cage=replace(cage, knot_step=step, knot_start=start, knot_values=values))

@@ -12,16 +12,9 @@ from numpy.typing import NDArray
 from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import (
-    BOTTOM,
-    SHOWN_SEED,
-    line_spall,
-    machine,
-    reference_extended_spall,
-    scene,
-    wavy_extended_spall,
-)
+from datagen.paper.scenes import SHOWN_SEED, machine, reference_extended_spall, scene, wavy_extended_spall
 from physics.paths.profile import race_depth
+from physics.reference_scenes import BOTTOM, line_spall
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium

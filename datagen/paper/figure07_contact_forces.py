@@ -23,16 +23,9 @@ from datagen.drawing.style import (
 )
 from datagen.paper.chapter import Chapter, Row, beside
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import (
-    RATE,
-    SHOWN_SEED,
-    gap_line_spall,
-    line_spall,
-    reference_extended_spall,
-    scene,
-    wavy_extended_spall,
-)
+from datagen.paper.scenes import RATE, SHOWN_SEED, reference_extended_spall, scene, wavy_extended_spall
 from labels.truth import ball_passes
+from physics.reference_scenes import gap_line_spall, line_spall
 from physics.rms import rms
 from physics.scene import Scene
 from physics.simulate import simulate

@@ -13,10 +13,11 @@ from datagen.paper.figure09_envelope_spectra import PAPER_BAND
 from datagen.paper.panels import heading, legend_below, letter, power_decibel, spread
 from datagen.paper.published import published_value
 from datagen.paper.recordings import SAME_FOR_ALL, recordings, shown
-from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, line_spall, machine, scene, signal
+from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine, scene, signal
 from labels.density import power_density
 from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import coupled_resonator_frequency, rated_matrices
+from physics.reference_scenes import line_spall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

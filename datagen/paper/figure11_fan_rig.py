@@ -12,25 +12,14 @@ from numpy.typing import NDArray
 from datagen.drawing.style import GREY, INK, LINE, MAP, ORANGE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, letter, power_decibel
-from datagen.paper.scenes import (
-    ANALYSED,
-    LEAD,
-    RATE,
-    SHOWN_SEED,
-    bpfo_hz,
-    gap_line_spall,
-    gradual_line_spall,
-    line_spall,
-    machine,
-    scene,
-    shaft_hz,
-)
+from datagen.paper.scenes import ANALYSED, LEAD, RATE, SHOWN_SEED, bpfo_hz, machine, scene, shaft_hz
 from labels.density import power_density
 from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.spectrogram import spectrogram
 from labels.truth import PassTable, ball_passes
 from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import modes, rated_matrices
+from physics.reference_scenes import gap_line_spall, gradual_line_spall, line_spall
 from physics.simulate import simulate
 from physics.spall import Spall
 

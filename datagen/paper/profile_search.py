@@ -20,10 +20,10 @@ from datagen.paper.scenes import (
     reference_extended_spall,
     scene,
     signal,
-    smooth_extended_spall,
     waved_extended_spall,
     wavy_extended_spall,
 )
+from physics.reference_scenes import extended_spall
 from physics.spall import Spall
 
 Array = NDArray[np.float64]
@@ -127,7 +127,7 @@ def smooth_profiles() -> Iterator[Profile]:
     """Tapered windows, each under two draws of slip."""
     for depth in SMOOTH_DEPTHS_UM:
         for taper in TAPERS_DEG:
-            draws = (smooth_extended_spall(depth * MICRON, math.radians(taper)),) * 2
+            draws = (extended_spall(depth * MICRON, math.radians(taper)),) * 2
             yield Profile("smooth", smooth_title(depth, taper), draws, depth_um=depth)
 
 

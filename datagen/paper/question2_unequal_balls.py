@@ -13,10 +13,11 @@ from datagen.drawing.style import EXTENDED, GREY, INK, LINE, faint_grid
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure08_velocity_spectra import HARMONICS, SIXTH
 from datagen.paper.panels import heading, highest_near, letter, power_decibel, spread
-from datagen.paper.scenes import ANALYSED, RATE, SHOWN_SEED, bpfo_hz, ftf_hz, line_spall, machine, scene, signal
+from datagen.paper.scenes import ANALYSED, RATE, SHOWN_SEED, bpfo_hz, ftf_hz, machine, scene, signal
 from datagen.paper.scenes import wavy_extended_spall as extended_spall
 from labels.density import velocity_density
 from physics.imperfections import Imperfections
+from physics.reference_scenes import line_spall
 from physics.scene import Scene
 
 if TYPE_CHECKING:

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from datagen.drawing.style import BLUE, GREEN, INK, ORANGE, VERMILLION, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, letter
-from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, gradual_line_spall, machine, scene, signal
+from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, machine, scene, signal
 from labels.envelope import Band, band_envelope, squared_envelope_spectrum
 from physics.modes import coupled_resonator_frequency, rated_matrices
+from physics.reference_scenes import gradual_line_spall
 from physics.rms import rms
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ from datagen.paper.figure07_contact_forces import forces
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, harmonics
 from datagen.paper.figure11_fan_rig import Recording, vertical_modes
 from datagen.paper.recordings import recordings
-from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, gap_line_spall, line_spall, scene
+from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, scene
 from labels.truth import PassTable
+from physics.reference_scenes import gap_line_spall, line_spall
 from physics.statics.stiffness import stiffness_trace
 
 

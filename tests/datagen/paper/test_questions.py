@@ -12,7 +12,8 @@ from datagen.paper.question1_extended_profiles import answer
 from datagen.paper.question2_unequal_balls import machine_state, measure, unequal
 from datagen.paper.question3_slip import FADED, faded, lines_at, predicted_drop
 from datagen.paper.question3_slip import measure as measure_slip
-from datagen.paper.scenes import RATE, reference_extended_spall, smooth_extended_spall
+from datagen.paper.scenes import RATE, reference_extended_spall
+from physics.reference_scenes import extended_spall
 
 SIXTH = 5
 
@@ -46,7 +47,7 @@ def test_long_waves_lift_the_lines_and_the_sixth_above_the_line_spalls(chosen):
 
 
 def test_a_smooth_extended_spall_does_not():
-    found = outcome(Profile("smooth", "", (smooth_extended_spall(4e-6, math.radians(1.0)),)))
+    found = outcome(Profile("smooth", "", (extended_spall(4e-6, math.radians(1.0)),)))
     assert found.mean < -3.0
     assert found.sixth < 0.0
     assert found.envelope_ratio[0] > 1000.0  # the claim on G1 over G2

@@ -7,8 +7,6 @@ from datagen.paper.scenes import (
     DEEPEST,
     bpfo_hz,
     ftf_hz,
-    gap_line_spall,
-    line_spall,
     machine,
     reference_extended_spall,
     scene,
@@ -17,6 +15,7 @@ from datagen.paper.scenes import (
     wavy_extended_spall,
 )
 from physics.paths.profile import race_depth
+from physics.reference_scenes import gap_line_spall, line_spall
 
 FLOOR = np.radians(np.linspace(249.0, 291.0, 20001))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import socket
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -25,9 +24,10 @@ def write_atomically(path: Path, data: bytes | memoryview) -> None:
 @contextmanager
 def opened_atomically(path: Path) -> Iterator[BinaryIO]:
     """A file to write into that is at `path` once the block ends well; after anything else the old one is as it was."""
-    temporary = path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}{TEMPORARY_SUFFIX}")
+    # A name that no other thread, process or computer has; mkstemp would hide the file from all but its owner.
+    temporary = path.with_name(f".{path.name}.{os.urandom(8).hex()}{TEMPORARY_SUFFIX}")
     try:
-        with temporary.open("wb") as file:
+        with temporary.open("xb") as file:
             yield file
             file.flush()
             os.fsync(file.fileno())

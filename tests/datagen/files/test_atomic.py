@@ -5,13 +5,22 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 from datagen.errors import BadInput
-from datagen.files.atomic import locked, sweep_temporaries, write_atomically, write_file, write_results
+from datagen.files.atomic import (
+    locked,
+    opened_atomically,
+    sweep_temporaries,
+    write_atomically,
+    write_file,
+    write_results,
+)
 
 ROOT = Path(__file__).parents[3]
 
@@ -33,6 +42,40 @@ def test_a_full_disk_leaves_the_old_file_and_no_part_of_the_new_one(
     with pytest.raises(OSError, match="no space"):
         write_atomically(tmp_path / "a", b"new")
     assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("a", b"old")]
+
+
+def test_threads_that_write_one_file_at_once_do_not_write_into_each_others(tmp_path: Path) -> None:
+    together = threading.Barrier(2, timeout=60)
+
+    def write(letter: bytes) -> None:
+        with opened_atomically(tmp_path / "a") as file:
+            for _ in range(3):
+                file.write(letter * 100_000)
+                together.wait()
+
+    with ThreadPoolExecutor(2) as threads:
+        list(threads.map(write, (b"1", b"2")))
+    assert (tmp_path / "a").read_bytes() in (b"1" * 300_000, b"2" * 300_000)
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
+def test_a_written_file_may_be_read_by_whom_the_user_s_mask_allows(tmp_path: Path) -> None:
+    (tmp_path / "plain").write_bytes(b"x")
+    write_atomically(tmp_path / "a", b"x")
+    assert (tmp_path / "a").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+def test_what_a_killed_writer_leaves_is_swept(tmp_path: Path) -> None:
+    script = (
+        "import os; from pathlib import Path; from datagen.files.atomic import opened_atomically\n"
+        f"with opened_atomically(Path({str(tmp_path)!r}) / 'a') as file:\n"
+        "    file.write(b'half'); os._exit(9)\n"
+    )
+    for _ in range(2):
+        assert subprocess.run([sys.executable, "-c", script], cwd=ROOT).returncode == 9
+    assert not (tmp_path / "a").exists()
+    assert sweep_temporaries(tmp_path) == 2
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_writer_killed_at_any_moment_leaves_a_whole_file(tmp_path: Path) -> None:

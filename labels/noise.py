@@ -1,4 +1,4 @@
-"""How much a signal stands above its background."""
+"""How much a signal stands above its background, and noise above which it stands by so much."""
 
 from __future__ import annotations
 
@@ -27,6 +27,11 @@ def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None 
     if powers[1] <= ROUNDING * float(np.mean(noise**2)):
         return math.nan
     return 10.0 * math.log10(max(powers[0], tiny) / powers[1])
+
+
+def with_white_noise(signal: Array, snr_db: float, generator: np.random.Generator) -> Array:
+    """`signal` (T,) in white noise drawn from `generator`, of a deviation `snr_db` (dB) below its own."""
+    return np.asarray(signal + signal.std() * 10.0 ** (-snr_db / 20.0) * generator.standard_normal(signal.size))
 
 
 def band_power(signal: Array, rate: float, band: Band) -> float:

@@ -24,6 +24,7 @@ from labels.features.kinematics import Kinematics
 from labels.features.shocks import without_shocks
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning
+from labels.noise import with_white_noise
 from labels.variables import SHAFT_ANGLE
 
 if TYPE_CHECKING:
@@ -216,9 +217,7 @@ def _noisy(signal: Array, reading: Reading, stream: np.random.Generator, copy: i
     level = reading.noise_db
     if copy and reading.copies_db is not None:
         level = stream.uniform(*reading.copies_db)
-    if level is None:
-        return signal
-    return signal + signal.std() * 10.0 ** (-level / 20.0) * stream.standard_normal(signal.size)
+    return signal if level is None else with_white_noise(signal, level, stream)
 
 
 def _bandwidth(rate: float, reading: Reading, stream: np.random.Generator) -> float:

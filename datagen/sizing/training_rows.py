@@ -14,6 +14,7 @@ from datagen.scenarios.streams import stream
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS
 from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_records
+from labels.noise import with_white_noise
 from labels.spall_size.estimator import ONSET
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
@@ -87,7 +88,7 @@ def _heard(sized: SizedRecord) -> list[Heard]:
     stored = sized.acceleration[:, 1]
     clean = stored if sized.clean is None else sized.clean[:, 1]
     noisy = float(sized.labels["snr_db"]) < CLEAN_DB
-    other = clean if noisy else _with_noise(clean, sized.record)
+    other = clean if noisy else in_noise_of_the_ladder(clean, sized.record)
     generator = stream(0, "record", sized.record, "signal", item=1)
     share = SHORTEST_SHARE * (LONGEST_SHARE / SHORTEST_SHARE) ** generator.random()
     length = round(share * stored.size)
@@ -96,10 +97,10 @@ def _heard(sized: SizedRecord) -> list[Heard]:
     return [Heard(stored, 0, True, not noisy), Heard(other, 0, False, noisy), Heard(part, start, False, False)]
 
 
-def _with_noise(clean: Array, record: int) -> Array:
+def in_noise_of_the_ladder(clean: Array, record: int) -> Array:
+    """The signal (T,) in white noise of a level drawn from LEVELS_DB; the `record` sets the random numbers."""
     generator = stream(0, "record", record, "white_noise", item=1)
-    level = LEVELS_DB[int(generator.integers(len(LEVELS_DB)))]
-    return np.asarray(clean + clean.std() * 10.0 ** (-level / 20.0) * generator.standard_normal(clean.size))
+    return with_white_noise(clean, LEVELS_DB[int(generator.integers(len(LEVELS_DB)))], generator)
 
 
 def _slim(evidence: Evidence) -> Evidence:

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from labels.noise import band_power, signal_to_noise
+from labels.noise import band_power, signal_to_noise, with_white_noise
 
 RATE = 1000.0
 TIME = np.arange(1000) / RATE
@@ -22,6 +22,14 @@ def test_the_snr_over_a_band_counts_only_what_lies_in_it():
     noise = 0.3 * np.sin(2.0 * np.pi * 110.0 * TIME) + 70.0 * np.sin(2.0 * np.pi * 310.0 * TIME)
     assert signal_to_noise(signal, noise, RATE, (90.0, 110.0)) == pytest.approx(20.0, abs=1e-9)  # edges included
     assert math.isnan(signal_to_noise(signal, np.sin(2.0 * np.pi * 50.0 * TIME), RATE, (90.0, 110.0)))
+
+
+@pytest.mark.parametrize("level", [-10.0, 0.0, 20.0])
+def test_a_signal_stands_above_the_noise_it_is_put_in_by_what_was_asked_for(level):
+    signal = 7.0 + 3.0 * np.random.default_rng(0).standard_normal(50_000)
+    noise = with_white_noise(signal, level, np.random.default_rng(1)) - signal
+    # The deviation of 50 000 draws is known to 0.3 %, 0.03 dB.
+    assert signal_to_noise(signal, noise, RATE) == pytest.approx(level, abs=0.1)
 
 
 @pytest.mark.parametrize("size", [1000, 999])

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from datagen.sizing.sized_records import SizedRecord
-from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Heard, _with_noise, trial
+from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Heard, in_noise_of_the_ladder, trial
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.situation import Situation
@@ -25,7 +25,7 @@ SPACING = math.pi / 6.0  # of twelve balls
 
 def test_records_are_heard_in_noise_of_the_levels_of_the_ladder() -> None:
     clean = 3.0 * np.random.default_rng(0).standard_normal(20_000)
-    ratios = [clean.std() / (_with_noise(clean, record) - clean).std() for record in range(40)]
+    ratios = [clean.std() / (in_noise_of_the_ladder(clean, record) - clean).std() for record in range(40)]
     levels = np.array([20.0 * math.log10(ratio) for ratio in ratios])
     nearest = np.abs(levels[:, None] - np.array(LEVELS_DB)).argmin(axis=1)
     # The deviation of 20 000 draws is known to 0.5 %, 0.04 dB.

@@ -12,7 +12,8 @@ import numpy as np
 
 from datagen.sizing.estimators import AnyEstimator
 from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, ScoredRecord, Told, Truth
-from datagen.sizing.sized_records import SizedRecord, UnsizedRecord, nominal_period
+from datagen.sizing.sized_records import SizedRecord, UnsizedRecord
+from datagen.sizing.stored_record import nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,15 +16,14 @@ from datagen.corpora.index import read_index
 from datagen.corpora.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.sizing.stated_situation import reason_against, situation_of, wrong_speed
-from labels.spall_size.event_truth import EventTruth, event_truth
+from datagen.sizing.stored_record import StoredRecord, stored_record
+from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
 
 if TYPE_CHECKING:
     import pandas
 
 Array = NDArray[np.float64]
-PASS_COLUMNS = ("exit_time", "release_time", "regain_time", "fall_time", "rise_time")
-LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
 
 
 @dataclass(frozen=True)
@@ -72,7 +70,7 @@ def sized_records(
         for shard, rows in chosen.groupby("shard", sort=True):
             for labels in rows.to_dict("records"):
                 with shards.reading(str(shard)) as file:
-                    stored = _read(file, int(labels["position"]), int(labels["record"]))
+                    stored = stored_record(file, int(labels["position"]), int(labels["record"]))
                 yield _sized(stored, {str(key): value for key, value in labels.items()}, load_known, seed)
 
 
@@ -91,35 +89,8 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
     return table if splits is None else table[table["split"].isin(splits)]
 
 
-class _Stored(NamedTuple):
-    """What a shard holds of a record: `acceleration` and the `clean` one (T, axes), whether it is `simulated`, the JSON
-    `text` that says how it came about ("" if there is none), and PASS_COLUMNS of its ball passes, if any are known."""
-
-    acceleration: Array
-    clean: Array | None
-    simulated: bool
-    text: str
-    passes: list[Array] | None
-
-
-def _read(file: Any, position: int, record: int) -> _Stored:
-    clean, simulated = file.variables.get("acceleration_clean"), "scenario" in file.variables
-    text = file.variables.get("scenario" if simulated else "provenance")
-    passes = None
-    if set(PASS_COLUMNS) <= set(file.variables):
-        own = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
-        passes = [np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS]
-    return _Stored(
-        acceleration=np.asarray(file.variables["acceleration"][position], dtype=np.float64),
-        clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),
-        simulated=simulated,
-        text="" if text is None else str(text[position]),
-        passes=passes,
-    )
-
-
-def _sized(stored: _Stored, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
-    record, contact = int(labels["record"]), _stiffness(stored.text) if load_known else None
+def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
+    record, contact = int(labels["record"]), stored.contact_stiffness() if load_known else None
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),
@@ -130,25 +101,5 @@ def _sized(stored: _Stored, labels: dict[str, Any], load_known: bool, seed: int)
             situation_of(labels, contact, wrong_speed(seed, record) if stored.simulated else 1.0),
             polarity_known=stored.simulated,  # where a sensor looked is not told with a recording
         ),
-        truth=None if stored.passes is None else _truth(stored.passes, labels),
+        truth=stored.truth(labels),
     )
-
-
-def _stiffness(text: str) -> tuple[float, float] | None:
-    """Hertz factor and exponent from the scenario or the provenance; None if it does not tell them."""
-    try:
-        parameters = json.loads(text)["parameters"]
-        return float(parameters["K"]), float(parameters["n"])
-    except (KeyError, TypeError, ValueError):
-        return None
-
-
-def nominal_period(labels: Mapping[str, Any]) -> float:
-    """Time between two ball passes without slip, s; of the outer race if there is no spall."""
-    order = {"outer": "bpfo", "inner": "bpfi"}.get(str(labels["location"]), "bpfo")
-    return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))
-
-
-def _truth(passes: list[Array], labels: Mapping[str, Any]) -> EventTruth:
-    leave, release, regain, fall, rise = passes
-    return event_truth(release, regain, fall, rise, leave + LATEST_REGAIN_SPACINGS * nominal_period(labels))

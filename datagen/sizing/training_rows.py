@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from datagen.scenarios.streams import stream
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS
-from datagen.sizing.sized_records import SizedRecord, nominal_period, sized_records
+from datagen.sizing.sized_records import SizedRecord, sized_records
+from datagen.sizing.stored_record import nominal_period
 from labels.noise import with_white_noise
 from labels.spall_size.estimator import ONSET
 from labels.spall_size.event_truth import EventTruth

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from datagen.sizing.record_scores import score_record
-from datagen.sizing.sized_records import SizedRecord, nominal_period
+from datagen.sizing.sized_records import SizedRecord
+from datagen.sizing.stored_record import nominal_period
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome

@@ -1,0 +1,67 @@
+"""What a shard holds of one record, and which of its ball passes tell where the events of the spall are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from labels.spall_size.event_truth import EventTruth, event_truth
+
+Array = NDArray[np.float64]
+PASS_COLUMNS = ("exit_time", "release_time", "regain_time", "fall_time", "rise_time")
+LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
+
+
+@dataclass(frozen=True)
+class StoredRecord:
+    """What a shard holds of a record: `acceleration` and the `clean` one (T, axes), whether it is `simulated`, the JSON
+    `text` that says how it came about ("" if there is none), and PASS_COLUMNS of its ball passes, if any are known."""
+
+    acceleration: Array
+    clean: Array | None
+    simulated: bool
+    text: str
+    passes: list[Array] | None
+
+    def contact_stiffness(self) -> tuple[float, float] | None:
+        """Hertz factor and exponent from the scenario or the provenance; None if it does not tell them."""
+        try:
+            parameters = json.loads(self.text)["parameters"]
+            return float(parameters["K"]), float(parameters["n"])
+        except (KeyError, TypeError, ValueError):
+            return None
+
+    def truth(self, labels: Mapping[str, Any]) -> EventTruth | None:
+        """The events of the spall of a record with these `labels`; None if its ball passes are not known."""
+        if self.passes is None:
+            return None
+        leave, release, regain, fall, rise = self.passes
+        return event_truth(release, regain, fall, rise, leave + LATEST_REGAIN_SPACINGS * nominal_period(labels))
+
+
+def stored_record(file: Any, position: int, record: int) -> StoredRecord:
+    """What an open shard's `file` holds at this `position`, with the ball passes of this `record`."""
+    clean, simulated = file.variables.get("acceleration_clean"), "scenario" in file.variables
+    text = file.variables.get("scenario" if simulated else "provenance")
+    passes = None
+    if set(PASS_COLUMNS) <= set(file.variables):
+        own = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
+        passes = [np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS]
+    return StoredRecord(
+        acceleration=np.asarray(file.variables["acceleration"][position], dtype=np.float64),
+        clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),
+        simulated=simulated,
+        text="" if text is None else str(text[position]),
+        passes=passes,
+    )
+
+
+def nominal_period(labels: Mapping[str, Any]) -> float:
+    """Time between two ball passes without slip, s; of the outer race if there is no spall."""
+    order = {"outer": "bpfo", "inner": "bpfi"}.get(str(labels["location"]), "bpfo")
+    return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))

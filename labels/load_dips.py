@@ -35,7 +35,7 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     pressed = _loads(scene, time, row, ball)
     due = _loads(replace(scene, spalls=()), rare_time, row, ball)
     for k in range(entry.size):
-        fall[k], rise[k] = _first_and_last_crossing(time[k], pressed[k] - SHARE * np.interp(step, rare, due[k]))
+        fall[k], rise[k] = first_and_last_crossing(time[k], pressed[k] - SHARE * np.interp(step, rare, due[k]))
     return fall, rise
 
 
@@ -54,7 +54,7 @@ def _loads(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Ar
     return load.reshape(time.shape)
 
 
-def _first_and_last_crossing(time: Array, excess: Array) -> tuple[float, float]:
+def first_and_last_crossing(time: Array, excess: Array) -> tuple[float, float]:
     """First change of `excess` (S,) from above to below zero and last one back, interpolated linearly; NaN if none."""
     below = excess < 0.0
     falls = np.flatnonzero(~below[:-1] & below[1:])

@@ -80,7 +80,7 @@ def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients | 
         signal += _background(own("background"), generator("background"), size, rate, kinematics)
     if location != "none":
         modulated = ingredients.shaft_modulation
-        force = _impulses(own("impulses"), generator("impulses"), size, rate, kinematics, location, modulated)
+        force = impulses(own("impulses"), generator("impulses"), size, rate, kinematics, location, modulated)
         signal += fftconvolve(force, _ringing(paths, rate))[:size]
     return Train(signal, rate, kinematics, location, machine)
 
@@ -120,7 +120,7 @@ def _ringing(paths: list[tuple[float, float, float]], rate: float) -> Array:
     return np.asarray(total)
 
 
-def _impulses(
+def impulses(
     own: np.random.Generator,
     generator: np.random.Generator,
     size: int,
@@ -156,7 +156,7 @@ def _background(
     """Shaft and mains tones, a gear mesh with sidebands, and random knocks; levels are the machine's."""
     time = np.arange(size) / rate
     total = np.zeros(size)
-    for frequency, amplitude in _tones(own, kinematics.shaft_hz):
+    for frequency, amplitude in tones(own, kinematics.shaft_hz):
         if frequency < rate / 2.0:
             total += amplitude * np.cos(2.0 * np.pi * frequency * time + generator.uniform(0.0, 2.0 * np.pi))
     knocks = np.zeros(size)
@@ -167,13 +167,13 @@ def _background(
     return total + fftconvolve(knocks, _ringing(_paths(own, True), rate))[:size]
 
 
-def _tones(own: np.random.Generator, shaft_hz: float) -> list[tuple[float, float]]:
+def tones(own: np.random.Generator, shaft_hz: float) -> list[tuple[float, float]]:
     """Frequency (Hz) and amplitude of ten tones of the shaft, four of the mains and five of the gear mesh."""
-    tones = [(order * shaft_hz, _level(own, 0.01, 3.0) / order) for order in range(1, 11)]
+    found = [(order * shaft_hz, _level(own, 0.01, 3.0) / order) for order in range(1, 11)]
     mains = float(own.choice([50.0, 60.0]))
-    tones += [(order * mains, _level(own, 0.003, 0.6) / order) for order in range(1, 5)]
+    found += [(order * mains, _level(own, 0.003, 0.6) / order) for order in range(1, 5)]
     teeth, mesh = int(own.integers(17, 42)), _level(own, 0.001, 5.0)
-    return tones + [((teeth + side) * shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
+    return found + [((teeth + side) * shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
 
 
 def _level(own: np.random.Generator, low: float, high: float) -> float:

@@ -80,7 +80,7 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
     """A bar from entry to exit for each ball pass in the close-up, its deepest point marked, against time in ms."""
     table, (start, stop) = portrait.passes, portrait.window
     shown = np.flatnonzero((table.exit_time > start) & (table.entry_time < stop))
-    lanes = _lanes(table.entry_time[shown], table.exit_time[shown])
+    lanes = free_lanes(table.entry_time[shown], table.exit_time[shown])
     for k, lane in zip(shown, lanes, strict=True):
         entry, leave = table.entry_time[k] * 1e3, table.exit_time[k] * 1e3
         axes.barh(lane, leave - entry, left=entry, height=0.6, color=ORANGE if table.loaded[k] else PALE, linewidth=0)
@@ -97,7 +97,7 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
         axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=GREY)
 
 
-def _lanes(entry: NDArray[np.float64], leave: NDArray[np.float64]) -> list[int]:
+def free_lanes(entry: NDArray[np.float64], leave: NDArray[np.float64]) -> list[int]:
     """The first free lane for each bar, so that overlapping passes lie one below the other."""
     free_from: list[float] = []
     lanes = []

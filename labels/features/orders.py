@@ -39,7 +39,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
         "outer_vibration": float(np.log1p(outer.evidence[0])),
         "inner_vibration": float(np.log1p(inner.evidence[0])),
     }
-    velocity = _velocity_power(analysis)
+    velocity = velocity_power(analysis)
     cepstrum = _cepstrum(analysis)
     return lines | {
         "turns": float(np.log(shaft * analysis.record.duration)),
@@ -48,13 +48,15 @@ def measure(analysis: Analysis) -> dict[str, float]:
         "outer_velocity": _share(analysis, velocity, float(outer.fundamental[0]), VELOCITY_HARMONICS),
         "inner_velocity": _share(analysis, velocity, float(inner.fundamental[0]), VELOCITY_HARMONICS),
         "shaft_velocity": _share(analysis, velocity, shaft, 8, VIBRATION_ORDERS * shaft),
-        "outer_cepstrum": _rahmonics(analysis, cepstrum, float(outer.fundamental[0])),
-        "inner_cepstrum": _rahmonics(analysis, cepstrum, float(inner.fundamental[0])),
-        "shaft_cepstrum": _rahmonics(analysis, cepstrum, shaft),
+        "outer_cepstrum": rahmonics(analysis, cepstrum, float(outer.fundamental[0])),
+        "inner_cepstrum": rahmonics(analysis, cepstrum, float(inner.fundamental[0])),
+        "shaft_cepstrum": rahmonics(analysis, cepstrum, shaft),
     }
 
 
-def _velocity_power(analysis: Analysis) -> Array:
+def velocity_power(analysis: Analysis) -> Array:
+    """Power of the vibration as velocity at each component of its spectrum, up to what the shares need; 0 where sensors
+    drift."""
     # Shares are taken of what lies below these orders at most.
     highest = (VELOCITY_HARMONICS + 1.0) * max(analysis.given.bpfo, analysis.given.bpfi)
     count = int(max(highest, VIBRATION_ORDERS + 1.0) * analysis.given.shaft_hz / analysis.record.step) + 2
@@ -83,7 +85,7 @@ def _cepstrum(analysis: Analysis) -> Array:
     return np.asarray(fft.irfft(level, fft.next_fast_len(2 * level.size, real=True)))
 
 
-def _rahmonics(analysis: Analysis, cepstrum: Array, frequency: float) -> float:
+def rahmonics(analysis: Analysis, cepstrum: Array, frequency: float) -> float:
     """ln(1 + mean of the largest values near the rahmonics over the scatter around them)."""
     rate = analysis.record.step * cepstrum.size
     heights = []

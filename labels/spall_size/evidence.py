@@ -59,7 +59,7 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
         found[race].score,
         race == "inner",
         math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
-        _predictability(signal),
+        predictability(signal),
         log_noise_share(signal),
     )
     view = all_pairs(mean, places, facts)
@@ -67,6 +67,6 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
     return Evidence(race, rate, float(np.std(signal)), found_free.unit, found[race], alignment, mean, pairs)
 
 
-def _predictability(signal: Array) -> float:
+def predictability(signal: Array) -> float:
     """Log of how much more low-passed than white the signal is: variance over that of its differences."""
     return math.log(float(np.var(signal)) / max(float(np.var(np.diff(signal))), 1e-300))

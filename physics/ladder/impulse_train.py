@@ -57,7 +57,7 @@ def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
     return matrix(rest.stiffness.mean(axis=0)), matrix(rest.damping.mean(axis=0))
 
 
-def _edges_of(scene: Scene, index: int) -> list[Edges]:
+def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:
     """The entry edge and the exit edge of every pass over one spall, under the load of each instant."""
     spall, bearing = scene.spalls[index], scene.rig.bearing
     depth = build_path(spall, bearing).largest_depth
@@ -92,8 +92,9 @@ def _ball_angle(scene: Scene, spall: Spall, ball: NDArray[np.int64], time: Array
     return np.asarray(turned + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
 
 
-def _edges(scene: Scene) -> Edges:
-    parts = [part for index in range(len(scene.spalls)) for part in _edges_of(scene, index)]
+def edges_of(scene: Scene) -> Edges:
+    """The steps of force at all edges of all spalls of `scene`, in the order of time."""
+    parts = [part for index in range(len(scene.spalls)) for part in _edges_of_spall(scene, index)]
     none, number = np.zeros(0), np.zeros(0, np.int16)
     empty = Edges(none, number, number, none, none, none, np.zeros(0, np.bool_))
     columns = [np.concatenate(column) for column in zip(empty, *parts, strict=True)]
@@ -133,7 +134,7 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
     """
     samples, rig = round(scene.duration * rate), scene.rig
     stiffness, film = _mean_contacts(scene)
-    edges = _edges(scene)
+    edges = edges_of(scene)
     squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())
     damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
     cos_alpha = math.cos(rig.bearing.contact_angle)

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from labels.load_dips import _first_and_last_crossing, load_dips
+from labels.load_dips import first_and_last_crossing, load_dips
 from labels.truth import ball_passes
 from physics.imperfections import Imperfections, Waviness
 from physics.paths.passages import passages
@@ -91,10 +91,10 @@ def test_short_waves_under_a_long_spall_are_part_of_the_due_load(make_scene, mon
 
 def test_a_load_that_only_rises_and_then_falls_has_no_dip():
     above = np.array([-1.0, 1.0, 1.0, -1.0])
-    assert np.isnan(_first_and_last_crossing(np.arange(4.0), above)).all()
+    assert np.isnan(first_and_last_crossing(np.arange(4.0), above)).all()
     # Upside down it falls half-way through the first step and rises half-way through the last.
-    assert _first_and_last_crossing(np.arange(4.0), -above) == (0.5, 2.5)
+    assert first_and_last_crossing(np.arange(4.0), -above) == (0.5, 2.5)
 
 
 def test_of_two_dips_the_first_fall_and_the_last_rise_are_told():
-    assert _first_and_last_crossing(np.arange(6.0), np.array([1.0, -1.0, 1.0, 1.0, -1.0, 3.0])) == (0.5, 4.25)
+    assert first_and_last_crossing(np.arange(6.0), np.array([1.0, -1.0, 1.0, 1.0, -1.0, 3.0])) == (0.5, 4.25)

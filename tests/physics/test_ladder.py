@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from physics.ladder.contact_sets import changes_between_samples
-from physics.ladder.impulse_train import _edges, impulse_response
+from physics.ladder.impulse_train import edges_of, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.models import SIMPLER_MODELS
 from physics.modes import coupled_resonator_frequency, rated_matrices
@@ -190,7 +190,7 @@ def test_an_edge_takes_off_the_load_that_the_ball_carries(angle, fluctuation, re
     machine = dataclasses.replace(scene.rig, bearing=bearing)
     scene = dataclasses.replace(scene, rig=machine, operation=run, spalls=(deep,))
     sound = dataclasses.replace(scene, spalls=())
-    edges = _edges(scene)
+    edges = edges_of(scene)
     carried = equilibrium(sound, edges.time).ball_load[np.arange(edges.time.size), edges.row - 1, edges.ball - 1]
     assert edges.all.any()
     assert np.abs(edges.change[edges.all]) == pytest.approx(carried[edges.all], rel=1e-9)

@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from datagen.benchmark.impulse_train import Ingredients, _impulses, _tones, draw_train
+from datagen.benchmark.impulse_train import Ingredients, draw_train, impulses, tones
 from labels.features.kinematics import Kinematics
 
 NAMES = [field.name for field in fields(Ingredients)]
@@ -60,7 +60,7 @@ def test_impulses_without_modulation_are_those_with_it_divided_by_their_load():
 
     def force(modulated):
         own, generator = np.random.default_rng(1), np.random.default_rng(2)
-        return _impulses(own, generator, 25_600, 25_600.0, bearing, "outer", modulated)
+        return impulses(own, generator, 25_600, 25_600.0, bearing, "outer", modulated)
 
     plain, loaded = force(False), force(True)
     struck = plain > 0.0
@@ -72,7 +72,7 @@ def test_impulses_without_modulation_are_those_with_it_divided_by_their_load():
 def test_the_mains_of_a_machine_have_one_frequency():
     seen = set()
     for machine in range(40):
-        frequencies = [frequency for frequency, _ in _tones(np.random.default_rng(machine), 25.0)][10:14]
+        frequencies = [frequency for frequency, _ in tones(np.random.default_rng(machine), 25.0)][10:14]
         mains = frequencies[0]
         assert frequencies == [mains, 2.0 * mains, 3.0 * mains, 4.0 * mains]
         seen.add(mains)
@@ -86,6 +86,6 @@ def test_impulses_come_at_the_ball_pass_order_of_their_race(location, fewest, mo
     bearing, turns = Kinematics(9, 0.2, 2.4, 25.0), 20 * 25
     for seed in range(5):
         own, generator = np.random.default_rng(seed), np.random.default_rng(seed + 100)
-        force = _impulses(own, generator, 20 * 25_600, 25_600.0, bearing, location, True)
+        force = impulses(own, generator, 20 * 25_600, 25_600.0, bearing, location, True)
         # Jitter of 2 % a period adds up to one impulse more or less in 3000; one more is lost at either end.
         assert fewest * turns - 4 <= np.count_nonzero(force) <= most * turns + 4

@@ -12,7 +12,7 @@ from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, with_panels
-from datagen.drawing.time_panels import _lanes, draw_close_up, draw_spectrogram, vertical_modes
+from datagen.drawing.time_panels import draw_close_up, draw_spectrogram, free_lanes, vertical_modes
 from datagen.errors import BadInput
 from datagen.files.plain import plain_json
 from datagen.recipes.recipe import load_recipe
@@ -211,7 +211,7 @@ def test_the_load_over_the_spall_falls_between_its_edges_only(name, portrait):
 def test_overlapping_passes_lie_in_different_lanes():
     entry = np.array([0.0, 1.0, 2.0, 3.5, 3.6])
     leave = np.array([2.5, 3.0, 4.0, 5.0, 6.0])
-    assert _lanes(entry, leave) == [0, 1, 2, 0, 1]
+    assert free_lanes(entry, leave) == [0, 1, 2, 0, 1]
 
 
 def test_the_heading_says_what_is_drawn(portrait):

@@ -5,7 +5,7 @@ import pytest
 
 from labels.features.analysis import Analysis, analyse
 from labels.features.kinematics import bearing_kinematics
-from labels.features.orders import _rahmonics, _velocity_power, measure
+from labels.features.orders import measure, rahmonics, velocity_power
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
 
@@ -19,7 +19,7 @@ def test_the_velocity_of_a_tone_is_its_acceleration_over_its_frequency():
     time = np.arange(size) / rate
     tones = sum(np.cos(2.0 * np.pi * frequency * time) for frequency in (110.0, 440.0))
     analysis = analyse(tones + 1e-4 * np.random.default_rng(0).standard_normal(size), rate, KNOWN)
-    power = _velocity_power(analysis)
+    power = velocity_power(analysis)
     low, high = (power[round(frequency / analysis.record.step)] for frequency in (110.0, 440.0))
     assert low / high == pytest.approx(16.0, rel=1e-3)  # (440 / 110)²; the noise adds some 1e-6
     assert power[: int(0.5 * 25.0 / analysis.record.step)].max() == 0.0
@@ -32,7 +32,7 @@ def test_rahmonics_are_read_at_one_and_at_two_periods():
     for period, height in ((1, 4.0), (2, 2.0)):
         cepstrum[round(period * rate / 80.0)] = height
     # The scatter of a normal distribution is 1.4826 times its median size; the mean height of both is 3.
-    assert _rahmonics(analysis, cepstrum, 80.0) == pytest.approx(np.log1p(3.0 / 0.14826), rel=1e-9)
+    assert rahmonics(analysis, cepstrum, 80.0) == pytest.approx(np.log1p(3.0 / 0.14826), rel=1e-9)
 
 
 @pytest.mark.parametrize("seconds", [0.5, 2.0])

@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 from labels.spall_size.candidates import candidate_places
 from labels.spall_size.columns.event_shapes import event_shapes
 from labels.spall_size.columns.table import PAIR_COLUMNS
-from labels.spall_size.evidence import _predictability, gather_evidence
+from labels.spall_size.evidence import gather_evidence, predictability
 from labels.spall_size.signal.alignment import Alignment, aligned
 from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
 from labels.spall_size.signal.pass_track import CELLS, PassTrack, track_passes
@@ -190,4 +190,4 @@ def test_prewhitened_noise_is_told_in_units_of_its_median_size():
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_differences_of_white_noise_have_twice_its_variance_whatever_its_scale(scale):
     noise = scale * np.random.default_rng(0).standard_normal(100_000)
-    assert _predictability(noise) == pytest.approx(-math.log(2.0), abs=0.02)
+    assert predictability(noise) == pytest.approx(-math.log(2.0), abs=0.02)

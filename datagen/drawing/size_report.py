@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from datagen.sizing.score import SizeScores
+    from datagen.sizing.size_summary import ErrorRow, SizeSummary
 
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)
 DPI = 130
@@ -31,9 +32,9 @@ def size_report_png(scores: SizeScores) -> bytes:
     return png_of(lambda: draw_size_report(scores, summary), DPI)
 
 
-def draw_size_report(scores: SizeScores, summary: dict[str, Any]) -> Figure:
+def draw_size_report(scores: SizeScores, summary: SizeSummary) -> Figure:
     """The figure of a corpus scored against a known truth, and of the `summary` of its scores."""
-    dependences = {name: rows for name, rows in summary["by"].items() if name != "size, mm"}
+    dependences = {name: rows for name, rows in summary.by.items() if name != "size, mm"}
     figure, axes = with_panels(4, 3, figsize=(11.5, 13.0), layout="constrained")
     panels = axes.ravel()
     told = [one for one in scores.records if one.truth.known and one.scorable and one.found]
@@ -91,13 +92,16 @@ def _say_empty(axes: Axes) -> None:
     axes.text(0.5, 0.5, "no record was told a size", transform=axes.transAxes, ha="center", va="center", color=GREY)
 
 
-def _bars(axes: Axes, rows: list[dict[str, Any]], title: str) -> None:
+def _bars(axes: Axes, rows: list[ErrorRow], title: str) -> None:
     table = most_frequent(rows)
     place = np.arange(len(table))
-    for k, (column, colour, name) in enumerate(
-        (("lag_error", BLUE, "lag"), ("arc_error", ORANGE, "arc"), ("no_estimate", GREY, "no estimate, share"))
-    ):
-        axes.bar(place + (k - 1) * 0.27, [row[column] for row in table], 0.27, color=colour, label=name)
+    bars = (
+        ([row.lag_error for row in table], BLUE, "lag"),
+        ([row.arc_error for row in table], ORANGE, "arc"),
+        ([row.no_estimate for row in table], GREY, "no estimate, share"),
+    )
+    for k, (heights, colour, name) in enumerate(bars):
+        axes.bar(place + (k - 1) * 0.27, heights, 0.27, color=colour, label=name)
     middle, half = (len(table) - 1) / 2.0, max(len(table), 2) / 2.0 + 0.1
     axes.set_xlim(middle - half, middle + half)
     _name_bins(axes, table)
@@ -109,17 +113,17 @@ def _bars(axes: Axes, rows: list[dict[str, Any]], title: str) -> None:
     faint_grid(axes)
 
 
-def most_frequent(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def most_frequent(rows: list[ErrorRow]) -> list[ErrorRow]:
     """The rows of a table that there is room for, those of the most records, in their order."""
-    kept = sorted(range(len(rows)), key=lambda k: -rows[k]["records"])[:MOST_BINS]
+    kept = sorted(range(len(rows)), key=lambda k: -rows[k].records)[:MOST_BINS]
     return [rows[k] for k in sorted(kept)]
 
 
-def _name_bins(axes: Axes, table: list[dict[str, Any]]) -> None:
+def _name_bins(axes: Axes, table: list[ErrorRow]) -> None:
     """Values and numbers of records below the bars, aslant where they would not fit side by side."""
-    crowded = sum(len(row["value"]) for row in table) > LONGEST_LEVEL_NAMES
+    crowded = sum(len(row.value) for row in table) > LONGEST_LEVEL_NAMES
     gap = " " if crowded else "\n"
-    names = [f"{row['value']}{gap}({row['records']})" for row in table]
+    names = [f"{row.value}{gap}({row.records})" for row in table]
     aslant: dict[str, Any] = {"rotation": 25, "ha": "right", "rotation_mode": "anchor"} if crowded else {}
     axes.set_xticks(range(len(table)), names, fontsize=7, **aslant)
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 from datagen.corpora.index import read_index
 from datagen.errors import BadInput
@@ -17,6 +16,7 @@ from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
 from datagen.sizing.record_scores import score_record, unsized_row
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_summary import SizeSummary, StatedSizes
 from datagen.sizing.sized_records import SizedRecord, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 from datagen.sizing.summary import summarise
@@ -38,9 +38,9 @@ class SizeScores:
     split: str
     load_known: bool
     records: list[ScoredRecord]
-    summary: dict[str, Any] | None
+    summary: SizeSummary | None
     known_sizes: list[KnownSize]
-    stated: dict[str, Any] | None = None
+    stated: StatedSizes | None = None
     load_told: int = 0
 
 
@@ -75,7 +75,8 @@ def score_sizes(
     stated = summarise_stated(scored)
     if logged:
         time = datetime.now(UTC).isoformat(timespec="seconds")
-        write_line(folder, {"time": time, "sizes_by": told_of, "versions": program_versions(), "scores": stated})
+        scores = None if stated is None else asdict(stated)
+        write_line(folder, {"time": time, "sizes_by": told_of, "versions": program_versions(), "scores": scores})
     load_told = sum(one.told.load_known for one in scored)
     effect = with_effect(known, scored)
     return SizeScores(str(folder), told_of, chosen, load_known, scored, summary, effect, stated, load_told)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import read_manifest
+from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.summary import extent_error, mean_with_interval
+from datagen.sizing.size_summary import StatedSizes
+from datagen.sizing.summary import extent_error
 
 
-def summarise_stated(records: list[ScoredRecord]) -> dict[str, Any] | None:
+def summarise_stated(records: list[ScoredRecord]) -> StatedSizes | None:
     """Mean relative error of the arc, with its interval over bearings, of the told records of a stated extent whose
     passes are unknown, and how many stated healthy were told a size; None if there is nothing of either.
 
@@ -25,14 +26,14 @@ def summarise_stated(records: list[ScoredRecord]) -> dict[str, Any] | None:
         return None
     told = [one for one in spalled if one.found]
     errors = [extent_error(one) for one in told]
-    return {
-        "records": len(spalled),
-        "told": len(told),
-        "told_on_the_stated_race": sum(one.told.race == one.truth.race for one in told),
+    return StatedSizes(
+        records=len(spalled),
+        told=len(told),
+        told_on_the_stated_race=sum(one.told.race == one.truth.race for one in told),
         **mean_with_interval("arc_error", errors, told),
-        "healthy": len(healthy),
-        "healthy_told": sum(one.found for one in healthy),
-    }
+        healthy=len(healthy),
+        healthy_told=sum(one.found for one in healthy),
+    )
 
 
 def states_sizes(folder: Path) -> bool:

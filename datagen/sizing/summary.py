@@ -4,54 +4,46 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.scenarios.streams import stream
+from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
 from datagen.sizing.scored_record import CLEAN_DB, NO_SCORES, ScoredRecord
+from datagen.sizing.size_summary import (
+    ErrorRow,
+    EventFigures,
+    Figure,
+    KnownSizeErrors,
+    LongSpalls,
+    Seconds,
+    SizeSummary,
+)
 from labels.event_scores import EventScores
 from labels.spall_size.known_size import known_size_factor
 from labels.spall_size.size_estimate import Interval
 
 Array = NDArray[np.float64]
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
-RESAMPLES = 2000
 
 
-@dataclass(frozen=True)
-class Figure:
-    """A measured mean over `count` records with its 90 % interval of a bootstrap over their virtual bearings (NaN from
-    fewer than two), and its target if there is one."""
-
-    name: str
-    value: float
-    low: float
-    high: float
-    count: int
-    target: str = ""
-    met: bool | None = None
-
-
-def summarise(records: list[ScoredRecord], load_known: bool) -> dict[str, Any]:
-    """Figures, tables by dependence, and counts, ready for JSON."""
-    return {
-        "records": len(records),
-        "scorable": sum(one.scorable for one in records),
-        "without_event": sum(one.without_event for one in records),
-        "load_and_hertz_factor_given": load_known,
-        "figures": _figures(records, load_known),
-        "by": _tables(records),
-        "events": _events(records),
-        "long": _long(records),
-        "known_size_of_another_record": _known_size(records),
-        "seconds_per_record": {
-            "mean": float(np.mean([one.told.seconds for one in records])) if records else math.nan,
-            "largest_after_first": max((one.told.seconds for one in records[1:]), default=math.nan),
-        },
-    }
+def summarise(records: list[ScoredRecord], load_known: bool) -> SizeSummary:
+    """Figures, tables by dependence, and counts of records of known truth."""
+    return SizeSummary(
+        records=len(records),
+        scorable=sum(one.scorable for one in records),
+        without_event=sum(one.without_event for one in records),
+        load_and_hertz_factor_given=load_known,
+        figures=_figures(records, load_known),
+        by=_tables(records),
+        events=_events(records),
+        long=_long(records),
+        known_size_of_another_record=_known_size(records),
+        seconds_per_record=Seconds(
+            mean=_mean([one.told.seconds for one in records]),
+            largest_after_first=max((one.told.seconds for one in records[1:]), default=math.nan),
+        ),
+    )
 
 
 def noise_level(one: ScoredRecord) -> float:
@@ -124,7 +116,7 @@ def _figure(
     kept = np.isfinite(values)
     if not kept.any():
         return Figure(name, math.nan, math.nan, math.nan, 0)
-    low, high = _bootstrap(values[kept], _bearings(records)[kept])
+    low, high = interval_over_bearings(values[kept], bearing_numbers(records)[kept])
     mean, count = float(values[kept].mean()), int(kept.sum())
     if target is None:
         return Figure(name, mean, low, high, count)
@@ -138,43 +130,10 @@ def _coverage(what: str, told: list[ScoredRecord], inside: Callable[[ScoredRecor
                   bool(0.85 <= plain.value <= 0.95))  # fmt: skip
 
 
-def _bearings(records: list[ScoredRecord]) -> NDArray[np.int64]:
-    """A number (N,) of the bearing of each record; a record of an unknown bearing has one of its own."""
-    groups = [one.bearing_group for one in records]
-    number = {group: place for place, group in enumerate(sorted(set(groups)))}
-    return np.array([number[group] for group in groups], dtype=np.int64)
-
-
-def _bootstrap(values: Array, bearing: NDArray[np.int64], weights: Array | None = None) -> tuple[float, float]:
-    """Interval of the mean of `values` (N,) over virtual bearings (N,) drawn anew, each with all its records.
-
-    With `weights` (N,) that of the sum of the values over the sum of the weights. NaN for fewer than two bearings, and
-    without any weight.
-    """
-    _, group = np.unique(bearing, return_inverse=True)
-    total, count = np.bincount(group, values), np.bincount(group, weights)
-    if count.size < 2:
-        return math.nan, math.nan
-    drawn = stream(0, "part", 0, "bootstrap").integers(count.size, size=(RESAMPLES, count.size))
-    above, below = total[drawn].sum(axis=1), count[drawn].sum(axis=1)
-    if not below.any():
-        return math.nan, math.nan
-    low, high = np.quantile(above[below > 0.0] / below[below > 0.0], [0.05, 0.95])
-    return float(low), float(high)
-
-
-def mean_with_interval(name: str, values: list[float], records: list[ScoredRecord]) -> dict[str, float]:
-    """The mean of the `values` of these records under its name, and its interval as name_low and name_high."""
-    if not values:
-        return dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
-    low, high = _bootstrap(np.array(values), _bearings(records))
-    return {name: float(np.mean(values)), f"{name}_low": low, f"{name}_high": high}
-
-
 Bin = tuple[float, str]
 
 
-def _tables(records: list[ScoredRecord]) -> dict[str, list[dict[str, Any]]]:
+def _tables(records: list[ScoredRecord]) -> dict[str, list[ErrorRow]]:
     scorable = [one for one in records if one.scorable]
     keys: dict[str, Callable[[ScoredRecord], Bin]] = {
         "noise, dB": lambda one: (-noise_level(one), noise_name(noise_level(one))),
@@ -203,24 +162,25 @@ def _binned(of: Callable[[ScoredRecord], float], edges: tuple[float, ...]) -> Ca
     return place
 
 
-def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], Bin]) -> list[dict[str, Any]]:
+def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], Bin]) -> list[ErrorRow]:
     groups: dict[Bin, list[ScoredRecord]] = {}
     for one in records:
         groups.setdefault(key(one), []).append(one)
-    return [{"value": name} | _row(own) for (_, name), own in sorted(groups.items())]
+    return [_row(name, own) for (_, name), own in sorted(groups.items())]
 
 
-def _row(records: list[ScoredRecord]) -> dict[str, Any]:
+def _row(value: str, records: list[ScoredRecord]) -> ErrorRow:
     told = [one for one in records if one.found]
     lag, arc = [lag_error(one) for one in told], [extent_error(one) for one in told]
-    return {
-        "records": len(records),
+    return ErrorRow(
+        value=value,
+        records=len(records),
         **mean_with_interval("no_estimate", [_silent(one) for one in records], records),
         **mean_with_interval("lag_error", lag, told),
-        "lag_error_median": _median(lag),
+        lag_error_median=_median(lag),
         **mean_with_interval("arc_error", arc, told),
-        "arc_error_median": _median(arc),
-    }
+        arc_error_median=_median(arc),
+    )
 
 
 def _mean(values: list[float]) -> float:
@@ -231,17 +191,21 @@ def _median(values: list[float]) -> float:
     return float(np.median(values)) if values else math.nan
 
 
-def _long(records: list[ScoredRecord]) -> dict[str, Any]:
+def _long(records: list[ScoredRecord]) -> LongSpalls:
     """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was told."""
     own = [one for one in records if one.has_events and not one.scorable]
     told = [one for one in own if one.found]
     near = [one for one in told if one.told.candidates]
     errors = [min(abs(c - one.truth.extent) for c in one.told.candidates) / one.truth.extent for one in near]
-    return {"records": len(own), "told": len(told), **mean_with_interval("error_of_nearest_candidate", errors, near),
-            "median": _median(errors)}  # fmt: skip
+    return LongSpalls(
+        records=len(own),
+        told=len(told),
+        **mean_with_interval("error_of_nearest_candidate", errors, near),
+        median=_median(errors),
+    )
 
 
-def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
+def _known_size(records: list[ScoredRecord]) -> KnownSizeErrors:
     """Arc error of told records before and after correction by one other told record of the same virtual bearing."""
     told = [one for one in records if one.scorable and one.found]
     of_bearing: dict[tuple[str, str], list[ScoredRecord]] = {}
@@ -255,8 +219,13 @@ def _known_size(records: list[ScoredRecord]) -> dict[str, Any]:
             factor = known_size_factor(known.told.extent, known.truth.extent)
             before.append(extent_error(one))
             after.append(abs(one.told.extent * factor - one.truth.extent) / one.truth.extent)
-    return {"records": len(before), "arc_error_without": _mean(before), "arc_error_with": _mean(after),
-            "median_without": _median(before), "median_with": _median(after)}  # fmt: skip
+    return KnownSizeErrors(
+        records=len(before),
+        arc_error_without=_mean(before),
+        arc_error_with=_mean(after),
+        median_without=_median(before),
+        median_with=_median(after),
+    )
 
 
 def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
@@ -272,7 +241,7 @@ def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
     ]
 
 
-def _events(records: list[ScoredRecord]) -> dict[str, dict[str, float]]:
+def _events(records: list[ScoredRecord]) -> dict[str, EventFigures]:
     """Scores of the events of all records and of those told a size, within a time and within an arc."""
     told = [one for one in records if one.found]
     return {
@@ -283,17 +252,17 @@ def _events(records: list[ScoredRecord]) -> dict[str, dict[str, float]]:
     }
 
 
-def _event_scores(records: list[ScoredRecord], scores: Callable[[ScoredRecord], EventScores]) -> dict[str, float]:
+def _event_scores(records: list[ScoredRecord], scores: Callable[[ScoredRecord], EventScores]) -> EventFigures:
     """Precision, recall and F1 of all events together, each with its interval."""
     own = [scores(one) for one in records]
     total = sum(own, NO_SCORES)
-    bearing = _bearings(records)
+    bearing = bearing_numbers(records)
     counts = np.array([(one.matched, one.found, one.true) for one in own], dtype=np.float64)
     matched, found, true = counts.reshape(-1, 3).T
     parts = {"precision": (total.precision, matched, found), "recall": (total.recall, matched, true),
              "f1": (total.f1, 2.0 * matched, found + true)}  # fmt: skip
-    said: dict[str, float] = {"true": total.true, "found": total.found}
+    said: dict[str, float] = {}
     for name, (value, above, below) in parts.items():
-        low, high = _bootstrap(above, bearing, below) if records else (math.nan, math.nan)
+        low, high = interval_over_bearings(above, bearing, below) if records else (math.nan, math.nan)
         said |= {name: value, f"{name}_low": low, f"{name}_high": high}
-    return said
+    return EventFigures(true=total.true, found=total.found, **said)

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from rich.markup import escape
 from rich.table import Table
 
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord, Truth
+from datagen.sizing.size_summary import SizeSummary, StatedSizes
 
 
-def summary_table(summary: dict[str, Any]) -> Table:
+def summary_table(summary: SizeSummary) -> Table:
     """Every figure with its interval, its number of records and its target."""
-    table = Table(title=f"{summary['records']} records with known truth, {summary['scorable']} to be told a size")
+    table = Table(title=f"{summary.records} records with known truth, {summary.scorable} to be told a size")
     for name in ("figure", "value", "90 % interval", "records", "target", "met"):
         table.add_column(name, justify="left" if name == "figure" else "right")
-    for figure in summary["figures"]:
+    for figure in summary.figures:
         if figure.count:
             met = "" if figure.met is None else "yes" if figure.met else "NO"
             interval = _reach(figure.low, figure.high)
             table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
-    for name, events in summary["events"].items():
-        interval = _reach(events["f1_low"], events["f1_high"]) if events["true"] else ""
-        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events['f1']:.3f}", interval, str(events["true"]))
+    for name, events in summary.events.items():
+        interval = _reach(events.f1_low, events.f1_high) if events.true else ""
+        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1:.3f}", interval, str(events.true))
     return table
 
 
@@ -67,18 +67,18 @@ def _with_interval(value: float, low: float, high: float) -> str:
     return f"{value:.3g} [{low:.3g}, {high:.3g}]"
 
 
-def stated_sentence(stated: dict[str, Any]) -> str:
+def stated_sentence(stated: StatedSizes) -> str:
     """What the extents and the health that recordings are stated to have say of the estimates."""
     parts = []
-    if stated["records"]:
-        parts.append(f"of {stated['records']} records of a stated extent {stated['told']} were told a size")
-    if stated["told"]:
-        low, high = stated["arc_error_low"], stated["arc_error_high"]
+    if stated.records:
+        parts.append(f"of {stated.records} records of a stated extent {stated.told} were told a size")
+    if stated.told:
+        low, high = stated.arc_error_low, stated.arc_error_high
         interval = f" [{low:.3f}, {high:.3f}]" if math.isfinite(low) else ""
-        parts.append(f"mean error of their arc {stated['arc_error']:.3f}{interval} of it")
-        parts.append(f"{stated['told_on_the_stated_race']} on the stated race")
-    if stated["healthy"]:
-        parts.append(f"{stated['healthy_told']} of {stated['healthy']} stated healthy were told a size")
+        parts.append(f"mean error of their arc {stated.arc_error:.3f}{interval} of it")
+        parts.append(f"{stated.told_on_the_stated_race} on the stated race")
+    if stated.healthy:
+        parts.append(f"{stated.healthy_told} of {stated.healthy} stated healthy were told a size")
     return ", ".join(parts)
 
 

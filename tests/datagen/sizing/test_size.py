@@ -6,7 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +22,7 @@ from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import SPEED_ERROR, wrong_speed
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
@@ -206,8 +207,8 @@ def test_an_unknown_split_is_bad_input_and_writes_nothing(sized_corpus: Path, tm
     assert not (tmp_path / "out").exists()
 
 
-def figure(summary: dict, name: str) -> float:
-    return next(one.value for one in summary["figures"] if one.name == name)
+def figure(summary: SizeSummary, name: str) -> float:
+    return next(one.value for one in summary.figures if one.name == name)
 
 
 def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) -> None:
@@ -223,7 +224,7 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
         scored({"extent_spacing": 1.4, "extent": 0.6}),  # beyond 0.9 spacings: a candidate is exact
     ]
     summary = summarise(rows, load_known=True)
-    assert (summary["scorable"], summary["without_event"]) == (3, 2)
+    assert (summary.scorable, summary.without_event) == (3, 2)
     assert figure(summary, "lag error, 10 dB") == pytest.approx(0.1)
     assert figure(summary, "arc error, 10 dB") == pytest.approx(0.15)
     assert figure(summary, "arc error by rule: half size, own lag, 10 dB") == pytest.approx(0.6)
@@ -233,7 +234,7 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
     # One bearing alone has no interval.
     none = dict.fromkeys(("error_of_nearest_candidate_low", "error_of_nearest_candidate_high"), math.nan)
     long = {"records": 1, "told": 1, "median": 0.0, "error_of_nearest_candidate": 0.0} | none
-    assert summary["long"] == pytest.approx(long, nan_ok=True)
+    assert asdict(summary.long) == pytest.approx(long, nan_ok=True)
 
 
 def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Callable[..., ScoredRecord]) -> None:
@@ -251,7 +252,7 @@ def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Ca
 def test_intervals_are_of_a_bootstrap_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
     wrong = [scored({"bearing_id": "bad"}, {"lag": 0.0044}) for _ in range(40)]  # 10 % wrong, all of one bearing
     rows = [*wrong, *(scored({"bearing_id": f"good {k // 4}"}) for k in range(40))]  # ten bearings told exactly
-    (lag,) = (one for one in summarise(rows, True)["figures"] if one.name == "lag error, 10 dB")
+    (lag,) = (one for one in summarise(rows, True).figures if one.name == "lag error, 10 dB")
     assert lag.value == pytest.approx(0.05)
     # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad bearing makes 0, 50, 69 or 79 % of the
     # records; over records drawn singly the interval would be within 0.04 and 0.06.

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.summary import mean_with_interval, summarise
+from datagen.sizing.size_summary import StatedSizes
+from datagen.sizing.summary import summarise
 from datagen.sizing.tables import stated_sentence
 from labels.event_scores import EventScores
 
@@ -26,31 +29,31 @@ def two_kinds(scored: Callable[..., ScoredRecord]) -> list[ScoredRecord]:
 
 def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
     summary = summarise(two_kinds(scored), True)
-    for table in summary["by"].values():
+    for table in summary.by.values():
         (row,) = table
         # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad one makes 0, 50, 69 or 79 % of all.
-        assert (row["lag_error"], row["lag_error_low"]) == (pytest.approx(0.05), 0.0)
-        assert row["lag_error_high"] == pytest.approx(0.1 * 120 / 152)
-        assert row["arc_error_high"] == pytest.approx(0.5 * 120 / 152)
-        assert row["no_estimate_low"] == row["no_estimate"] == row["no_estimate_high"] == 0.0
+        assert (row.lag_error, row.lag_error_low) == (pytest.approx(0.05), 0.0)
+        assert row.lag_error_high == pytest.approx(0.1 * 120 / 152)
+        assert row.arc_error_high == pytest.approx(0.5 * 120 / 152)
+        assert row.no_estimate_low == row.no_estimate == row.no_estimate_high == 0.0
 
 
 def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
-    for events in summarise(two_kinds(scored), True)["events"].values():
+    for events in summarise(two_kinds(scored), True).events.values():
         for name in ("precision", "recall", "f1"):  # all are the share of the events of good bearings
-            assert events[name] == pytest.approx(0.5)
-            assert (events[f"{name}_low"], events[f"{name}_high"]) == (pytest.approx(32 / 152), 1.0)
+            assert getattr(events, name) == pytest.approx(0.5)
+            assert (getattr(events, f"{name}_low"), getattr(events, f"{name}_high")) == (pytest.approx(32 / 152), 1.0)
 
 
 def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
     summary = summarise([scored(told={"lag": math.nan, "extent": math.nan, "candidates": ()})], True)
-    (row,) = summary["by"]["race"]
-    assert row["no_estimate"] == 1.0
-    assert math.isnan(row["lag_error"])
-    assert math.isnan(row["lag_error_low"])
-    assert math.isnan(summary["events"]["within_100_us, told records"]["f1_low"])
-    assert math.isnan(summary["events"]["within_100_us"]["recall_high"])
-    assert math.isnan(summary["long"]["error_of_nearest_candidate_high"])
+    (row,) = summary.by["race"]
+    assert row.no_estimate == 1.0
+    assert math.isnan(row.lag_error)
+    assert math.isnan(row.lag_error_low)
+    assert math.isnan(summary.events["within_100_us, told records"].f1_low)
+    assert math.isnan(summary.events["within_100_us"].recall_high)
+    assert math.isnan(summary.long.error_of_nearest_candidate_high)
 
 
 def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., ScoredRecord]) -> None:
@@ -74,20 +77,22 @@ def test_one_bearing_alone_gives_a_mean_no_interval(
     assert math.isfinite(found["error"])
     assert math.isnan(found["error_low"])
     assert math.isnan(found["error_high"])
-    events = summarise(records, True)["events"]["within_100_us"]
-    assert math.isnan(events["recall_low"])
+    events = summarise(records, True).events["within_100_us"]
+    assert math.isnan(events.recall_low)
 
 
 def test_no_interval_is_printed_where_there_is_none() -> None:
-    stated = {"records": 3, "told": 2, "told_on_the_stated_race": 2, "healthy": 0, "healthy_told": 0,
-              "arc_error": 0.303, "arc_error_low": math.nan, "arc_error_high": math.nan}  # fmt: skip
+    stated = StatedSizes(
+        records=3, told=2, told_on_the_stated_race=2, healthy=0, healthy_told=0,
+        arc_error=0.303, arc_error_low=math.nan, arc_error_high=math.nan,
+    )  # fmt: skip
     assert "mean error of their arc 0.303 of it" in stated_sentence(stated)
-    assert "0.303 [0.100, 0.500] of it" in stated_sentence(stated | {"arc_error_low": 0.1, "arc_error_high": 0.5})
+    assert "0.303 [0.100, 0.500] of it" in stated_sentence(replace(stated, arc_error_low=0.1, arc_error_high=0.5))
 
 
 def test_one_record_of_an_unknown_bearing_tells_nothing_of_another(scored: Callable[..., ScoredRecord]) -> None:
     records = [scored({"record": k, "bearing_id": "unknown"}) for k in range(3)]
-    assert summarise(records, True)["known_size_of_another_record"]["records"] == 0
+    assert summarise(records, True).known_size_of_another_record.records == 0
 
 
 def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored: Callable[..., ScoredRecord]) -> None:
@@ -95,15 +100,14 @@ def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored
         scored({"record": k, "snr_db": snr}, {"extent": extent, "trust": trust})
         for k, (extent, snr, trust) in enumerate([(0.102, 99.0, 0.2), (0.097, 10.0, 0.9), (0.104, 10.0, 0.8)])
     )
-    found = summarise([unsure, sure, clean, scored({"record": 9, "bearing_id": "alone"})], True)[
-        "known_size_of_another_record"
-    ]
-    assert found["records"] == 3
-    assert found["arc_error_without"] == pytest.approx((0.02 + 0.03 + 0.04) / 3)
+    summary = summarise([unsure, sure, clean, scored({"record": 9, "bearing_id": "alone"})], True)
+    found = summary.known_size_of_another_record
+    assert found.records == 3
+    assert found.arc_error_without == pytest.approx((0.02 + 0.03 + 0.04) / 3)
     # A twentieth of the logarithm of what the known one was wrong by: the clean record's for both others, and the surer
     # other one's for the clean record.
     after = [1.04 * (1 / 1.02) ** 0.05 - 1.0, 1.0 - 0.97 * (1 / 1.02) ** 0.05, 1.02 * (1 / 0.97) ** 0.05 - 1.0]
-    assert found["arc_error_with"] == pytest.approx(sum(after) / 3)
+    assert found.arc_error_with == pytest.approx(sum(after) / 3)
 
 
 @pytest.mark.parametrize(("silent", "met"), [(40, True), (39, True), (20, False)])
@@ -113,7 +117,7 @@ def test_silence_where_there_is_no_event_is_met_from_95_per_cent_up(
     nothing = {"race": "none", "lag": math.nan, "extent_spacing": 0.0, "extent": 0.0}
     unsized = {"outcome": "no_passes", "lag": math.nan, "extent": math.nan, "candidates": ()}
     records = [scored(nothing, unsized if k < silent else {}) for k in range(40)]
-    (figure,) = [one for one in summarise(records, True)["figures"] if one.name.startswith("abstention")]
+    (figure,) = [one for one in summarise(records, True).figures if one.name.startswith("abstention")]
     assert (figure.value, figure.count, figure.met) == (pytest.approx(silent / 40), 40, met)
 
 
@@ -122,7 +126,7 @@ def test_the_lag_of_clean_records_is_met_up_to_5_per_cent_of_error(
     scored: Callable[..., ScoredRecord], error: float, met: bool
 ) -> None:
     records = [scored({"snr_db": math.inf}, {"lag": 0.004 * (1.0 + error)})]
-    (figure,) = [one for one in summarise(records, True)["figures"] if one.name == "lag error, clean"]
+    (figure,) = [one for one in summarise(records, True).figures if one.name == "lag error, clean"]
     assert (figure.value, figure.met) == (pytest.approx(error), met)
 
 

@@ -1,0 +1,49 @@
+"""90 % intervals of what is measured on several records a bearing: bearings are drawn anew, not records."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.scenarios.streams import stream
+from datagen.sizing.scored_record import ScoredRecord
+
+Array = NDArray[np.float64]
+RESAMPLES = 2000
+
+
+def bearing_numbers(records: list[ScoredRecord]) -> NDArray[np.int64]:
+    """A number (N,) of the bearing of each record; a record of an unknown bearing has one of its own."""
+    groups = [one.bearing_group for one in records]
+    number = {group: place for place, group in enumerate(sorted(set(groups)))}
+    return np.array([number[group] for group in groups], dtype=np.int64)
+
+
+def interval_over_bearings(
+    values: Array, bearing: NDArray[np.int64], weights: Array | None = None
+) -> tuple[float, float]:
+    """90 % interval of the mean of `values` (N,) over virtual bearings (N,) drawn anew, each with all its records.
+
+    With `weights` (N,) that of the sum of the values over the sum of the weights. NaN for fewer than two bearings, and
+    without any weight.
+    """
+    _, group = np.unique(bearing, return_inverse=True)
+    total, count = np.bincount(group, values), np.bincount(group, weights)
+    if count.size < 2:
+        return math.nan, math.nan
+    drawn = stream(0, "part", 0, "bootstrap").integers(count.size, size=(RESAMPLES, count.size))
+    above, below = total[drawn].sum(axis=1), count[drawn].sum(axis=1)
+    if not below.any():
+        return math.nan, math.nan
+    low, high = np.quantile(above[below > 0.0] / below[below > 0.0], [0.05, 0.95])
+    return float(low), float(high)
+
+
+def mean_with_interval(name: str, values: list[float], records: list[ScoredRecord]) -> dict[str, float]:
+    """The mean of the `values` of these records under its name, and its interval as name_low and name_high."""
+    if not values:
+        return dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
+    low, high = interval_over_bearings(np.array(values), bearing_numbers(records))
+    return {name: float(np.mean(values)), f"{name}_low": low, f"{name}_high": high}

@@ -52,7 +52,7 @@ def program_versions() -> dict[str, str]:
 
 def measured_on(*packages: str) -> dict[str, str]:
     """What a measured speed belongs to: machine, processor, cores, physics (its fingerprint), Python and `packages`."""
-    from physics._jit import fingerprint
+    from physics.compiled import fingerprint
 
     return {
         "machine": f"{platform.system()} {platform.machine()}",

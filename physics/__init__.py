@@ -12,4 +12,5 @@ What a machine is: `bearing`, `hertz`, `rating`, `rig`, `spall`, `operation`, `i
 - `sensor/`, `backgrounds/`: from the bearing to the recording
 
 Kernels read arrays and NamedTuples that `assembly` makes of a scene; `_jit` compiles them and `warming` does so early.
+Other packages compile kernels of theirs by `compiled`.
 """

@@ -218,7 +218,7 @@ class _Check:
     def remake(self, count: int) -> None:
         """Simulate `count` records, spread over the corpus, again from their stored scenarios and compare."""
         from datagen.corpus import Corpus
-        from physics._jit import fingerprint
+        from physics.compiled import fingerprint
 
         if not count or not self.records or self.problems or self.manifest.identity.model_hash != fingerprint():
             return  # imported recordings have no model and so end here too

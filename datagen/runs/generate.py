@@ -62,7 +62,7 @@ def generate(
 
 def corpus_identity(recipe: Recipe) -> Identity:
     """The hashes that a corpus made now from this recipe carries."""
-    from physics._jit import fingerprint
+    from physics.compiled import fingerprint
 
     return Identity(recipe.hash[:16], fingerprint(), format_hash(), program_hash())
 

@@ -36,7 +36,7 @@ class ShardRow:
 
 def warm_kernels(reporter: Reporter) -> None:
     """Compile every kernel before workers start, so that they find it in the cache."""
-    from physics._jit import nothing_cached
+    from physics.compiled import nothing_cached
     from physics.warming import warm_up
 
     if nothing_cached():
@@ -47,7 +47,7 @@ def warm_kernels(reporter: Reporter) -> None:
 @contextmanager
 def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
     """Local workers start and load compiled kernels, if there are any, while the block goes on; see `woken_workers`."""
-    from physics._jit import nothing_cached
+    from physics.compiled import nothing_cached
     from physics.warming import warm_up
 
     with nullcontext(nobody) if nothing_cached() else woken_workers(warm_up) as are_ready:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.conditioning import Array
-from physics._jit import njit_inline, njit_lean
+from physics.compiled import njit_inline, njit_lean
 
 HARMONICS = 4
 STANDS_OUT = 4.0

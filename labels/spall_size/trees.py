@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit
+from physics.compiled import njit
 
 Array = NDArray[np.float64]
 FIELDS = ("feature", "threshold", "left", "right", "value", "root")

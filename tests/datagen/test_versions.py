@@ -5,7 +5,7 @@ import os
 import pytest
 
 from datagen import versions
-from physics._jit import fingerprint
+from physics.compiled import fingerprint
 
 
 @pytest.fixture

@@ -93,6 +93,16 @@ def test_numba_has_one_door():
             assert path == CACHE_DOOR or "numba" not in imported(path), path
 
 
+@pytest.mark.parametrize("package", MAY_IMPORT)
+def test_modules_with_a_private_name_are_imported_by_their_own_package_alone(package):
+    for path in files(package):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module and not node.module.startswith(f"{package}."):
+                names = (*node.module.split("."), *(alias.name for alias in node.names))
+                ours = node.module.split(".")[0] in MAY_IMPORT
+                assert not (ours and any(name.startswith("_") for name in names)), path
+
+
 def room_of(module):
     """The room of physics in which a module lies, e.g. integrators.modal; empty for one of physics' own files."""
     return module.removeprefix("physics").rpartition(".")[0].lstrip(".")

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import fftconvolve
 
-from physics._jit import njit
+from physics.compiled import njit
 
 Array = NDArray[np.float64]
 

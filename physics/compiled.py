@@ -1,0 +1,6 @@
+"""What other packages need of the compiler: kernels of their own, compiled and cached like those of the physics, the
+fingerprint that records name, and whether anything is compiled yet."""
+
+from physics._jit import fingerprint, njit, njit_inline, njit_lean, nothing_cached
+
+__all__ = ["fingerprint", "njit", "njit_inline", "njit_lean", "nothing_cached"]

@@ -67,6 +67,8 @@ class CCallback(NamedTuple):
 
 
 CACHE_FOLDER = _cache_folder()
+# For all of numba, and before anything is decorated: a kernel of somebody else's that calls one of these would go on
+# serving old physics from a folder of its own.
 setattr(numba.config, "CACHE_DIR", str(CACHE_FOLDER))
 
 

@@ -26,7 +26,7 @@ COMMANDS = (generate, import_recordings, check, info, preview, report, paper, ch
 
 
 def main() -> None:
-    """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input) or 130 (Ctrl-C)."""
+    """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input), 130 (Ctrl-C), 143 (SIGTERM)."""
     if sys.stdout is None:  # closed by whoever started the program
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):

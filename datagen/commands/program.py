@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from datagen.commands.termination import Terminated, terminable
 from datagen.commands.usage import Program
 from datagen.errors import BadInput
 from datagen.files.places import require_file
@@ -19,7 +20,7 @@ from physics.outcome import SimulationFailed
 if TYPE_CHECKING:
     from rich.table import Table
 
-FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+FAILED, BAD_INPUT, INTERRUPTED, TERMINATED = 1, 2, 130, 143
 
 app = typer.Typer(
     name="spallgen",
@@ -57,14 +58,15 @@ def command(
     example: str, name: str | None = None, *, kept: str = "what was not yet written is lost"
 ) -> Callable[[Command], Command]:
     """Add a command to the program, called `name` or like its function: bad input, a scene that cannot be simulated
-    and Ctrl-C, after which `kept` is said, end it with a sentence and their exit code."""
+    and Ctrl-C or SIGTERM, after which `kept` is said, end it with a sentence and their exit code."""
 
     def register(function: Command) -> Command:
         @functools.wraps(function)
         def guarded(*args: Any, **options: Any) -> None:
             try:
                 _check_json(options["json_file"])
-                function(*args, **options)
+                with terminable():
+                    function(*args, **options)
             except BadInput as problem:
                 complain(f"error: {problem}")
                 raise typer.Exit(BAD_INPUT) from None
@@ -79,9 +81,9 @@ def command(
                     raise
                 complain(f"error: {problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
-            except KeyboardInterrupt:
+            except KeyboardInterrupt as stop:
                 complain(f"interrupted; {kept}")
-                raise typer.Exit(INTERRUPTED) from None
+                raise typer.Exit(TERMINATED if isinstance(stop, Terminated) else INTERRUPTED) from None
 
         return app.command(name, epilog=f"Example: {example}")(guarded)
 

@@ -44,8 +44,10 @@ class WorkerLost(RuntimeError):
 
 
 def watch_parent(parent: int) -> None:
-    """Start a thread that ends this process within a second of the death of its `parent`; Ctrl-C is the parent's."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Start a thread that ends this process within a second of the death of its `parent`; Ctrl-C, and SIGTERM to the
+    whole group, are the parent's."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
 
 

@@ -115,28 +115,56 @@ def test_a_run_that_loses_a_worker_says_so_and_makes_everything(
     assert contents(tmp_path / "out") == expected
 
 
-def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
-    tiny_recipe: Path, tmp_path: Path, contents: Contents
-) -> None:
-    # Eight times as many records, so that the signal comes long before the run ends of itself.
-    longer = tmp_path / "longer.toml"
-    longer.write_text(
-        tiny_recipe.read_text().replace("records = 8", "records = 64").replace("records = 6", "records = 48")
-    )
-    process = Process(longer, tmp_path / "out", "--workers", "2")
-    process.wait_for_shards(1)
+def ctrl_c(process: Process) -> None:
     os.killpg(process.popen.pid, signal.SIGINT)
-    code, printed = process.finish()
-    assert code == 130, printed
-    assert "the same command goes on" in printed
+
+
+def sigterm(process: Process) -> None:
+    process.popen.terminate()
+
+
+def sigterms_to_all(process: Process) -> None:
+    """As `timeout` sends them: to the command, and to its whole group."""
+    process.popen.terminate()
+    os.killpg(process.popen.pid, signal.SIGTERM)
+
+
+@pytest.fixture
+def longer(tiny_recipe: Path, tmp_path: Path) -> Path:
+    """File of a recipe of eight times as many records, so that a signal comes long before its run ends of itself."""
+    text = tiny_recipe.read_text().replace("records = 8", "records = 64").replace("records = 6", "records = 48")
+    (tmp_path / "longer.toml").write_text(text)
+    return tmp_path / "longer.toml"
+
+
+def ends_well(stop: Callable[[Process], None], code: int, recipe: Path, out: Path) -> None:
+    """Assert that a run that is stopped so ends with the code, and leaves a usable corpus and no process."""
+    process = Process(recipe, out, "--workers", "2")
+    process.wait_for_shards(1)
+    stop(process)
+    found, printed = process.finish()
+    assert found == code, printed
+    assert "interrupted; finished records are kept, and the same command goes on from there\n" in printed
     assert "Traceback" not in printed
+    assert "a worker was lost" not in printed
     assert wait_until(lambda: not process.alive(), 3.0)
-    verdict = check_corpus(tmp_path / "out")
+    verdict = check_corpus(out)
     assert 2 <= verdict.records < 112
     assert [problem for problem in verdict.problems if "asked for are missing" not in problem] == []
+
+
+def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
+    longer: Path, tmp_path: Path, contents: Contents
+) -> None:
+    ends_well(ctrl_c, 130, longer, tmp_path / "out")
     for folder in ("out", "uninterrupted"):
         assert generate(load_recipe(longer), tmp_path / folder, engine=Engine(workers=1)).complete
     assert contents(tmp_path / "out") == contents(tmp_path / "uninterrupted")
+
+
+@pytest.mark.parametrize("stop", [sigterm, sigterms_to_all])
+def test_sigterm_ends_as_ctrl_c_does_with_143(stop: Callable[[Process], None], longer: Path, tmp_path: Path) -> None:
+    ends_well(stop, 143, longer, tmp_path / "out")
 
 
 @pytest.mark.slow

@@ -21,15 +21,34 @@ from datagen.commands import (
     size,
 )
 from datagen.commands.program import app
+from datagen.commands.usage import OUTPUT_CLOSED
 
 COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
 
 
 def main() -> None:
-    """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input), 130 (Ctrl-C), 143 (SIGTERM)."""
+    """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input), 130 (Ctrl-C), 141 (nobody reads
+    the output any more) or 143 (SIGTERM)."""
     if sys.stdout is None:  # closed by whoever started the program
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # of an encoding that may lack ≤ and its like
             stream.reconfigure(errors="replace")
-    app()
+    try:
+        app()
+    finally:
+        _write_out()
+
+
+def _write_out() -> None:
+    """Write out what the streams still hold; ends the process if nobody reads it.
+
+    What cannot be written is dropped, as Python would try again at its very end, and complain.
+    """
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # None where it was closed from the beginning
+        try:
+            stream.flush()
+        except OSError as problem:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+            if isinstance(problem, BrokenPipeError):
+                sys.exit(OUTPUT_CLOSED)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import functools
 import sys
 from collections.abc import Callable
@@ -67,6 +66,7 @@ def command(
                 _check_json(options["json_file"])
                 with terminable():
                     function(*args, **options)
+                sys.stdout.flush()
             except BadInput as problem:
                 complain(f"error: {problem}")
                 raise typer.Exit(BAD_INPUT) from None
@@ -76,9 +76,9 @@ def command(
             except PermissionError as problem:
                 complain(f"error: {problem.filename}: {problem.strerror}; allowed: what you may read and write")
                 raise typer.Exit(BAD_INPUT) from None
+            except BrokenPipeError:  # the program's to handle
+                raise
             except OSError as problem:
-                if problem.errno == errno.EPIPE:  # whoever reads the output has had enough
-                    raise
                 complain(f"error: {problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt as stop:
@@ -95,8 +95,10 @@ def show_tables(tables: list[Table]) -> None:
     from rich.console import Console
 
     console = Console(width=None if sys.stdout.isatty() else 140)
-    for table in tables:
-        console.print(table)
+    with console.capture() as shown:  # where nobody reads, rich would end the process with a code of its own
+        for table in tables:
+            console.print(table)
+    print(shown.get(), end="")
 
 
 def _check_json(path: Path | None) -> None:

@@ -1,4 +1,7 @@
-"""Command lines that cannot be read: told in one line with option, value and what is allowed, like other bad input."""
+"""Command lines that cannot be read: told in one line with option, value and what is allowed, like other bad input.
+
+Whoever reads the output may stop before its end, as `head` does: any command then ends without a word, with 141.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,8 @@ from datagen.spelling import nearest
 
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
 """What typer raises for any command line that it cannot read; some of its versions bring their own click."""
+OUTPUT_CLOSED = 141
+"""What shells say of a program that SIGPIPE ended, which Python ignores: 128 + 13."""
 KINDS = {int: "a whole number", float: "a number", Path: "a path", str: "a text"}
 
 
@@ -36,6 +41,14 @@ class Program(TyperGroup):
 
     @contextmanager
     def _told(self) -> Iterator[None]:
+        try:
+            with self._readable():
+                yield
+        except BrokenPipeError:
+            raise typer.Exit(OUTPUT_CLOSED) from None
+
+    @contextmanager
+    def _readable(self) -> Iterator[None]:
         try:
             yield
         except UNREADABLE as problem:

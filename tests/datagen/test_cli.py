@@ -27,6 +27,7 @@ COMMANDS = (
     "catalog",
     "schema",
 )
+BUFFERED = {**os.environ, "PYTHONUNBUFFERED": ""}
 HEAVY = ("numpy", "numba", "xarray", "scipy", "pandas", "netCDF4", "pydantic", "joblib", "matplotlib", "rich")
 
 
@@ -215,6 +216,37 @@ def test_an_output_that_cannot_be_written_is_told_in_a_line() -> None:
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
     assert "the output: No space left on device" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "stream"),
+    [
+        ("--version", "stdout"),
+        ("catalog --help", "stdout"),
+        ("catalog", "stdout"),
+        ("check CORPUS --remake 0", "stdout"),
+        ("info nowhere", "stderr"),
+        ("frobnicate", "stderr"),
+    ],
+)
+def test_where_nobody_reads_the_output_a_command_ends_quietly(arguments: str, stream: str, tiny_corpus: Path) -> None:
+    words = [sys.executable, "-m", "datagen", *arguments.replace("CORPUS", str(tiny_corpus)).split()]
+    read, written = os.pipe()
+    os.close(read)
+    try:
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, stream: written}
+        done = subprocess.run(words, cwd=ROOT, env=BUFFERED, **streams)
+    finally:
+        os.close(written)
+    assert (done.returncode, done.stdout or b"", done.stderr or b"") == (141, b"", b"")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+def test_an_output_that_cannot_be_written_is_told_in_a_line_however_short_it_is(tiny_corpus: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        words = [sys.executable, "-m", "datagen", "check", str(tiny_corpus), "--remake", "0"]
+        done = subprocess.run(words, cwd=ROOT, env=BUFFERED, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (2, "error: the output: No space left on device\n")
 
 
 def test_a_closed_output_ends_no_command() -> None:

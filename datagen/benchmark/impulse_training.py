@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from dataclasses import fields
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from datagen.benchmark.impulse_train import Ingredients, draw_train
 from datagen.benchmark.rows import Reading, signal_rows
+from datagen.benchmark.telling import Count, unheard
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from labels.classifier.classes import HEALTHY
@@ -36,16 +38,22 @@ def ingredients_of(train: Path) -> Ingredients | None:
 
 
 def impulse_training(
-    ingredients: Ingredients, reading: Reading, workers: int, records: int | None = None
+    ingredients: Ingredients, reading: Reading, workers: int, records: int | None = None, count: Count = unheard
 ) -> TrainingSet:
-    """Rows of about that many `records` (720 if None): of each machine a healthy one and a spall on either race."""
+    """Rows of about that many `records` (720 if None): of each machine a healthy one and a spall on either race.
+
+    `count` hears how many are done.
+    """
     from joblib import Parallel, delayed, parallel_config
 
     machines = MACHINES if records is None else max(FEWEST_BEARINGS, records // len(LOCATIONS))
     with parallel_config(backend="loky", inner_max_num_threads=1):
-        found = Parallel(n_jobs=workers)(
-            delayed(_machine)(machine, ingredients, reading) for machine in range(machines)
-        )
+        parallel = Parallel(n_jobs=workers, return_as="generator")
+    found: list[TrainingSet] = []
+    with closing(parallel(delayed(_machine)(machine, ingredients, reading) for machine in range(machines))) as results:
+        for part in results:
+            found.append(part)
+            count(len(found) * len(LOCATIONS), machines * len(LOCATIONS))
     return TrainingSet(
         np.concatenate([part.table for part in found]),
         np.concatenate([part.classes for part in found]),

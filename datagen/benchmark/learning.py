@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.telling import Say, unheard
 from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_own
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
@@ -21,13 +22,18 @@ SEED = 31
 
 
 def learning_curve(
-    training: TrainingSet, learner: str, own: Any | None = None, takes_windows: bool = False, given: str = ""
+    training: TrainingSet,
+    learner: str,
+    own: Any | None = None,
+    takes_windows: bool = False,
+    given: str = "",
+    step: Say = unheard,
 ) -> dict[str, list[dict[str, Any]]]:
     """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
     from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out.
 
     The models are our `learner`, or with the user's `own` estimator copies of that, which must not be fitted yet;
-    `given` is its name in messages.
+    `given` is its name in messages. `step` hears how far it has got.
     """
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))
@@ -37,6 +43,7 @@ def learning_curve(
     counts = {min(others.size, max(FEWEST_AT_A_POINT, round(share * others.size))) for share in SHARES}
     curve: dict[str, list[dict[str, Any]]] = {}
     for count in sorted(counts):
+        step(f"learning curve: {count} of {others.size} bearings")
         part = training.subset(np.isin(training.bearings, others[:count]))
         fresh = None if own is None else copy_of(own, given)
         try:

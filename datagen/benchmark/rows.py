@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from itertools import repeat
 from pathlib import Path
@@ -15,6 +16,7 @@ from scipy import fft
 
 from datagen.benchmark.fitness import unfit
 from datagen.benchmark.known import known_kinematics
+from datagen.benchmark.telling import Count, unheard
 from datagen.corpus import Corpus
 from labels.classifier.liveness import DEAD, is_dead, liveness
 from labels.features.analysis import analyse
@@ -91,18 +93,18 @@ class Rows:
     shocks: dict[int, int] = field(default_factory=dict)
 
 
-def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2) -> Rows:
-    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory."""
-    from joblib import Parallel, delayed, parallel_config
-
+def read_rows(
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = unheard
+) -> Rows:
+    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory; `count` hears how
+    many are done."""
     tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
-    if workers <= 1 or len(tasks) < 2:
-        found = [_task(folder, task, reading) for task in tasks]
-    else:
-        with parallel_config(backend="loky", inner_max_num_threads=1):
-            found = Parallel(n_jobs=workers, batch_size=1, max_nbytes=None)(
-                delayed(_task)(folder, task, reading) for task in tasks
-            )
+    found: list[Rows] = []
+    count(0, records.size)
+    with closing(_results(folder, tasks, reading, workers)) as results:
+        for rows in results:
+            found.append(rows)
+            count(sum(task.size for task in tasks[: len(found)]), records.size)
     tables = [rows.table for rows in found] or [np.empty((0, len(FEATURE_NAMES)))]
     owners = [rows.record for rows in found] or [np.empty(0, dtype=np.int64)]
     noisy = [rows.noisy for rows in found if rows.noisy is not None] or [np.empty(0, dtype=bool)]
@@ -114,6 +116,20 @@ def read_rows(folder: Path, records: NDArray[np.int64], reading: Reading, worker
         glitches |= rows.glitches
         shocks |= rows.shocks
     return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy), glitches, shocks)
+
+
+def _results(
+    folder: Path, tasks: Sequence[NDArray[np.int64]], reading: Reading, workers: int
+) -> Generator[Rows, None, None]:
+    """The rows of each task, in order, as they come."""
+    from joblib import Parallel, delayed, parallel_config
+
+    if workers <= 1 or len(tasks) < 2:
+        return (_task(folder, task, reading) for task in tasks)
+    with parallel_config(backend="loky", inner_max_num_threads=1):
+        parallel = Parallel(n_jobs=workers, batch_size=1, max_nbytes=None, return_as="generator")
+    results: Generator[Rows, None, None] = parallel(delayed(_task)(folder, task, reading) for task in tasks)
+    return results
 
 
 def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.known import true_class
 from datagen.benchmark.rows import Reading, Rows, read_rows
+from datagen.benchmark.telling import Count, Say, unheard
 from datagen.benchmark.votes import averaged
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -105,9 +106,11 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     return chosen
 
 
-def training_set(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int) -> TrainingSet:
-    """Rows of the records with these labels, with their classes and bearings."""
-    rows = read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers)
+def training_set(
+    folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count = unheard
+) -> TrainingSet:
+    """Rows of the records with these labels, with their classes and bearings; `count` hears how many are done."""
+    rows = read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers, count)
     return joined_labels(rows, labels)
 
 
@@ -132,11 +135,14 @@ def train_rule(training: TrainingSet) -> Rule:
     return fit_rule(averaged(training.table[healthy], records, np.unique(records)))
 
 
-def train_models(training: TrainingSet, learner: str) -> list[Model]:
-    """One model a learner ("all": every one); raises BadInput if it cannot learn from this."""
+def train_models(training: TrainingSet, learner: str, step: Say = unheard) -> list[Model]:
+    """One model a learner ("all": every one); `step` hears which. Raises BadInput if it cannot learn from this."""
     try:
         names = LEARNERS if learner == "all" else (learner,)
-        fitted = [(name, _fitted(name, training)) for name in names]
+        fitted = []
+        for name in names:
+            step(f"learning: {name}")
+            fitted.append((name, _fitted(name, training)))
         return [Model(name, classifier, classifier.alarm_) for name, classifier in fitted]
     except ValueError as problem:
         raise BadInput(f"cannot learn from this corpus: {problem}", field="--train") from None

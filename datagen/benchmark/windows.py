@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from datagen.benchmark.rows import Rows
+from datagen.benchmark.telling import Count, unheard
 from datagen.corpus import Corpus
 from labels.features.conditioning import Array
 
@@ -24,16 +25,17 @@ def common_rate(folders: Iterable[Path], bandwidth: float) -> float:
     return min(lowest, 2.0 * bandwidth)
 
 
-def read_windows(folder: Path, records: NDArray[np.int64], rate: float) -> Rows:
+def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: Count = unheard) -> Rows:
     """Windows (N, 4096) at `rate` (Hz), in m/s², of at most eight places of each axis of a record.
 
     What the window is too long for is padded with silence. They lie in a temporary file, read as they are needed, so
-    that memory does not grow with the corpus.
+    that memory does not grow with the corpus. `count` hears how many records are read.
     """
     owners: list[int] = []
     with Corpus(folder) as corpus, TemporaryFile() as file:
         rates = corpus.labels.set_index("record")["rate_hz"]
-        for record in records.tolist():
+        for done, record in enumerate(records.tolist()):
+            count(done, records.size)
             for signal in np.asarray(corpus.waveform(record), dtype=np.float64).T:
                 if np.isfinite(signal).all():
                     found = cut(resampled(signal, float(rates[record]), rate))

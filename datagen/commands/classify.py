@@ -87,8 +87,11 @@ def classify(
 
 def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
     from datagen.benchmark.classify import run
+    from datagen.benchmark.telling import Told
+    from datagen.runs.progress import steps_told
 
-    results, _ = run(benchmark, print)
+    with steps_told() as tell:
+        results, _ = run(benchmark, Told(tell.say, tell))
     if out is not None:
         from datagen.benchmark.model_scores import report
         from datagen.benchmark.predictions import prediction_table

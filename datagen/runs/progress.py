@@ -103,27 +103,43 @@ def reporter() -> Iterator[Reporter]:
         yield Bar(progress)
 
 
-@contextmanager
-def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Callable[[str], None]]:
-    """What tells which of many named steps is under way: on a terminal one line that changes and is gone afterwards,
-    elsewhere a plain line every few seconds, on standard error."""
-    on_terminal = sys.stderr.isatty()
-    last_line = -math.inf
+class Steps:
+    """What tells which of many named steps is under way: on a terminal one line that changes, elsewhere a plain line
+    every few seconds, on standard error."""
 
-    def tell(step: str) -> None:
-        nonlocal last_line
-        now = clock()
-        if on_terminal:
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._on_terminal = sys.stderr.isatty()
+        self._last_line = -math.inf
+
+    def __call__(self, step: str) -> None:
+        """Tell the step."""
+        now = self._clock()
+        if self._on_terminal:
             print(f"{CLEARED}{step}", end="", file=sys.stderr, flush=True)
-        elif now - last_line >= SECONDS_BETWEEN_LINES:
-            last_line = now
+        elif now - self._last_line >= SECONDS_BETWEEN_LINES:
+            self._last_line = now
             print(step, file=sys.stderr, flush=True)
 
-    try:
-        yield tell
-    finally:
-        if on_terminal:
+    def say(self, sentence: str) -> None:
+        """Print a sentence that stays, on standard output."""
+        self.clear()
+        print(sentence, flush=True)
+
+    def clear(self) -> None:
+        """Take the changing line away."""
+        if self._on_terminal:
             print(CLEARED, end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Steps]:
+    """What tells the steps of the block; the changing line is gone afterwards."""
+    steps = Steps(clock)
+    try:
+        yield steps
+    finally:
+        steps.clear()
 
 
 def for_people(count: float) -> str:

@@ -13,7 +13,7 @@ from datagen.benchmark.fitness import UNKNOWN_SPEED
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
-from datagen.benchmark.rows import Reading, RecordRows, record_rows, windows
+from datagen.benchmark.rows import Reading, RecordRows, read_rows, record_rows, windows
 from datagen.benchmark.training import (
     TrainingSet,
     train_rule,
@@ -182,7 +182,9 @@ def test_the_rule_is_set_on_healthy_records_as_they_are():
 
 
 def test_plain_impulse_trains_are_as_many_as_asked():
-    made = impulse_training(Ingredients(), Reading(), 1, 12)
+    told = []
+    made = impulse_training(Ingredients(), Reading(), 1, 12, lambda done, total: told.append((done, total)))
+    assert told == [(3, 12), (6, 12), (9, 12), (12, 12)]
     assert sorted(set(made.classes)) == ["healthy", "line inner", "line outer"]
     assert len(made.classes) == 12
 
@@ -227,6 +229,28 @@ def test_the_learning_curve_is_that_of_ones_own_estimator(classify, tmp_path, in
     fitted = sys.modules["own_curves"].FITTED
     assert [(times, width) for times, width, _ in fitted] == [(1, columns)] * 2
     assert fitted[0][2] < fitted[1][2]
+
+
+@pytest.mark.parametrize("inputs", ["features", "windows"])
+def test_how_far_it_has_got_is_told_on_standard_error(classify, other_corpus, inputs, monkeypatch):
+    monkeypatch.setattr("datagen.runs.progress.SECONDS_BETWEEN_LINES", 0.0)
+    done, _ = classify("--estimator", "own_estimators:Guesser", "--input", inputs)
+    records = len(Corpus(other_corpus).labels)
+    steps = done.stderr.splitlines()
+    assert steps[0] == "features of tiny: 0 of 14 records"
+    assert {f"features of corpus: {count} of {records} records" for count in (0, records)} < set(steps)
+    assert "learning: own_estimators:Guesser" in steps
+    assert (f"windows of corpus: {records - 1} of {records} records" in steps) == (inputs == "windows")
+    assert "learning from" not in done.stderr
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_how_many_records_are_read_is_told(workers, tiny_corpus, monkeypatch):
+    monkeypatch.setattr("datagen.benchmark.rows.RECORDS_A_TASK", 5)
+    told = []
+    found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *counts: told.append(counts))
+    assert sorted({*found.record.tolist(), *found.rejected}) == list(range(14))
+    assert told == [(0, 14), (5, 14), (10, 14), (14, 14)]
 
 
 def test_that_no_noise_is_added_to_simulated_records_is_said(classify):

@@ -1,0 +1,28 @@
+"""Who hears of a run of `classify`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+Say = Callable[[str], None]
+Count = Callable[[int, int], None]
+
+
+def unheard(*_: object) -> None:
+    """Tell nobody."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """What hears of a run: `say` the sentences that stay, `step` what is under way at the moment."""
+
+    say: Say = unheard
+    step: Say = unheard
+
+    def counting(self, what: str) -> Count:
+        """What hears how many records of how many are done, as a step called `what`."""
+        return lambda done, total: self.step(f"{what}: {done} of {total} records")
+
+
+NOBODY = Told()

@@ -22,10 +22,11 @@ def info_tables(info: Info) -> list[Table]:
 
 def _summary(info: Info) -> Table:
     table = Table(title=f"{info.name}: {info.title}" if info.title else info.name, show_header=False)
-    present = info.records - sum(info.missing_files.values())
+    present = info.records - sum(info.missing_files.values()) - sum(info.damaged_files.values())
     rows = {
         "records": f"{present} of {info.asked} asked for; the recipe has {info.recipe_records}",
-        **({"missing": _missing(info)} if info.missing_files else {}),
+        **({"missing": f"{_lost(info.missing_files)}: {AGAIN}"} if info.missing_files else {}),
+        **({"damaged": _lost(info.damaged_files)} if info.damaged_files else {}),
         "could not be made": str(info.failed),
         "virtual bearings": _bearings(info),
         "outside the model's range": f"{info.outside_validity} records",
@@ -41,11 +42,11 @@ def _summary(info: Info) -> Table:
     return table
 
 
-def _missing(info: Info) -> str:
-    """The shards that are gone, the first three by name, and how to mend it."""
-    names = list(info.missing_files)
+def _lost(files: dict[str, int]) -> str:
+    """Shards that cannot be read, the first three by name, with how many records they have."""
+    names = list(files)
     said = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-    return f"{said}, with {sum(info.missing_files.values())} records, which all else here still counts: {AGAIN}"
+    return f"{said}, with {sum(files.values())} records, which all else here still counts"
 
 
 def _bearings(info: Info) -> str:

@@ -1,12 +1,13 @@
-"""What a corpus holds and what it cost, from its manifest and index; shards are not opened, only missed."""
+"""What a corpus holds and what it cost, from manifest and index; of shards only size and beginning are looked at."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.manifest import Manifest
+from datagen.corpora.manifest import ShardEntry
 from datagen.corpus import Corpus
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 COUNTED = ("condition", "location", "rig", "bearing", "profile", "contact_law", "split", "part")
 CROSSED = (("condition", "location"), ("condition", "split"), ("rig", "split"))
+BEGINNING = b"\x89HDF\r\n\x1a\n"
+"""Of every HDF5 file. What a crash of the whole computer leaves may have the size of one and hold nothing but zeros."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,8 @@ class Info:
     `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
     records by two labels at once, `bearings_in_split` virtual bearings; `refused` are the impossible draws.
-    `missing_files` says how many records each shard held that is gone; all else is told as if they were there.
+    `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
+    overwritten or not to be read; all else is told as if they were there.
     """
 
     name: str
@@ -55,6 +59,7 @@ class Info:
     bearings: int
     outside_validity: int
     missing_files: dict[str, int]
+    damaged_files: dict[str, int]
     bearings_in_split: dict[str, int]
     counts: dict[str, dict[str, int]]
     crossed: dict[str, dict[str, dict[str, int]]]
@@ -62,6 +67,11 @@ class Info:
     ranges: dict[str, Range]
     identity: dict[str, str]
     made_with: dict[str, str]
+
+    @property
+    def readable(self) -> int:
+        """Number of the shards that are there and not seen to be damaged."""
+        return self.shards - len(self.missing_files) - len(self.damaged_files)
 
 
 def corpus_info(folder: Path) -> Info:
@@ -85,7 +95,8 @@ def corpus_info(folder: Path) -> Info:
         record_bytes=manifest.bytes / max(len(table), 1),
         bearings=int(table["bearing_id"].nunique()),
         outside_validity=int((table["validity"] != "").sum()),
-        missing_files=_missing(folder, corpus.manifest),
+        missing_files=_records_of(shard for shard in manifest.shards if not (folder / shard.file).is_file()),
+        damaged_files=_records_of(shard for shard in manifest.shards if _is_damaged(folder / shard.file, shard.bytes)),
         bearings_in_split=_counts(table.drop_duplicates("bearing_id")["split"]),
         counts={name: _counts(table[name]) for name in COUNTED},
         crossed={f"{one} x {other}": _crossed(table, one, other) for one, other in CROSSED},
@@ -96,9 +107,19 @@ def corpus_info(folder: Path) -> Info:
     )
 
 
-def _missing(folder: Path, manifest: Manifest) -> dict[str, int]:
-    """Records of each shard whose file is not there; no file is opened."""
-    return {shard.file: shard.records for shard in manifest.shards if not (folder / shard.file).is_file()}
+def _records_of(shards: Iterable[ShardEntry]) -> dict[str, int]:
+    return {shard.file: shard.records for shard in shards}
+
+
+def _is_damaged(path: Path, size: int) -> bool:
+    """Whether a file that is there is seen at once not to be the shard that was written, of that `size`."""
+    if not path.is_file():
+        return False
+    try:
+        with path.open("rb") as file:
+            return path.stat().st_size != size or file.read(len(BEGINNING)) != BEGINNING
+    except OSError:
+        return True
 
 
 def _counts(column: pandas.Series) -> dict[str, int]:

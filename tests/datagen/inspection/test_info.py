@@ -5,9 +5,11 @@ from __future__ import annotations
 import io
 import json
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from command_line import run
 from rich.console import Console
 
 from datagen.commands.tables import info_tables
@@ -129,6 +131,32 @@ def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:
         "machine: other": Refused(1, "no idea"),
     }
     assert list(add_refused([other, one])) == ["record: extent", "machine: other"]  # the most frequent first
+
+
+DAMAGES: dict[str, Callable[[Path], object]] = {
+    "cut off": lambda path: path.write_bytes(path.read_bytes()[:-7]),
+    "zeros": lambda path: path.write_bytes(bytes(path.stat().st_size)),
+    "gone": Path.unlink,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_info_names_shards_that_cannot_be_read_and_advises_check(damage: str, copy: Path, tmp_path: Path) -> None:
+    assert run("info", copy)[::2] == (0, "")
+    shards = read_manifest(copy).shards
+    DAMAGES[damage](copy / shards[1].file)
+    code, shown, told = run("info", copy, "--json", tmp_path / "info.json")
+    assert (code, told) == (0, f"1 of {len(shards)} shards cannot be read: run `spallgen check {copy}`\n")
+    assert f"{shards[1].file}, with 2 records" in " ".join(shown.replace("│", " ").split())
+    field = "missing_files" if damage == "gone" else "damaged_files"
+    assert json.loads((tmp_path / "info.json").read_text())[field] == {shards[1].file: 2}
+    assert run("check", copy)[0] == 1
+    for shard in shards:
+        if (copy / shard.file).exists():
+            DAMAGES[damage](copy / shard.file)
+    code, _, told = run("info", copy)
+    assert code == 1
+    assert told.startswith(f"{len(shards)} of {len(shards)} shards cannot be read: ")
 
 
 def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(copy: Path) -> None:

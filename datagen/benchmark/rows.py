@@ -18,7 +18,8 @@ from datagen.benchmark.fitness import unfit
 from datagen.benchmark.known import known_kinematics
 from datagen.benchmark.telling import Count, unheard
 from datagen.corpus import Corpus
-from labels.classifier.liveness import DEAD, is_dead, liveness
+from labels.classifier.liveness import DEAD, liveness
+from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES_USED, Array
 from labels.features.glitches import without_glitches

@@ -36,7 +36,11 @@ def import_recordings(
 def _tell(done: Imported) -> None:
     from datagen.runs.progress import for_people
 
-    for problem, names in (("not there", done.absent), ("left out as repeats", done.skipped)):
+    for problem, names in (
+        ("not there", done.absent),
+        ("left out as repeats", done.skipped),
+        ("without a signal, as of a sensor that is not connected", done.dead),
+    ):
         if names:
             shown = ", ".join(names[:6]) + (" …" if len(names) > 6 else "")
             complain(f"{len(names)} {problem}: {shown}")

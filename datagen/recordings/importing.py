@@ -41,7 +41,8 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Imported:
-    """How an import ended: `absent` are listed files that were not there, `skipped` recordings left out as repeats."""
+    """How an import ended: `absent` are listed files that were not there, `skipped` recordings left out as repeats,
+    `dead` those with axes without a signal, as of a sensor that is not connected."""
 
     folder: str
     records: int
@@ -51,6 +52,7 @@ class Imported:
     files: int
     absent: tuple[str, ...]
     skipped: tuple[str, ...]
+    dead: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,7 @@ def _import(spec: Spec, folder: Path, root: Path, tell: Tell) -> Imported:
             write_manifest(staging, manifest)
     return Imported(
         str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
-        len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped),
+        len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped), tuple(plan.dead),
     )  # fmt: skip
 
 
@@ -132,6 +134,7 @@ class _Plan:
         self.spec = spec
         self.records: list[_Planned] = []
         self.skipped: list[str] = []
+        self.dead: list[str] = []
         self.names: dict[str, str] = {}
         self.contents: dict[str, str] = {}
         self.splits: dict[str, str] = {}
@@ -141,6 +144,8 @@ class _Plan:
         for piece, record in enumerate(read_recording(request)):
             if self._is_new(record, request):
                 self._check_split(record, request)
+                if record.dead:
+                    self.dead.append(f"{record.labels['recording']} ({', '.join(record.dead)})")
                 self.records.append(
                     _Planned(len(self.records), request, piece, record.key, record.bytes, record.content)
                 )
@@ -153,6 +158,8 @@ class _Plan:
                 'a different name for each record, as in recording = "{path} {channel}"',
             )  # fmt: skip
         self.names[name] = where
+        if record.dead == record.axes:
+            return True  # all that is dead looks alike, and need be no repeat
         twin = self.contents.setdefault(record.content, name)
         if twin == name or self.spec.same_samples == "keep":
             return True

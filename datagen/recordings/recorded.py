@@ -22,6 +22,7 @@ from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
 from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
+from labels.dead_sensor import is_dead
 from labels.envelope import holds_a_line
 from labels.kurtogram import most_impulsive_band
 from labels.variables import AXES
@@ -35,6 +36,7 @@ class Recorded:
     """One record before it has an index: `acceleration` (T, axes) m/s², `labels` as far as they are known.
 
     `content` is equal for equal samples at an equal rate; `shaft_angle` (T,), rad, is told where the speed changes.
+    `dead` are the axes without a signal, as of a sensor that is not connected.
     """
 
     acceleration: NDArray[np.float32]
@@ -44,6 +46,7 @@ class Recorded:
     provenance: str
     content: str
     shaft_angle: NDArray[np.float64] | None
+    dead: tuple[str, ...]
 
     @property
     def key(self) -> Key:
@@ -79,14 +82,17 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             "speed_basis": speed.basis,
             "duration_s": part.shape[0] / rate,
         }
+        acceleration = _accelerations(part, factor, source)
+        dead = tuple(axis for axis, signal in zip(axes, acceleration.T, strict=True) if is_dead(signal))
         yield Recorded(
-            acceleration=_accelerations(part, factor, source),
+            acceleration=acceleration,
             axes=axes,
             rate=rate,
             labels=labels | own,
-            provenance=_provenance(source, factor, start, stop, {"pulses": speed.mended, "samples": filled}),
+            provenance=_provenance(source, factor, start, stop, {"pulses": speed.mended, "samples": filled}, dead),
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,
+            dead=dead,
         )
 
 
@@ -182,7 +188,9 @@ def _pieces(source: Source, rate: float, size: int) -> list[tuple[int, int]]:
     return [(k * length, (k + 1) * length) for k in range(size // length)]
 
 
-def _provenance(source: Source, factor: float, start: int, stop: int, mended: dict[str, int]) -> str:
+def _provenance(
+    source: Source, factor: float, start: int, stop: int, mended: dict[str, int], dead: tuple[str, ...]
+) -> str:
     request = source.request
     wishes = {axis: wish for axis in AXES if (wish := getattr(request.channel, axis)) is not None}
     wishes |= {name: said.variable for name, said in request.settings.items() if isinstance(said, FromVariable)}
@@ -197,6 +205,7 @@ def _provenance(source: Source, factor: float, start: int, stop: int, mended: di
             "parameters": contact_numbers(source),
             "notes": request.settings.get("notes", {}),
         }
-        | {f"mended_{what}": count for what, count in mended.items() if count},
+        | {f"mended_{what}": count for what, count in mended.items() if count}
+        | ({"no_signal": dead} if dead else {}),
         allow_nan=False,
     )

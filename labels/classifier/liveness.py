@@ -34,7 +34,6 @@ TURNING_EVIDENCE = 30.0
 """Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes."""
 FEWEST_TURNS = 15.0
 """In fewer turns the lines of a machine that runs quietly do not stand out, so that they lack says nothing."""
-FEWEST_LEVELS = 4
 STOPPED, DEAD = "machine stopped", "no signal"
 
 
@@ -126,8 +125,3 @@ def _hum(frequency: NDArray[Any], step: float) -> NDArray[np.bool_]:
     """True where a frequency (F,) is of the mains; wider than for the envelopes, however short the record, since hum
     alone must not pass for a turning shaft."""
     return near_mains(frequency, 2.0 * step + 0.002 * frequency)
-
-
-def is_dead(signal: Array) -> bool:
-    """True if a signal (T,) has NaN or fewer than four different values: no sensor was connected."""
-    return not np.isfinite(signal).all() or np.unique(signal).size < FEWEST_LEVELS

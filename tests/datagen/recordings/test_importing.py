@@ -14,6 +14,7 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray
+from command_line import run
 
 from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
@@ -253,6 +254,26 @@ def test_a_table_may_name_a_file_outside_the_root(bring: Bring, mat: Mat, tmp_pa
     )
     assert corpus.labels["source_file"][0] == f"{tmp_path}/elsewhere/a.mat"
     assert np.array_equal(corpus.signal(0), as_stored(samples, 1.0))
+
+
+def test_a_dead_sensor_comes_in_with_a_warning(mat: Mat, tmp_path: Path) -> None:
+    for name in ("dead.mat", "gone.mat"):
+        mat(name, np.full(400, 2.5), other=np.zeros(400))
+    mat("half.mat", other=np.zeros(400))
+    (tmp_path / "spec.toml").write_text(
+        'name = "mine"\n[[recording]]\nname = "all"\nfiles = "*.mat"\nrate_hz = 1000\nunit = "g"\n'
+        'x = "other"\ny = "sig"\n'
+    )
+    code, shown, told = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out", "--json", tmp_path / "j")
+    assert code == 0
+    assert shown.startswith("3 records of 3 files")
+    names = ["dead (x, y)", "gone (x, y)", "half (x)"]
+    assert told == f"3 without a signal, as of a sensor that is not connected: {', '.join(names)}\n"
+    assert json.loads((tmp_path / "j").read_text())["dead"] == names
+    with Corpus(tmp_path / "out") as corpus:
+        stored = [json.loads(str(corpus.waveform(record, "provenance"))).get("no_signal") for record in range(3)]
+    assert stored == [["x", "y"], ["x", "y"], ["x"]]
+    assert run("check", tmp_path / "out")[0] == 0
 
 
 def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: Bring, mat: Mat, tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, is_dead, liveness
+from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, liveness
 from labels.features.analysis import analyse
 from labels.features.kinematics import bearing_kinematics
 
@@ -87,15 +87,6 @@ def test_the_velocity_of_a_tone_is_its_acceleration_over_its_frequency():
 def test_the_velocity_is_without_hum():
     hum = 0.5 * np.cos(2.0 * np.pi * 100.0 * TIME) + 1e-6 * np.random.default_rng(3).standard_normal(TIME.size)
     assert found(hum).velocity < 1e-6  # of 0.8 mm/s
-
-
-def test_a_sensor_without_signal_is_dead():
-    assert is_dead(np.zeros(5000))
-    assert is_dead(np.full(5000, np.nan))
-    noise = np.random.default_rng(4).standard_normal(5000)
-    assert not is_dead(noise)
-    assert not is_dead(np.concatenate([np.zeros(5000), noise]))
-    assert is_dead(np.concatenate([noise, [np.nan]]))
 
 
 def test_one_line_at_the_speed_of_the_shaft_is_no_turning_shaft_and_two_are():

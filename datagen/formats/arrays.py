@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.formats.csv_file import Columns
 from datagen.formats.placeholders import filled
 from datagen.spelling import suggestion
 
@@ -54,7 +55,8 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
     if not names:
         raise NoVariable("the file holds no numbers", str(path), field, text)
     shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
-    raise NoVariable(f"the file has no such variable{suggestion(text, names)}", str(path), field, text, shown)
+    hint = arrays.hint if isinstance(arrays, Columns) else ""
+    raise NoVariable(f"the file has no such variable{hint or suggestion(text, names)}", str(path), field, text, shown)
 
 
 def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,17 +17,19 @@ from datagen.files.csv_rows import BLANKS, NotText, Row, open_text, read_csv_row
 from datagen.formats.csv_layout import CsvLayout
 
 Array = NDArray[np.float64]
+DELIMITERS = (";", "\t", "|", ",", BLANKS)
 
 
 class Columns(dict[str, Array]):
     """The columns of a table by name, NaN where a cell is no number: one is refused for them only where it is used.
 
-    `odd` holds line and text of the first cell of each column that is no finite number.
+    `odd` holds line and text of the first cell of each column that is no finite number; `hint` is a closing remark for
+    messages where whole rows seem to have been taken for one cell each, else empty.
     """
 
-    def __init__(self, columns: dict[str, Array], odd: dict[str, tuple[int, str]]) -> None:
+    def __init__(self, columns: dict[str, Array], odd: dict[str, tuple[int, str]], hint: str = "") -> None:
         super().__init__(columns)
-        self.odd = odd
+        self.odd, self.hint = odd, hint
 
 
 def read_csv(path: Path, layout: CsvLayout) -> Columns:
@@ -103,7 +107,8 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         rows = rows[1:]
     for line, row in rows:
         if len(row) != len(names):
-            raise BadInput(f"{len(row)} cells, but the table has {len(names)} columns", f"{path}, line {line}")
+            hint = _hint(layout.delimiter.join(row), layout) if len(names) == 1 else ""
+            raise BadInput(f"{len(row)} cells, but the table has {len(names)} columns{hint}", f"{path}, line {line}")
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
     first = {name: int(np.argmin(np.isfinite(numbers))) for name, numbers in columns.items() if numbers.size}
     odd = {
@@ -111,7 +116,17 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         for name, k in first.items()
         if not math.isfinite(columns[name][k])
     }
-    return Columns(columns, odd)
+    hint = _hint(odd[names[0]][1], layout) if len(names) == 1 and odd else ""
+    return Columns(columns, odd, hint)
+
+
+def _hint(row: str, layout: CsvLayout) -> str:
+    """A remark on the layout that was probably meant by whoever wrote this `row`; empty if nothing else parts it."""
+    delimiter = next((sign for sign in DELIMITERS if sign in row.strip()), layout.delimiter)
+    if delimiter in (layout.delimiter, layout.decimal):
+        return ""
+    decimal = ', decimal = ","' if delimiter != "," and re.search(r"\d,\d", row) else ""
+    return f"; did you mean csv = {{delimiter = {json.dumps(delimiter)}{decimal}}}?"
 
 
 def _numbers(cells: list[str], decimal: str) -> Array:

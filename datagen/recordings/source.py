@@ -112,7 +112,7 @@ class Source:
         if isinstance(self.arrays, Columns) and places is None:
             line, text = self.arrays.odd[name]
             shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
-            problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}"
+            problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}{self.arrays.hint}"
             return BadInput(problem, f"{self.path}, line {line}", field, wish, allowed)
         if size == 1:
             return BadInput("is no finite number", str(self.path), field, wish)

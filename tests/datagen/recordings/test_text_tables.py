@@ -54,7 +54,8 @@ def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, t
         (
             [row.replace(",", "\t") for row in ["1,2"] * 50],
             'csv = {header = false}\ny = "1"',
-            'line 1: y = "1": 50 of 50 cells are not finite numbers, the first is "1\\t2"',
+            'line 1: y = "1": 50 of 50 cells are not finite numbers, the first is "1\\t2"'
+            '; did you mean csv = {delimiter = "\\t"}?',
         ),
     ],
     ids=["footer", "units", "empty", "decimal", "delimiter"],
@@ -92,6 +93,34 @@ def test_a_table_of_nothing_but_numbers_is_read_at_once_and_gives_the_same(
     for columns in (at_once, by_cells):
         assert [columns[name].tolist() for name in columns] == np.array(CELLS).T.tolist()
         assert list(columns) == ["a", "b"]
+
+
+WHOLE_ROWS = {
+    "a semicolon": ("t;acc\n0.5;1.5\n", "", 'csv = {delimiter = ";"}'),
+    "a tabulator": ("t\tacc\n0.5\t1.5\n", "", 'csv = {delimiter = "\\t"}'),
+    "blanks": ("t acc\n0.5  1.5\n", "", 'csv = {delimiter = " "}'),
+    "a comma": ("t,acc\n0.5,1.5\n", 'csv = {delimiter = ";"}\n', 'csv = {delimiter = ","}'),
+    "decimal commas": ("t;acc\n0,5;1,5\n", "", 'csv = {delimiter = ";", decimal = ","}'),
+    "no header": ("0.5;1.5\n", "csv = {header = false}\n", 'csv = {delimiter = ";"}'),
+    "its own name": ("acc\n0.5;1.5\n", "", 'csv = {delimiter = ";"}'),
+}
+
+
+@pytest.mark.parametrize("case", WHOLE_ROWS)
+def test_the_delimiter_that_was_meant_is_named(case: str, bring: Bring, tmp_path: Path) -> None:
+    text, layout, meant = WHOLE_ROWS[case]
+    *head, row = text.splitlines(keepends=True)
+    (tmp_path / "a.csv").write_text("".join(head) + 40 * row)
+    with pytest.raises(BadInput) as refused:
+        bring(SPEC.replace('y = "a"', 'y = "acc"') + layout)
+    assert f"; did you mean {meant}?" in str(refused.value)
+
+
+def test_no_delimiter_is_guessed_where_the_rows_are_read(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("acc in g; y\n" + 40 * "1.5\n")
+    with pytest.raises(BadInput) as refused:
+        bring(SPEC.replace('y = "a"', 'y = "acc"'))
+    assert "did you mean" not in str(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,11 @@ from dataclasses import fields
 from pathlib import Path
 
 from datagen.benchmark.classify import Benchmark
-from datagen.benchmark.impulse_training import ingredients_of
+from datagen.benchmark.impulse_training import NAME, ingredients_of
 from datagen.benchmark.options import FEATURES, WINDOWS, Asked, Learning, Scoring
-from datagen.benchmark.trained import SAVE, is_saved
+from datagen.benchmark.trained import SAVE, TRAIN, is_saved
 from datagen.benchmark.training import SPEED_ERROR
+from datagen.corpora.manifest import manifest_path, no_corpus
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
@@ -22,6 +23,7 @@ from labels.classifier.learners import LEARNERS
 INPUTS = (FEATURES, WINDOWS)
 LEAST_BANDWIDTH = 1000.0
 LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
+TRAINING = f"the folder of a simulated corpus, a file that {SAVE} wrote, {NAME} or {NAME}-without-INGREDIENT"
 SPOKEN = "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
 
 
@@ -100,13 +102,22 @@ def _require_use(
 
 def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
     if not is_saved(train) and ingredients_of(train) is None:
-        if Corpus(train).manifest.imported:
+        if _corpus(train, TRAIN, TRAINING).manifest.imported:
             raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
     elif windows:
         raise BadInput("plain impulse trains have features only", field="--input", value=WINDOWS, allowed=FEATURES)
     for folder in tests:
-        corpus = Corpus(folder)
+        corpus = _corpus(folder, "--test", "the folder of a corpus, simulated or imported")
         if corpus.labels.empty:
             raise BadInput("this corpus has no records", str(folder), "--test")
         if corpus.manifest.imported and not os.access(folder, os.W_OK):
             raise BadInput("runs on recordings are logged here, and it cannot be written", str(log_path(folder)))
+
+
+def _corpus(folder: Path, option: str, allowed: str) -> Corpus:
+    """The corpus in a `folder` that an `option` names; raises BadInput with what it takes if there is none."""
+    manifest = manifest_path(folder)
+    if manifest.exists():
+        return Corpus(folder)
+    problem = no_corpus(folder, manifest.name).problem if folder.exists() else "no such file or folder"
+    raise BadInput(problem, field=option, value=str(folder), allowed=allowed)

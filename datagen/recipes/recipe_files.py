@@ -37,7 +37,8 @@ def find_recipe(path_or_name: str | Path) -> Path:
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     known = ", ".join(shipped) or "(none)"
-    raise BadInput(f"no such file, and no dataset of that name ({known})" + suggestion(name, shipped), file=str(path))
+    told = f"no such file or folder, and no dataset of that name ({known})"
+    raise BadInput(told + suggestion(name, shipped), file=str(path))
 
 
 def _dataset_name(path: Path) -> str:

@@ -165,8 +165,8 @@ class _Plan:
             return True
         if self.spec.same_samples == "refuse":
             raise BadInput(
-                f'record "{name}" has exactly the samples of "{twin}"', str(request.path), "same_samples",
-                allowed="refuse, or skip or keep such repeats",
+                f'record "{name}" has exactly the samples of "{twin}", {self.names[twin]}', str(request.path),
+                "same_samples", "refuse", '"skip", which leaves such repeats out, or "keep"',
             )  # fmt: skip
         self.skipped.append(name)
         return False

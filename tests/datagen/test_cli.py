@@ -163,6 +163,40 @@ def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_all
     assert said.count("\n") == 1
 
 
+LEARNED = "a file that --save wrote, impulse-trains or impulse-trains-without-INGREDIENT"
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        (
+            "classify --train nowhere --test nowhere",
+            f'--train = "nowhere": no such file or folder; allowed: the folder of a simulated corpus, {LEARNED}',
+        ),
+        (
+            "classify --train impulse-trains --test nowhere",
+            '--test = "nowhere": no such file or folder; allowed: the folder of a corpus, simulated or imported',
+        ),
+        (
+            "classify --train impulse-trains --test .",
+            '--test = ".": this folder has no manifest.json, so it is no corpus',
+        ),
+        ("size nowhere", "nowhere: no such folder; allowed: the folder of a corpus"),
+        ("info nowhere", "nowhere: no such folder; allowed: the folder of a corpus"),
+        ("preview nowhere --out a.png", "nowhere: no such file or folder, and no dataset of that name (corpus, "),
+    ],
+)
+def test_what_is_not_there_is_told_with_what_may_be_given(
+    line: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, shown, said = run(*line.split())
+    assert (code, shown) == (2, "")
+    assert said.startswith(f"error: {told}")
+    assert said.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_the_version_is_told() -> None:
     code, shown, _ = run("--version")
     assert code == 0

@@ -128,7 +128,8 @@ def test_the_same_samples_twice_are_refused_or_left_out(bring: Bring, mat: Mat, 
     mat("a.mat", noise(seed=1))
     mat("b.mat", noise(seed=1))
     told = refusal(bring, GOOD, tmp_path)
-    assert 'b.mat: same_samples: record "b" has exactly the samples of "a"' in told
+    assert 'b.mat: same_samples = "refuse": record "b" has exactly the samples of "a", a.mat (' in told
+    assert 'allowed: "skip", which leaves such repeats out, or "keep"' in told
     assert bring('same_samples = "skip"\n' + GOOD).labels["recording"].tolist() == ["a"]
 
 

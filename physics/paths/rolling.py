@@ -22,8 +22,8 @@ POINTS_A_STEP = 4
 BLOCKED = 4
 # What rounding leaves of a height (m).
 ROUNDING = 1e-15
-# How often the two spaces beside a point of the surface are halved, and then cut where a straight line through what both
-# ends say has the ball touch.
+# How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
+# ends says that the ball touches.
 HALVINGS, CUTS = 3, 3
 # Where the contact point leaps by more than this many steps of the path the ball has changed from one bump to another.
 LEAP = 3.0

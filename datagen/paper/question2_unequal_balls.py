@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 NAME = "question2"
 DEVIATIONS_UM = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 DRAWS = 5
+# Key of the diameters' random numbers, which are not those of the slip of the same seed.
+BALLS = 1
 SHOWN_DEVIATION, SMALL_DEVIATION = 0.5, 0.2
 MICRON = 1e-6
 REACH = 0.4
@@ -51,7 +53,8 @@ class Sidebands:
 def unequal(deviation_um: float, seed: int) -> Imperfections:
     """Balls whose diameters have exactly this standard deviation (µm) about the nominal one, drawn by `seed`."""
     bearing = machine("gearbox").bearing
-    drawn = np.random.default_rng(seed).standard_normal((bearing.rows, bearing.balls))
+    stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(BALLS,)))
+    drawn = stream.standard_normal((bearing.rows, bearing.balls))
     drawn = (drawn - drawn.mean()) / drawn.std() * deviation_um * MICRON
     return Imperfections(ball_deviation=tuple(tuple(float(value) for value in row) for row in drawn))
 

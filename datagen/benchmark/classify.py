@@ -19,7 +19,6 @@ from datagen.benchmark.options import Asked, Learning, Scoring
 from datagen.benchmark.rows import Reading, Rows, read_rows
 from datagen.benchmark.score_log import log_run
 from datagen.benchmark.summary import summarise
-from datagen.benchmark.telling import NOBODY, Count, Told
 from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
 from datagen.benchmark.training import (
     COPIES_DB,
@@ -37,6 +36,7 @@ from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.scored_runs import write_line
+from datagen.telling import NOBODY, Count, Told
 from labels.classifier.alarm import Alarm
 from physics.bearing import RACES
 

@@ -10,9 +10,9 @@ import numpy as np
 
 from datagen.benchmark.impulse_train import Ingredients, draw_train
 from datagen.benchmark.rows import Reading, signal_rows
-from datagen.benchmark.telling import Count, unheard
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
+from datagen.telling import Count, unheard
 from labels.classifier.classes import HEALTHY
 from labels.schema import LOCATIONS
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.benchmark.telling import Say, unheard
 from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_own
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
+from datagen.telling import Say, unheard
 from labels.classifier.classes import HEALTHY
 from labels.classifier.scores import Interval, balanced_accuracy, bootstrap
 

@@ -16,8 +16,8 @@ from scipy import fft
 
 from datagen.benchmark.fitness import unfit
 from datagen.benchmark.known import known_kinematics
-from datagen.benchmark.telling import Count, unheard
 from datagen.corpus import Corpus
+from datagen.telling import Count, unheard
 from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.known import true_class
 from datagen.benchmark.rows import Reading, Rows, read_rows
-from datagen.benchmark.telling import Count, Say, unheard
 from datagen.benchmark.votes import averaged
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import own_code
+from datagen.telling import Count, Say, unheard
 from labels.classifier.alarm import Alarm
 from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from datagen.benchmark.rows import Rows
-from datagen.benchmark.telling import Count, unheard
 from datagen.corpus import Corpus
+from datagen.telling import Count, unheard
 from labels.features.conditioning import Array
 
 WINDOW_SAMPLES = 4096

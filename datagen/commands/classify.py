@@ -87,8 +87,8 @@ def classify(
 
 def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
     from datagen.benchmark.classify import run
-    from datagen.benchmark.telling import Told
     from datagen.runs.progress import steps_told
+    from datagen.telling import Told
 
     with steps_told() as tell:
         results, _ = run(benchmark, Told(tell.say, tell))

@@ -43,15 +43,19 @@ def size(
     Recordings are scored by the extents that are stated of them, and such a run is logged in their folder, in
     scored_runs.jsonl.
     """
+    from datagen.runs.progress import steps_told
     from datagen.sizing.flat_rows import flat_scores
     from datagen.sizing.known_sizes import parse_known_sizes
     from datagen.sizing.report import write_report
     from datagen.sizing.score import score_sizes
+    from datagen.telling import Told
 
     if out is not None:
         require_results_folder(out)
     sizes = parse_known_sizes(known_size or ())
-    scores = score_sizes(folder, estimator, load_known, split, workers, sizes)
+    with steps_told() as tell:
+        count = Told(tell.say, tell).counting("sizes")
+        scores = score_sizes(folder, estimator, load_known, split, workers, sizes, count)
     write_json(json_file, flat_scores(scores))
     if out is not None:
         from datagen.drawing.size_report import size_report_png

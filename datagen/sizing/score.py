@@ -17,9 +17,10 @@ from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machi
 from datagen.sizing.record_scores import score_record, unsized_row
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary, StatedSizes
-from datagen.sizing.sized_records import SizedRecord, sized_records, unsized_records
+from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 from datagen.sizing.summary import summarise
+from datagen.telling import Count, unheard
 from datagen.versions import program_versions
 from labels.schema import SPLITS
 
@@ -51,12 +52,13 @@ def score_sizes(
     split: str | None,
     workers: int = 1,
     sizes: Mapping[int, float] = NONE_KNOWN,
+    count: Count = unheard,
 ) -> SizeScores:
     """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for).
 
     A record that cannot be sized has a row that says why; BadInput if that holds of all. Known `sizes` (mm) of records
-    correct those of the other records of their machines. A run on recordings of stated extents or health is logged
-    beside them, before and after.
+    correct those of the other records of their machines; `count` hears how many records are done. A run on recordings
+    of stated extents or health is logged beside them, before and after.
     """
     own = find_estimator(estimator)
     chosen = _split(folder, split)
@@ -68,7 +70,11 @@ def score_sizes(
         write_line(folder, {"began": options, "sizes_by": told_of})
     known = known_sizes(folder, sizes, own, load_known)
     records = sized_records(folder, load_known=load_known, splits=splits)
-    made = _scored(records, estimator, known, workers)
+    total = count_records(folder, splits) - len(unsized)
+    made = []
+    for done, one in enumerate(_scored(records, estimator, known, workers), start=1):
+        made.append(one)
+        count(done, total)
     scored = sorted([*made, *unsized], key=lambda one: one.truth.record)
     true = [one for one in scored if one.truth.known]
     summary = summarise(true, load_known) if true else None
@@ -84,11 +90,11 @@ def score_sizes(
 
 def _scored(
     records: Iterator[SizedRecord], estimator: str | None, known: list[KnownSize], workers: int
-) -> list[ScoredRecord]:
+) -> Iterator[ScoredRecord]:
     """Rows of the records, made by several processes."""
     from joblib import delayed
 
-    return list(in_blocks((delayed(_score)(one, estimator, _factor(one, known)) for one in records), workers))
+    return in_blocks((delayed(_score)(one, estimator, _factor(one, known)) for one in records), workers)
 
 
 def _score(sized: SizedRecord, estimator: str | None, factor: float) -> ScoredRecord:

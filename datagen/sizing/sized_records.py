@@ -84,6 +84,11 @@ def unsized_records(folder: Path, splits: tuple[str, ...] | None = None) -> list
     raise BadInput(f"none of its {len(rows)} records can be sized: {counts}", str(folder))
 
 
+def count_records(folder: Path, splits: tuple[str, ...] | None = None) -> int:
+    """How many records there are to be sized or not."""
+    return len(_rows(folder, splits))
+
+
 def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
     table = read_index(folder)
     return table if splits is None else table[table["split"].isin(splits)]

@@ -166,3 +166,10 @@ def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeyp
     scores = score_sizes(tiny_corpus, None, True, "all", workers=2)
     assert len(readers) == len(scores.records) == 14
     assert set(readers) == {threading.current_thread()}
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_every_record_is_counted_as_it_is_done(tiny_corpus: Path, workers: int) -> None:
+    told: list[tuple[int, int]] = []
+    scores = score_sizes(tiny_corpus, None, True, "all", workers, count=lambda done, total: told.append((done, total)))
+    assert told == [(done, len(scores.records)) for done in range(1, 15)]

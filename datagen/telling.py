@@ -1,4 +1,4 @@
-"""Who hears of a run of `classify`."""
+"""Who hears how far a command has got."""
 
 from __future__ import annotations
 

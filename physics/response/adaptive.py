@@ -15,6 +15,7 @@ from physics.response.goal import (
     Goal,
     GoOn,
     fewest_touching,
+    led_astray,
     observed_sensitivity,
     rms_distance,
     steady,
@@ -116,7 +117,7 @@ def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
         size = max(found, 1e-3 * size)
     if length > short:
         # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
-        coarse = March(case, length).go_on(steady(case, length, COARSE, size))
+        coarse = led_astray(case, steady(case, length, COARSE, size))
     wanted = AIM * min(max(goal.accuracy, goal.least / size), COARSE)
     fine = march.go_on(steady(case, length, wanted, size, spending=1.0))
     pushed = case.pushed(coarse)

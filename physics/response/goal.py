@@ -59,7 +59,8 @@ class Goal:
     def coarse(self, size: float) -> Output:
         """A response with several times the tolerance that a signal of this `size` (m/s², RMS) asks for."""
         share = max(COARSE, self.allowed(size) / size) if size > 0.0 else COARSE
-        return self.go_on(March(self.case, self.samples), steady(self.case, self.samples, share, size))
+        grid = steady(self.case, self.samples, share, size)
+        return led_astray(self.case, grid, self.go_on)
 
     def allowed(self, size: float) -> float:
         """The error (m/s², RMS) that is allowed of a signal of this `size` (m/s², RMS)."""
@@ -94,6 +95,18 @@ def _grid(case: Case, samples: int, share: float, least: float, seen: float, wei
         seen_samples=weight,
         spending=spending,
     )
+
+
+def led_astray(case: Case, grid: Stride, go_on: GoOn = March.go_on) -> Output:
+    """A response on a `steady` grid that sets out with an error such as its steps may make, and that counts as theirs.
+
+    Others may take the same steps, as long as a sample or an instant of contact lets them, and make the same errors:
+    without one of its own it would not show what becomes of them.
+    """
+    push = max(grid.least, grid.share * math.sqrt(grid.seen))
+    output = go_on(March(case, grid.samples, push=push), grid)
+    output.budget[0] += push * push
+    return output
 
 
 def finer(grid: Stride, share: float) -> Stride:

@@ -54,10 +54,12 @@ class Case:
         """What a push of 1 N s leaves in the resonator's acceleration, m²/s³ per (N s)²."""
         return ringing(self.flow, self.scene.duration)
 
-    @cached_property
-    def amplitudes(self) -> Array:
-        """Amplitudes (12,) of the modes at t = 0."""
-        return amplitudes_of(self.flow, self.start)
+    def amplitudes(self, push: float) -> Array:
+        """Amplitudes (12,) of the modes at t = 0, after a `push` (N s) between the rings, halfway between x and y."""
+        state, momentum = self.start.copy(), math.sqrt(0.5) * push
+        state[6:8] -= momentum / self.scene.rig.inner_mass
+        state[8:10] += momentum / self.scene.rig.outer_mass
+        return amplitudes_of(self.flow, state)
 
     @cached_property
     def tables(self) -> tuple[Array, Array]:
@@ -102,12 +104,13 @@ def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
 
 @dataclass
 class March:
-    """A march of `case` over up to `samples`; one at a time, as it keeps its contact set in the case's contacts: once
-    another has set out, it cannot go on."""
+    """A march of `case` over up to `samples`, begun with a `push` (N s) between the rings; one at a time, as it keeps
+    its contact set in the case's contacts: once another has set out, it cannot go on."""
 
     case: Case
     samples: int
     kept: Kept = ACCELERATION_ALONE
+    push: float = 0.0
     output: Output = field(init=False)
     _memory: Memory | None = field(init=False, default=None)
     _number: int = field(init=False, default=0)
@@ -125,7 +128,8 @@ class March:
         if self._memory is None:
             case.begun[0] += 1
             self._number = case.begun[0]
-            self._memory = memory_for(case.flow, case.amplitudes, case.tables, contacts.balls.shape)
+            start = case.amplitudes(self.push)
+            self._memory = memory_for(case.flow, start, case.tables, contacts.balls.shape)
             begin(contacts, case.flow, grid, self._memory, self.output)
         if self._number != case.begun[0]:
             raise RuntimeError("another march of this case has set out; the contacts that both share are its own now")

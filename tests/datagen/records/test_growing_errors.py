@@ -80,6 +80,15 @@ def test_a_single_ball_s_growing_errors_are_found_where_a_coarse_response_happen
     assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
 
 
+def test_errors_that_a_coarse_response_makes_too_are_found_where_they_grow():
+    drawn = _drawn(20290101, 4826)  # both begin with the same steps, and what these miss grows a thousandfold
+    scene = _shortened(drawn.scene, 0.1)
+    trace = simulate(scene, drawn.rate)
+    exact = simulate(scene, drawn.rate, accuracy=1e-5)
+    assert trace.sensitivity > CHAOTIC
+    assert _apart(trace, exact) <= trace.error_estimate <= 1e-3
+
+
 def test_rings_that_part_are_doubted_where_a_coarse_response_is_far_away():
     drawn = _drawn(777, 207)  # ten times as sensitive as its coarse response says
     scene = _shortened(drawn.scene, 0.1)

@@ -60,6 +60,15 @@ def test_a_coarse_response_is_made_to_a_thousandth_or_to_what_is_allowed_if_that
     assert world.asked == [pytest.approx(share, rel=1e-12)]
 
 
+def test_a_coarse_response_sets_out_with_one_error_of_a_step_which_counts():
+    world = World(lambda tolerance, number: an_output(ONES))
+    output = a_goal(world).coarse(2.0)
+    push = 2e-3 * PUSH  # of a step for an error of a thousandth of 2 m/s²
+    assert world.marches[0].push == pytest.approx(push, rel=1e-12)
+    assert output.budget[0] == pytest.approx(push**2, rel=1e-12)
+    assert a_goal().begin().push == 0.0
+
+
 def test_two_responses_are_apart_by_their_difference_as_long_as_both_last():
     other = ONES.copy()
     other[SAMPLES // 4 :] += 3.0

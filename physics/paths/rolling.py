@@ -225,13 +225,14 @@ def _hold_between_points(surface: Surface, ball: _Ball, arc: Array, held: _Held,
 def _hold_as_neighbours(surface: Surface, ball: _Ball, arc: Array, held: _Held, apart: float) -> None:
     """Let balls beside a corner of the path touch the bump that holds their neighbours, where that holds them higher:
     of two bumps, points of the surface may show the lower one as the higher."""
-    leap, improved = LEAP * POINTS_A_STEP * apart, 1
-    while improved > 0:
-        corners = np.flatnonzero(np.abs(np.diff(held.place)) > leap)
-        improved = 0
+    for _ in range(arc.size):
+        corners = np.flatnonzero(np.abs(np.diff(held.place)) > LEAP * POINTS_A_STEP * apart)
+        moved = 0
         for at, neighbour in ((corners, corners + 1), (corners + 1, corners)):
             found = _between_points(surface, ball, arc[at], held.place[neighbour], apart)
-            improved += held.take(at, found, -ROUNDING)
+            moved += held.take(at, found, -ROUNDING)
+        if moved == 0:
+            return
 
 
 @njit

@@ -68,9 +68,10 @@ def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:
         return []
     cos_alpha = math.cos(bearing.contact_angle)
     found = []
-    for sign, (arcs, depths) in ((-1.0, _way_down(path, 1.0)), (1.0, _way_down(path, -1.0))):
+    for sign in (-1.0, 1.0):
+        arcs, depths = _way_down(path, -sign)
         longest = (arcs[-1] - arcs[0]) / speed
-        crossed = passages(scene, index, -sign * arcs[0], min(0.0, sign * longest), scene.duration + longest)
+        crossed = passages(scene, index, -sign * arcs[0], -longest, scene.duration + longest)
         angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
         position = carried(_sound(scene), crossed.time).displacement
         radial = position[:, 0] * np.cos(angle) + position[:, 1] * np.sin(angle) - bearing.clearance

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, njit_lean
+from physics.paths.held_ball import (
+    ROUNDING,
+    Ball,
+    Held,
+    Surface,
+    hold_as_neighbours,
+    hold_between_points,
+    hold_on_lips,
+)
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -20,22 +29,10 @@ FEWEST_STEPS = 512
 POINTS_A_STEP = 4
 # Points of the surface that are passed over together, for each one of the path's.
 BLOCKED = 4
-# What rounding leaves of a height (m).
-ROUNDING = 1e-15
-# How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
-# ends says that the ball touches.
-HALVINGS, CUTS = 3, 3
 # Where the contact point leaps by more than this many steps of the path the ball has changed from one bump to another.
 LEAP = 3.0
 # Both sides of a corner are nearly parabolas; one nearer to a node than this share of a step is put onto it.
 NEWTON_STEPS, NEAREST = 4, 1e-3
-
-
-class Surface(Protocol):
-    """Depth of a surface (m, positive where material is missing) against the arc (rad) from the spall's centre, or its
-    slope (m/rad) where `order` is 1."""
-
-    def __call__(self, arc: Array, order: int = 0) -> Array: ...
 
 
 class RolledPath(NamedTuple):
@@ -130,135 +127,15 @@ def rolled_path(
     # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.
     corners = [reach - first, reach - first + count * POINTS_A_STEP]
     depth[corners] = np.minimum(probe[[0, -1]], 0.0)
-    ball = _Ball(race_radius, ball_radius, -1.0 if outer else 1.0)
+    ball = Ball(race_radius, ball_radius, -1.0 if outer else 1.0)
     drop, place = _roll(depth, reach, fine, race_radius, ball_radius, outer)
     arc = points[reach : points.size - reach : POINTS_A_STEP]
-    held = _Held(points[place], depth[place], drop)
-    _hold_on_lips(arc, lips, surface(lips), fine * reach, race_radius, ball_radius, outer, *held)
-    _hold_between_points(inside, ball, arc, held, fine)
-    _hold_as_neighbours(inside, ball, arc, held, fine)
+    held = Held(points[place], depth[place], drop)
+    hold_on_lips(surface, ball, arc, held, lips, fine * reach)
+    hold_between_points(inside, ball, arc, held, fine)
+    hold_as_neighbours(inside, ball, arc, held, fine, LEAP * POINTS_A_STEP * fine)
     slope = ball.slope(held.depth, held.place - arc)
     return RolledPath(arc, held.drop, slope, (held.place - arc[0]) / (fine * POINTS_A_STEP))
-
-
-class _Held(NamedTuple):
-    """What holds a ball at each arc (N,): the `place` (rad) where it touches, the `depth` (m) of the surface there, and
-    the `drop` (m) of the ball."""
-
-    place: Array
-    depth: Array
-    drop: Array
-
-    def take(self, at: Index, other: _Held, deeper: float) -> int:
-        """Take over what holds balls at these numbers (N,) of the arcs less than so much `deeper` (m); how many it
-        holds."""
-        holds = other.drop < self.drop[at] + deeper
-        for mine, found in zip(self, other, strict=True):
-            mine[at[holds]] = found[holds]
-        return int(np.count_nonzero(holds))
-
-
-class _Ball(NamedTuple):
-    """A ball and the race it rolls on: both radii (m), and `turn`, 1 on the inner race, −1 on the outer."""
-
-    race_radius: float
-    ball_radius: float
-    turn: float
-
-    def _lever(self, depth: Array, away: Array) -> tuple[Array, Array, Array]:
-        """Where a ball touches the surface at depths (N,), m, so far ahead of it (N,), rad: the radius there (m), how
-        far it lies beside the ball's own (m), and how far from the ball's centre along that (m)."""
-        radius = self.race_radius - self.turn * depth
-        longest = self.ball_radius * (1.0 - 1e-12)
-        lever = np.clip(radius * np.sin(away), -longest, longest)
-        return radius, lever, np.sqrt(self.ball_radius**2 - lever**2)
-
-    def drop(self, depth: Array, away: Array) -> Array:
-        """Drop (N,) of its centre, m."""
-        radius, _, hanging = self._lever(depth, away)
-        return self.turn * (self.race_radius - radius * np.cos(away)) + self.ball_radius - hanging
-
-    def slope(self, depth: Array, away: Array) -> Array:
-        """Slope (N,) of its path, m/rad."""
-        radius, lever, hanging = self._lever(depth, away)
-        return -radius * (self.turn * np.sin(away) + np.cos(away) * lever / hanging)
-
-    def gain(self, depth: Array, steepness: Array, away: Array) -> Array:
-        """How much deeper (N,), m/rad, it would lie if it touched farther ahead on a surface of this `steepness` (N,),
-        m/rad; zero where it touches."""
-        _, lever, hanging = self._lever(depth, away)
-        sinking = np.cos(away) - self.turn * np.sin(away) * lever / hanging
-        return steepness * sinking - self.slope(depth, away)
-
-    def on(self, surface: Surface, place: Array, arc: Array) -> _Held:
-        """The ball at the arcs (N,), rad, that touches the surface at the places (N,), rad."""
-        depth = surface(place)
-        return _Held(place, depth, self.drop(depth, place - arc))
-
-
-def _between_points(surface: Surface, ball: _Ball, arc: Array, place: Array, apart: float) -> _Held:
-    """The ball at the arcs (N,), rad, where it touches the surface no farther than `apart` (rad) from the places (N,),
-    rad, or at these if it would fall from both sides."""
-
-    def gain(place: Array) -> Array:
-        return ball.gain(surface(place), surface(place, 1), place - arc)
-
-    left, right = place - apart, place + apart
-    low, high = gain(left), gain(right)
-    between = (low < 0.0) & (high > 0.0)
-    touching = place
-    for cut in range(HALVINGS + CUTS):
-        share = 0.5 if cut < HALVINGS else low / np.where(between, low - high, 1.0)
-        touching = left + (right - left) * share
-        found = gain(touching)
-        ahead = found < 0.0
-        left, low = np.where(ahead, touching, left), np.where(ahead, found, low)
-        right, high = np.where(ahead, right, touching), np.where(ahead, high, found)
-    return ball.on(surface, np.where(between, touching, place), arc)
-
-
-def _hold_between_points(surface: Surface, ball: _Ball, arc: Array, held: _Held, apart: float) -> None:
-    """Let balls touch the surface between its points, `apart` (rad), beside those that hold them."""
-    held.take(np.arange(arc.size), _between_points(surface, ball, arc, held.place, apart), ROUNDING)
-
-
-def _hold_as_neighbours(surface: Surface, ball: _Ball, arc: Array, held: _Held, apart: float) -> None:
-    """Let balls beside a corner of the path touch the bump that holds their neighbours, where that holds them higher:
-    of two bumps, points of the surface may show the lower one as the higher."""
-    for _ in range(arc.size):
-        corners = np.flatnonzero(np.abs(np.diff(held.place)) > LEAP * POINTS_A_STEP * apart)
-        moved = 0
-        for at, neighbour in ((corners, corners + 1), (corners + 1, corners)):
-            found = _between_points(surface, ball, arc[at], held.place[neighbour], apart)
-            moved += held.take(at, found, -ROUNDING)
-        if moved == 0:
-            return
-
-
-@njit
-def _hold_on_lips(
-    arc: Array,
-    lips: Array,
-    height: Array,
-    reach: float,
-    race_radius: float,
-    ball_radius: float,
-    outer: bool,
-    place: Array,
-    depth: Array,
-    drop: Array,
-) -> None:
-    """Let balls at evenly spaced arcs (N,), rad, touch `lips` (L,), rad, at the depth `height` (L,), m, within `reach`
-    (rad), where these hold them higher than what does at the places (N,), rad, depths (N,) and drops (N,), m."""
-    step = (arc[-1] - arc[0]) / (arc.size - 1)
-    for lip in range(lips.size):
-        first = max(0, int((lips[lip] - reach - arc[0]) / step))
-        last = min(arc.size - 1, int((lips[lip] + reach - arc[0]) / step))
-        for k in range(first, last + 1):
-            away = abs(lips[lip] - arc[k])
-            found = _drop_on(height[lip], math.cos(away), math.sin(away), race_radius, ball_radius, outer)
-            if found < drop[k]:
-                place[k], depth[k], drop[k] = lips[lip], height[lip], found
 
 
 def branches(path: RolledPath) -> Branches:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from physics.paths.rolling import Surface
+from physics.paths.held_ball import Surface
 from physics.spall import Spall
 
 Array = NDArray[np.float64]

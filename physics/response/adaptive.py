@@ -115,7 +115,7 @@ def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
             size = found
             break
         size = max(found, 1e-3 * size)
-    if length > short:
+    if case.memory > 0.0:
         # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
         coarse = led_astray(case, steady(case, length, COARSE, size))
     wanted = AIM * min(max(goal.accuracy, goal.least / size), COARSE)

@@ -1,0 +1,132 @@
+"""What holds a ball over a surface: a place between its points that were tried, a lip, or the higher of two bumps."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+# What rounding leaves of a height (m).
+ROUNDING = 1e-15
+# How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
+# ends says that the ball touches.
+HALVINGS, CUTS = 3, 3
+
+
+class Surface(Protocol):
+    """Depth of a surface (m, positive where material is missing) against the arc (rad) from the spall's centre, or its
+    slope (m/rad) where `order` is 1."""
+
+    def __call__(self, arc: Array, order: int = 0) -> Array: ...
+
+
+class Held(NamedTuple):
+    """What holds a ball at each arc (N,): the `place` (rad) where it touches, the `depth` (m) of the surface there, and
+    the `drop` (m) of the ball."""
+
+    place: Array
+    depth: Array
+    drop: Array
+
+    def take(self, at: Index, other: Held, deeper: float) -> int:
+        """Take over what holds balls at these numbers (N,) of the arcs less than so much `deeper` (m); how many it
+        holds."""
+        holds = other.drop < self.drop[at] + deeper
+        for mine, found in zip(self, other, strict=True):
+            mine[at[holds]] = found[holds]
+        return int(np.count_nonzero(holds))
+
+
+class Ball(NamedTuple):
+    """A ball and the race it rolls on: both radii (m), and `turn`, 1 on the inner race, −1 on the outer."""
+
+    race_radius: float
+    ball_radius: float
+    turn: float
+
+    def _lever(self, depth: Array, away: Array) -> tuple[Array, Array, Array]:
+        """Where a ball touches the surface at depths (N,), m, so far ahead of it (N,), rad: the radius there (m), how
+        far it lies beside the ball's own (m), and how far from the ball's centre along that (m)."""
+        radius = self.race_radius - self.turn * depth
+        longest = self.ball_radius * (1.0 - 1e-12)
+        lever = np.clip(radius * np.sin(away), -longest, longest)
+        return radius, lever, np.sqrt(self.ball_radius**2 - lever**2)
+
+    def drop(self, depth: Array, away: Array) -> Array:
+        """Drop (N,) of its centre, m."""
+        radius, _, hanging = self._lever(depth, away)
+        return self.turn * (self.race_radius - radius * np.cos(away)) + self.ball_radius - hanging
+
+    def slope(self, depth: Array, away: Array) -> Array:
+        """Slope (N,) of its path, m/rad."""
+        radius, lever, hanging = self._lever(depth, away)
+        return -radius * (self.turn * np.sin(away) + np.cos(away) * lever / hanging)
+
+    def gain(self, depth: Array, steepness: Array, away: Array) -> Array:
+        """How much deeper (N,), m/rad, it would lie if it touched farther ahead on a surface of this `steepness` (N,),
+        m/rad; zero where it touches."""
+        _, lever, hanging = self._lever(depth, away)
+        sinking = np.cos(away) - self.turn * np.sin(away) * lever / hanging
+        return steepness * sinking - self.slope(depth, away)
+
+    def on(self, surface: Surface, place: Array, arc: Array) -> Held:
+        """The ball at the arcs (N,), rad, that touches the surface at the places (N,), rad."""
+        depth = surface(place)
+        return Held(place, depth, self.drop(depth, place - arc))
+
+
+def _between_points(surface: Surface, ball: Ball, arc: Array, place: Array, apart: float) -> Held:
+    """The ball at the arcs (N,), rad, where it touches the surface no farther than `apart` (rad) from the places (N,),
+    rad, or at these if it would fall from both sides."""
+
+    def gain(place: Array) -> Array:
+        return ball.gain(surface(place), surface(place, 1), place - arc)
+
+    left, right = place - apart, place + apart
+    low, high = gain(left), gain(right)
+    between = (low < 0.0) & (high > 0.0)
+    touching = place
+    for cut in range(HALVINGS + CUTS):
+        share = 0.5 if cut < HALVINGS else low / np.where(between, low - high, 1.0)
+        touching = left + (right - left) * share
+        found = gain(touching)
+        ahead = found < 0.0
+        left, low = np.where(ahead, touching, left), np.where(ahead, found, low)
+        right, high = np.where(ahead, right, touching), np.where(ahead, high, found)
+    return ball.on(surface, np.where(between, touching, place), arc)
+
+
+def hold_between_points(surface: Surface, ball: Ball, arc: Array, held: Held, apart: float) -> None:
+    """Let balls touch the surface between its points, `apart` (rad), beside those that hold them."""
+    held.take(np.arange(arc.size), _between_points(surface, ball, arc, held.place, apart), ROUNDING)
+
+
+def hold_as_neighbours(surface: Surface, ball: Ball, arc: Array, held: Held, apart: float, leap: float) -> None:
+    """Let balls beside a corner of the path, where the place leaps by more than `leap` (rad), touch the bump that holds
+    their neighbours, where that holds them higher: of two bumps, points of the surface, `apart` (rad), may show the
+    lower one as the higher."""
+    for _ in range(arc.size):
+        corners = np.flatnonzero(np.abs(np.diff(held.place)) > leap)
+        moved = 0
+        for at, neighbour in ((corners, corners + 1), (corners + 1, corners)):
+            found = _between_points(surface, ball, arc[at], held.place[neighbour], apart)
+            moved += held.take(at, found, -ROUNDING)
+        if moved == 0:
+            return
+
+
+def hold_on_lips(surface: Surface, ball: Ball, arc: Array, held: Held, lips: Array, reach: float) -> None:
+    """Let balls at evenly spaced arcs (N,), rad, touch `lips` (L,), rad, within `reach` (rad), where these hold them
+    higher."""
+    step = (arc[-1] - arc[0]) / (arc.size - 1)
+    for lip, depth in zip(lips, surface(lips), strict=True):
+        first = max(0, math.ceil((lip - reach - arc[0]) / step))
+        last = min(arc.size - 1, math.floor((lip + reach - arc[0]) / step))
+        near = np.arange(first, last + 1)
+        place, depths = np.full(near.size, lip), np.full(near.size, depth)
+        held.take(near, Held(place, depths, ball.drop(depths, place - arc[near])), 0.0)

@@ -14,8 +14,8 @@ def unheard(*_: object) -> None:
 
 
 @dataclass(frozen=True)
-class Told:
-    """What hears of a run: `say` the sentences that stay, `step` what is under way at the moment."""
+class Listener:
+    """Who hears of a run: `say` hears the sentences that stay, `step` what is under way at the moment."""
 
     say: Say = unheard
     step: Say = unheard
@@ -25,4 +25,4 @@ class Told:
         return lambda done, total: self.step(f"{what}: {done} of {total} records")
 
 
-NOBODY = Told()
+NOBODY = Listener()

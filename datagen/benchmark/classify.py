@@ -36,7 +36,7 @@ from datagen.benchmark.verdicts import Tested, judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.scored_runs import write_line
-from datagen.telling import NOBODY, Count, Told
+from datagen.telling import NOBODY, Count, Listener
 from labels.classifier.alarm import Alarm
 from physics.bearing import RACES
 
@@ -89,7 +89,7 @@ class Benchmark:
         )
 
 
-def run(benchmark: Benchmark, told: Told = NOBODY) -> tuple[dict[str, Any], list[Tested]]:
+def run(benchmark: Benchmark, listener: Listener = NOBODY) -> tuple[dict[str, Any], list[Tested]]:
     """The results, with the Scores of each model, and what was said of every record; raises BadInput."""
     began = time.monotonic()
     if is_saved(benchmark.train):
@@ -102,29 +102,31 @@ def run(benchmark: Benchmark, told: Told = NOBODY) -> tuple[dict[str, Any], list
         if labels is not None:
             learned = learned_machines(Corpus(benchmark.train), labels["record"].to_numpy(np.int64))
         chosen = [_tested_records(folder, learned) for folder in benchmark.tests]
-        trained = _learn(benchmark, labels, learned, told)
+        trained = _learn(benchmark, labels, learned, listener)
     if benchmark.save is not None:
         save_trained(benchmark.save, trained)
     results: dict[str, Any] = {"train": str(benchmark.train), "options": benchmark.asked.to_dict()} | trained.facts
     tested = []
     results["tests"] = []
     for folder, records in zip(benchmark.tests, chosen, strict=True):
-        found, summary = _test(benchmark, folder, records, trained, told)
+        found, summary = _test(benchmark, folder, records, trained, listener)
         tested.append(found)
         results["tests"].append(summary)
     results["seconds"] = time.monotonic() - began
     return results, tested
 
 
-def _learn(benchmark: Benchmark, labels: pandas.DataFrame | None, learned: Learned | None, told: Told) -> Trained:
+def _learn(
+    benchmark: Benchmark, labels: pandas.DataFrame | None, learned: Learned | None, listener: Listener
+) -> Trained:
     """What is learned from the records with these labels, of the machines `learned`; from impulse trains if None."""
-    training = _learned_from(benchmark, labels, told)
+    training = _learned_from(benchmark, labels, listener)
     rule = train_rule(training)
-    own_input = _own_input(benchmark, training, labels, told)
+    own_input = _own_input(benchmark, training, labels, listener)
     # It copies the user's estimator, which is as it was made only before it learns.
-    curve = _curve(benchmark, own_input, told)
-    models = _models(benchmark, own_input, told)
-    told.step("importances of the features")
+    curve = _curve(benchmark, own_input, listener)
+    models = _models(benchmark, own_input, listener)
+    listener.step("importances of the features")
     facts: dict[str, Any] = {
         "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
         "rule_threshold": rule.threshold,
@@ -148,40 +150,44 @@ def _training_labels(benchmark: Benchmark) -> pandas.DataFrame | None:
     return training_records(benchmark.train, also_tested, benchmark.learning.first)
 
 
-def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, told: Told) -> TrainingSet:
+def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, listener: Listener) -> TrainingSet:
     reading, workers = benchmark.training_reading(), benchmark.workers
     if labels is None:
-        told.say("learning from plain impulse trains")
+        listener.say("learning from plain impulse trains")
         ingredients = ingredients_of(benchmark.train) or Ingredients()
-        count = told.counting("impulse trains")
+        count = listener.counting("impulse trains")
         return impulse_training(ingredients, reading, workers, benchmark.learning.first, count)
-    told.say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
-    return training_set(benchmark.train, labels, reading, workers, told.counting(f"features of {benchmark.train.name}"))
+    listener.say(f"learning from {len(labels)} records of {labels['bearing_id'].nunique()} virtual bearings")
+    return training_set(
+        benchmark.train, labels, reading, workers, listener.counting(f"features of {benchmark.train.name}")
+    )
 
 
-def _own_input(benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None, told: Told) -> TrainingSet:
+def _own_input(
+    benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None, listener: Listener
+) -> TrainingSet:
     """What the models learn from: the same records as raw windows where the user's estimator takes those."""
     if labels is None or not benchmark.learning.takes_windows:
         return training
-    raw = _windows(benchmark, benchmark.train, labels, told)
+    raw = _windows(benchmark, benchmark.train, labels, listener)
     return joined_labels(raw, labels)
 
 
-def _curve(benchmark: Benchmark, training: TrainingSet, told: Told) -> dict[str, Any]:
+def _curve(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> dict[str, Any]:
     if not benchmark.learning_curve:
         return {}
     asked = benchmark.learning
     found = learning_curve(
-        training, asked.learner, benchmark.own, asked.takes_windows, asked.estimator or "", told.step
+        training, asked.learner, benchmark.own, asked.takes_windows, asked.estimator or "", listener.step
     )
     return {"learning_curve": found}
 
 
-def _models(benchmark: Benchmark, training: TrainingSet, told: Told) -> list[Model]:
+def _models(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> list[Model]:
     asked = benchmark.learning
     if benchmark.own is None:
-        return train_models(training, asked.learner, told.step)
-    told.step(f"learning: {asked.estimator}")
+        return train_models(training, asked.learner, listener.step)
+    listener.step(f"learning: {asked.estimator}")
     return [train_own(training, benchmark.own, asked.takes_windows, asked.estimator or "")]
 
 
@@ -190,23 +196,25 @@ def _tested_records(folder: Path, learned: Learned | None) -> pandas.DataFrame:
 
 
 def _test(
-    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, told: Told
+    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, listener: Listener
 ) -> tuple[Tested, dict[str, Any]]:
     imported = bool(Corpus(folder).manifest.imported)
     if imported:
         write_line(folder, {"began": benchmark.asked.to_dict(), "train": str(benchmark.train)})
-    told.say(f"testing on {len(labels)} records of {folder}")
-    rows = _rows(folder, labels, benchmark.reading(), benchmark.workers, told.counting(f"features of {folder.name}"))
+    listener.say(f"testing on {len(labels)} records of {folder}")
+    rows = _rows(
+        folder, labels, benchmark.reading(), benchmark.workers, listener.counting(f"features of {folder.name}")
+    )
     raw = None
     if benchmark.learning.takes_windows:
-        raw = _windows(benchmark, folder, labels, told)
+        raw = _windows(benchmark, folder, labels, listener)
     tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, imported, raw)
     summary = summarise(tested)
     noise_tells = imported and np.isin(tested.truth, RACES).any()
     levels = benchmark.scoring.levels if noise_tells else ()
     if benchmark.scoring.levels and not noise_tells:
-        told.say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
-    summary["noise"] = [_noisy(benchmark, folder, labels, trained, level, told) for level in levels]
+        listener.say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
+    summary["noise"] = [_noisy(benchmark, folder, labels, trained, level, listener) for level in levels]
     if imported:
         log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), summary["models"])
     return tested, summary
@@ -216,21 +224,21 @@ def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int
     return read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers, count)
 
 
-def _windows(benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, told: Told) -> Rows:
+def _windows(benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, listener: Listener) -> Rows:
     records = labels["record"].to_numpy(np.int64)
-    return read_windows(folder, records, benchmark.window_rate, told.counting(f"windows of {folder.name}"))
+    return read_windows(folder, records, benchmark.window_rate, listener.counting(f"windows of {folder.name}"))
 
 
 def _noisy(
-    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, level: float, told: Told
+    benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, level: float, listener: Listener
 ) -> dict[str, Any]:
     """Scores with white noise of that level (signal over noise, dB) added, all draws pooled."""
     draws = benchmark.scoring.noise_draws
-    told.say(f"testing on {folder} with noise at {level:g} dB, {draws} draws")
+    listener.say(f"testing on {folder} with noise at {level:g} dB, {draws} draws")
     pooled = []
     for draw in range(draws):
         reading = replace(benchmark.reading(), noise_db=level, noise_draw=draw)
-        count = told.counting(f"{level:g} dB, draw {draw + 1} of {draws}")
+        count = listener.counting(f"{level:g} dB, draw {draw + 1} of {draws}")
         rows = _rows(folder, labels, reading, benchmark.workers, count)
         pooled.append(judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, True))
     joined = pooled_draws(pooled)

@@ -52,8 +52,8 @@ def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Pat
 
     subject = find_subject(source, record)
     folder = results_folder(out)
-    with steps_told() as tell:
-        measured = measure(subject, quick, rounds, tell)
+    with steps_told() as listener:
+        measured = measure(subject, quick, rounds, listener.step)
     from datagen.drawing.work_precision import work_precision_png
 
     return write_files(folder, subject.name, work_precision_png(measured), measured, chart_table(measured)), measured
@@ -66,7 +66,7 @@ def _stability(out: Path) -> tuple[list[Path], object]:
     from datagen.runs.progress import steps_told
 
     folder = results_folder(out)
-    with steps_told() as tell:
-        maps = stability_maps(tell)
+    with steps_told() as listener:
+        maps = stability_maps(listener.step)
     found = facts(maps)
     return write_files(folder, "stability_maps", stability_sheets(maps), found), found

@@ -88,10 +88,9 @@ def classify(
 def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
     from datagen.benchmark.classify import run
     from datagen.runs.progress import steps_told
-    from datagen.telling import Told
 
-    with steps_told() as tell:
-        results, _ = run(benchmark, Told(tell.say, tell))
+    with steps_told() as listener:
+        results, _ = run(benchmark, listener)
     if out is not None:
         from datagen.benchmark.model_scores import report
         from datagen.benchmark.predictions import prediction_table

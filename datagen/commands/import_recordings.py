@@ -27,8 +27,8 @@ def import_recordings(
     from datagen.recordings.spec import load_spec
     from datagen.runs.progress import steps_told
 
-    with steps_told() as tell:
-        done = bring(load_spec(spec), out, root, tell)
+    with steps_told() as listener:
+        done = bring(load_spec(spec), out, root, listener.step)
     write_json(json_file, done)
     _tell(done)
 

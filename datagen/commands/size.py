@@ -48,14 +48,12 @@ def size(
     from datagen.sizing.known_sizes import parse_known_sizes
     from datagen.sizing.report import write_report
     from datagen.sizing.score import score_sizes
-    from datagen.telling import Told
 
     if out is not None:
         require_results_folder(out)
     sizes = parse_known_sizes(known_size or ())
-    with steps_told() as tell:
-        count = Told(tell.say, tell).counting("sizes")
-        scores = score_sizes(folder, estimator, load_known, split, workers, sizes, count)
+    with steps_told() as listener:
+        scores = score_sizes(folder, estimator, load_known, split, workers, sizes, listener.counting("sizes"))
     write_json(json_file, flat_scores(scores))
     if out is not None:
         from datagen.drawing.size_report import size_report_png

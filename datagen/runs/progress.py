@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
+from datagen.telling import Listener
+
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
@@ -112,7 +114,7 @@ class Steps:
         self._on_terminal = sys.stderr.isatty()
         self._last_line = -math.inf
 
-    def __call__(self, step: str) -> None:
+    def step(self, step: str) -> None:
         """Tell the step."""
         now = self._clock()
         if self._on_terminal:
@@ -133,11 +135,11 @@ class Steps:
 
 
 @contextmanager
-def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Steps]:
-    """What tells the steps of the block; the changing line is gone afterwards."""
+def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Listener]:
+    """Who hears of the block's steps and tells them; the changing line is gone afterwards."""
     steps = Steps(clock)
     try:
-        yield steps
+        yield Listener(steps.say, steps.step)
     finally:
         steps.clear()
 

@@ -18,13 +18,17 @@ from datagen.formats.csv_layout import CsvLayout
 
 Array = NDArray[np.float64]
 DELIMITERS = (";", "\t", "|", ",", BLANKS)
+DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+WHOLE_NUMBER = re.compile(r"[-+]?\d+")
+# How compressed and packed files begin: gzip, zip (spreadsheets too), 7z, rar.
+PACKED = (b"\x1f\x8b", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
 
 
 class Columns(dict[str, Array]):
     """The columns of a table by name, NaN where a cell is no number: one is refused for them only where it is used.
 
     `odd` holds line and text of the first cell of each column that is no finite number; `hint` is a closing remark for
-    messages where whole rows seem to have been taken for one cell each, else empty.
+    messages where the table seems to have another layout, else empty.
     """
 
     def __init__(self, columns: dict[str, Array], odd: dict[str, tuple[int, str]], hint: str = "") -> None:
@@ -34,6 +38,7 @@ class Columns(dict[str, Array]):
 
 def read_csv(path: Path, layout: CsvLayout) -> Columns:
     """The columns of a text table by name ("1", "2", … without a header); raises BadInput with the line."""
+    _refuse_packed(path)
     try:
         clean = _clean_table(path, layout)
         if clean is not None:
@@ -44,6 +49,12 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
             "is no text in this encoding", str(path), "csv.encoding", layout.encoding,
             'that of the file, such as "latin-1" or "utf-16"',
         ) from None  # fmt: skip
+
+
+def _refuse_packed(path: Path) -> None:
+    with path.open("rb") as file:
+        if file.read(max(map(len, PACKED))).startswith(PACKED):
+            raise BadInput("is compressed or packed, and no text", str(path), allowed="the file as text, unpacked")
 
 
 def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
@@ -72,7 +83,7 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     if len(names) != table.shape[1] or not np.isfinite(table[:, :last] if converters else table).all():
         return None
     odd = {names[last]: (line, cells[last])} if converters else {}
-    return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd)
+    return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, _headless_hint(names, layout))
 
 
 def _nothing(cell: str) -> float:
@@ -105,10 +116,14 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
     names = _names(path, rows[0], layout, len(rows[0][1]))
     if layout.header:
         rows = rows[1:]
+    if rows:
+        _refuse_split_numbers(path, *rows[0], layout)
     for line, row in rows:
         if len(row) != len(names):
             hint = _hint(layout.delimiter.join(row), layout) if len(names) == 1 else ""
-            raise BadInput(f"{len(row)} cells, but the table has {len(names)} columns{hint}", f"{path}, line {line}")
+            problem = f"{len(row)} cells, but the table has {len(names)} columns{hint}"
+            allowed = "" if hint else "as many in every row; csv.skip_lines leaves out what is above the table"
+            raise BadInput(problem, f"{path}, line {line}", allowed=allowed)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
     first = {name: int(np.argmin(np.isfinite(numbers))) for name, numbers in columns.items() if numbers.size}
     odd = {
@@ -116,8 +131,41 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         for name, k in first.items()
         if not math.isfinite(columns[name][k])
     }
-    hint = _hint(odd[names[0]][1], layout) if len(names) == 1 and odd else ""
+    hint = _headless_hint(names, layout) or _decimal_hint([cell for _, cell in odd.values()], layout)
+    if len(names) == 1 and odd:
+        hint = _hint(odd[names[0]][1], layout) or hint
     return Columns(columns, odd, hint)
+
+
+def _refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayout) -> None:
+    """Refuse a `row` that was parted at the decimal commas of its numbers, of which some cells would hold a half."""
+    if layout.delimiter != ",":
+        return
+    whole = ",".join(row)
+    for sign in DELIMITERS:
+        cells = [cell.strip() for cell in (whole.split() if sign == BLANKS else whole.split(sign)) if cell.strip()]
+        broken = [cell for cell in cells if DECIMAL_COMMA.fullmatch(cell)]
+        numbers = len(broken) + sum(bool(WHOLE_NUMBER.fullmatch(cell)) for cell in cells)
+        # Blanks part words too: among them one number with a comma proves nothing.
+        if sign != "," and numbers == len(cells) > 1 and len(broken) > (sign == BLANKS):
+            raise BadInput(
+                "these commas seem to be those of decimals"
+                f'; did you mean csv = {{delimiter = {json.dumps(sign)}, decimal = ","}}?',
+                f"{path}, line {line}", "csv.delimiter", ",",
+            )  # fmt: skip
+
+
+def _headless_hint(names: list[str], layout: CsvLayout) -> str:
+    """A remark for a table whose column names are all numbers; empty for any other."""
+    if not layout.header or not all(math.isfinite(_number(name.replace(layout.decimal, "."))) for name in names):
+        return ""
+    return "; did you mean csv = {header = false}?"
+
+
+def _decimal_hint(cells: list[str], layout: CsvLayout) -> str:
+    """A remark where a cell that is no number would be one with a decimal comma; empty for any other."""
+    found = layout.delimiter != "," and any(DECIMAL_COMMA.fullmatch(cell.strip()) for cell in cells)
+    return '; did you mean csv = {decimal = ","}?' if found else ""
 
 
 def _hint(row: str, layout: CsvLayout) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 from collections.abc import Callable
 from pathlib import Path
 
@@ -49,7 +50,8 @@ def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, t
         (
             ["a;b", *("0,25;1,5" for _ in ROWS)],
             'csv = {delimiter = ";"}',
-            'line 2: y = "a": 50 of 50 cells are not finite numbers, the first is "0,25"',
+            'line 2: y = "a": 50 of 50 cells are not finite numbers, the first is "0,25"'
+            '; did you mean csv = {decimal = ","}?',
         ),
         (
             [row.replace(",", "\t") for row in ["1,2"] * 50],
@@ -164,3 +166,56 @@ def test_a_number_that_a_table_does_not_hold_is_told_with_line_and_cell(
     (tmp_path / "a.csv").write_text("\n".join(["a,Zeit", *rows]))
     with pytest.raises(BadInput, match=told):
         bring(SPEC.replace("rate_hz = 1000", setting))
+
+
+DECIMAL_COMMAS = {
+    "semicolons": ("0,25;-1,5", "", '{delimiter = ";", decimal = ","}'),
+    "whole numbers too": ("7;-1,5;3", "", '{delimiter = ";", decimal = ","}'),
+    "tabulators": ("0,25\t1,5e-3", "", '{delimiter = "\\t", decimal = ","}'),
+    "blanks": ("0,25  1,5", "", '{delimiter = " ", decimal = ","}'),
+    "a header with as many commas": ("0,25;1,5", "time, s;acc, g", '{delimiter = ";", decimal = ","}'),
+}
+
+
+@pytest.mark.parametrize("case", DECIMAL_COMMAS)
+def test_a_table_is_refused_whose_decimal_commas_part_it(case: str, bring: Bring, tmp_path: Path) -> None:
+    row, header, meant = DECIMAL_COMMAS[case]
+    (tmp_path / "a.csv").write_text("\n".join([header] * bool(header) + [row] * 50))
+    name = "time" if header else "1"
+    spec = SPEC.replace('y = "a"', f'y = "{name}"') + f"csv = {{header = {str(bool(header)).lower()}}}\n"
+    with pytest.raises(BadInput) as refused:
+        bring(spec)
+    line = 2 if header else 1
+    assert str(refused.value) == (
+        f'{tmp_path / "a.csv"}, line {line}: csv.delimiter = ",": these commas seem to be those of decimals'
+        f"; did you mean csv = {meant}?"
+    )
+
+
+@pytest.mark.parametrize("row", ["10 30,5", "0.5, 1.5", "a;b,1.5", "2,3"])
+def test_a_table_whose_commas_part_cells_is_read(row: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join([row] * 50))
+    spec = SPEC.replace('y = "a"', 'y = "2"') + "csv = {header = false}\n"
+    assert bring(spec).waveform(0, "acceleration")[0, 0] == pytest.approx(9.80665 * float(row.split(",")[1]))
+
+
+def test_a_header_of_numbers_is_taken_for_the_first_row(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(ROWS))
+    with pytest.raises(
+        BadInput, match=r'y = "1": the file has no such variable; did you mean csv = \{header = false\}'
+    ):
+        bring(SPEC.replace('y = "a"', 'y = "1"'))
+
+
+def test_lines_above_the_header_come_with_a_way_out(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["date 2024", "a,b", *ROWS]))
+    with pytest.raises(BadInput, match=r"line 2: 2 cells, but the table has 1 columns; allowed: .*csv\.skip_lines"):
+        bring(SPEC)
+    assert len(bring(SPEC + "csv = {skip_lines = 1}\n")) == 1
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
+def test_a_compressed_table_is_called_so(encoding: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(gzip.compress("\n".join(["a,b", *ROWS]).encode()))
+    with pytest.raises(BadInput, match=r"a\.csv: is compressed or packed, and no text; allowed: the file as text"):
+        bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')

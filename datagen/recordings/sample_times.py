@@ -17,13 +17,15 @@ DIGITS = 9
 def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
     """Sampling rate, Hz, of samples at evenly spaced `times` (T,), s, or with the one step between them.
 
-    Raises BadInput naming file and variable if they do not rise evenly.
+    Of the rates that written times allow it is the one with the fewest digits, as each file of a set is rounded
+    differently and all have one rate. Raises BadInput naming file and variable if they do not rise evenly.
     """
+    beside = 0.0
     if times.size == 1:
         step = float(times.ravel()[0])
     elif times.ndim == 1:
         step = float(times[-1] - times[0]) / (times.size - 1)
-        beside = np.abs(times - times[0] - step * np.arange(times.size)).max()
+        beside = float(np.abs(times - times[0] - step * np.arange(times.size)).max())
         if beside > max(2.0 * abs(step), ROUNDING * abs(step) * times.size):
             raise BadInput(
                 "these times are not evenly spaced", str(path), "rate_hz", wish, "one step between all samples"
@@ -32,4 +34,10 @@ def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
         step = 0.0
     if step <= 0.0:
         raise BadInput("is no column of rising times", str(path), "rate_hz", wish, "times or their step, s")
-    return float(f"{1.0 / step:.{DIGITS}g}")
+    return _roundest(step, 2.0 * beside / max(times.size - 1, 1))
+
+
+def _roundest(step: float, off: float) -> float:
+    """The rate, Hz, with the fewest digits whose step, s, is no more than `off` from `step`."""
+    rates = [float(f"{1.0 / step:.{digits}g}") for digits in range(1, DIGITS + 1)]
+    return next((rate for rate in rates if abs(1.0 / rate - step) <= off), rates[-1])

@@ -37,6 +37,18 @@ def test_rounded_times_give_the_rate_as_well_as_their_ends_say() -> None:
     assert rate_of(times.round(3), Path("a.csv"), "t") == pytest.approx(25_600.0, rel=1e-3)
 
 
+@pytest.mark.parametrize("start", [0.0, 3.5e-5, 12.345, 1.7e9])
+@pytest.mark.parametrize("rate", [12_000.0, 25_600.0, 48_828.125])
+def test_rounded_times_of_all_files_of_a_set_give_one_rate(start: float, rate: float) -> None:
+    times = (start + np.arange(60_000) / rate).round(6)
+    assert rate_of(times, Path("a.csv"), "t") == pytest.approx(rate, rel=0.0 if rate < 48_000.0 else 5e-6)
+
+
+@pytest.mark.parametrize("rate", [12_000.0, 25_617.25, 48_828.125])
+def test_exact_times_give_every_digit_of_a_rate(rate: float) -> None:
+    assert rate_of(np.arange(60_000) / rate, Path("a.npy"), "t") == rate
+
+
 @pytest.mark.parametrize(
     ("times", "told"),
     [

@@ -28,6 +28,11 @@ class _Members(Mapping[str, NDArray[Any]]):
             with np.load(self.path) as file:
                 return np.asarray(file[name])
         except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
+            if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
+                raise BadInput(
+                    f"its array {name} holds Python objects, which are not read", str(self.path),
+                    allowed="arrays of numbers, each channel or recording one of its own",
+                ) from None  # fmt: skip
             raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
 
     def __iter__(self) -> Iterator[str]:

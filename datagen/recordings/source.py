@@ -74,9 +74,9 @@ class Source:
             raise BadInput(f"holds {found.dtype} and not real numbers", str(self.path), field, wish)
         if found.ndim != 1:
             shape = "x".join(map(str, found.shape)) or "one number"
-            raise BadInput(
-                f"is no single channel ({shape})", str(self.path), field, wish, 'one column, as in "NAME[:,0]"'
-            )
+            lying = found.ndim == 2 and found.shape[0] < found.shape[1]
+            allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'
+            raise BadInput(f"is no single channel ({shape})", str(self.path), field, wish, allowed)
         if found.size < FEWEST_STORED_SAMPLES:
             raise BadInput(
                 f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_STORED_SAMPLES} samples"

@@ -12,6 +12,8 @@ from pathlib import Path
 
 CPU_INFO = Path("/proc/cpuinfo")
 PACKAGES = ("spallgen", "numpy", "scipy", "numba", "xarray", "netCDF4")
+# The packages, each without those inside it, that draw, describe and store records, simulated or imported. A test
+# follows the imports and asserts that none is missing; what draws pictures of records or judges them is not of these.
 CORPUS_CODE = (
     "labels",
     "labels/features",
@@ -27,8 +29,6 @@ CORPUS_CODE = (
     "datagen/scenarios",
     "datagen/settings",
 )
-"""The packages, each without those inside it, that draw, describe and store records, simulated or imported. A test
-follows the imports and asserts that none is missing; what draws pictures of records or judges them is not of these."""
 MACHINE_FACTS = ("machine", "processor", "cores", "physics")
 
 

@@ -19,8 +19,8 @@ from datagen.recipes.recipe_files import find_recipe
 
 FULL = "full recipe"
 NOISE = ("--noise-db", "-10", "--noise-draws", "1")
+# Records of `transfer` that are scored and never learned from: sixteen whole virtual machines.
 HELD_OUT = range(800, 864)
-"""Records of `transfer` that are scored and never learned from: sixteen whole virtual machines."""
 Part = dict[str, Any]
 
 
@@ -49,6 +49,7 @@ def without_unequal_balls(part: Part) -> None:
     part["imperfections"] |= {"ball_deviation_um": 0, "ball_deviation_scale": 0}
 
 
+# Recipes by name, each by what it changes in the part of `transfer`.
 CORPORA: dict[str, Callable[[Part], None]] = {
     FULL: lambda part: None,
     "without shaft modulation": without_shaft_modulation,
@@ -57,7 +58,6 @@ CORPORA: dict[str, Callable[[Part], None]] = {
     "without machine backgrounds": without_backgrounds,
     "without unequal balls": without_unequal_balls,
 }
-"""Recipes by name, each by what it changes in the part of `transfer`."""
 
 
 def held_out(out: Path) -> Path:

@@ -37,11 +37,11 @@ if TYPE_CHECKING:
 
 PAGE = Path(__file__).with_name("transfer.md")
 SEED, WORKERS = 20261122, 2
+# Seconds after which a knock has died away.
 RINGS_FOR = 0.02
-"""Seconds after which a knock has died away."""
 Signal = NDArray[np.float64]
+# Samples (T, A), their rate (Hz), and what the stated speed is multiplied by.
 Recorded = tuple[Signal, float, float]
-"""Samples (T, A), their rate (Hz), and what the stated speed is multiplied by."""
 
 
 def cut(signal: Signal, rate: float, random: np.random.Generator, seconds: float) -> Recorded:

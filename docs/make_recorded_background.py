@@ -21,8 +21,8 @@ from datagen.recipes.recipe_files import find_recipe
 
 RATIO_DB = {"uniform": [-15, 25]}
 DURATIONS = {"choice": [0.4, 0.9]}
+# Highest resonance, as a share of the rate.
 HIGHEST = 0.45
-"""Highest resonance, as a share of the rate."""
 
 
 def limited(setting: dict[str, list[float]], rate: float) -> dict[str, list[float]]:

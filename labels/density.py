@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 
 def power_density(signal: Array, rate: float, resolution: float) -> tuple[Array, Array]:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
 from labels.spectrum import amplitude_spectrum
+from physics.arrays import Array
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.rig import Rig
 
-Array = NDArray[np.float64]
 Band = tuple[float, float]
 
 BAND_SHARE = 0.05

@@ -8,10 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.scene import Scene
 from physics.statics.ball_load import ball_load
-
-Array = NDArray[np.float64]
 
 SAMPLES_PER_PASS = 400
 # The load without spalls has no edges: a tenth of the instants tells it, unless waves are shorter than that.

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
+
 Band = tuple[float, float]
 
 # Share of a signal's power that rounding leaves in a band where it has none.

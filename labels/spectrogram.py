@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 SHARE_OF_SPAN = 0.04
 FEWEST_WINDOW_SAMPLES = 48

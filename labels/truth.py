@@ -8,14 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.load_dips import load_dips
+from physics.arrays import Array, Flags
 from physics.contact_events import contact_events
 from physics.paths.passages import Passages, passages
 from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.trace import ContactChanges
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Index = NDArray[np.int16]
 
 

@@ -6,8 +6,8 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array, Index
 from physics.cage import CagePath
 from physics.contact.forces import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, LANES, PLACE, SINE, Contacts, Law
 from physics.contact.track import (
@@ -29,9 +29,6 @@ from physics.imperfections import Waviness
 from physics.paths.depth_path import DepthPath, paths_of
 from physics.paths.profile import build_path
 from physics.scene import Scene
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 PADDING_GAP = 1.0
 WAVINESS_CELLS_PER_WAVE = 48

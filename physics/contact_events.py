@@ -6,10 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array, Flags
 from physics.trace import ContactChanges
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 def contact_events(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig, eigh
 
+from physics.arrays import Array
 from physics.cage import CagePath
 from physics.checks import require
 from physics.operation import Operation
@@ -16,8 +17,6 @@ from physics.rig import Rig
 from physics.scene import Scene
 from physics.statics.load_distribution import equilibrium
 from physics.statics.stiffness import matrix
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_lean
+from physics.arrays import Array
 from physics.contact.turning import cosine_sine
 from physics.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 class MotionModel(NamedTuple):

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics.freed_memory import keep_freed_memory
 from physics.integrators.methods import METHODS, MODAL, REFERENCE
@@ -26,8 +25,6 @@ from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import carried
 from physics.trace import ACCELERATION_ALONE, Kept, Trace
-
-Array = NDArray[np.float64]
 
 SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
 GIVEN_STEPS = "exponential_rk4"

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.own_code import FIELD, own_code
 from labels.classifier.classes import CLASSES
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
+# By how much probabilities that somebody else rounded may leave the range 0 to 1 or miss a sum of 1.
 ROUNDING = 1e-3
-"""By how much probabilities that somebody else rounded may leave the range 0 to 1 or miss a sum of 1."""
 ALLOWED = f"names or probabilities of {', '.join(CLASSES)}"
 
 

@@ -9,16 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
 from labels.features.kinematics import Kinematics
 from labels.schema import LOCATIONS
+from physics.arrays import Array
 from physics.orders import ball_spin_order
 
-Array = NDArray[np.float64]
+# Lengths (s) and their shares, as in the transfer recipe.
 DURATIONS, SHARES = (0.4, 0.8, 2.0, 10.0), (4 / 12, 4 / 12, 3 / 12, 1 / 12)
-"""Lengths (s) and their shares, as in the transfer recipe."""
 PURPOSES = ("duration", "bearing", "paths", "floor", "noise", "background", "impulses")
 
 

@@ -16,8 +16,8 @@ from labels.classifier.scores import Interval, balanced_accuracy, bootstrap
 
 SHARES = (0.125, 0.25, 0.5, 1.0)
 HELD_OUT = 0.25
+# Virtual bearings that the first point of a curve is learned from, or all where there are fewer.
 FEWEST_AT_A_POINT = 10
-"""Virtual bearings that the first point of a curve is learned from, or all where there are fewer."""
 SEED = 31
 
 

@@ -21,7 +21,7 @@ from datagen.telling import Count, unheard
 from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
-from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES_USED, Array
+from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES_USED
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
 from labels.features.shocks import without_shocks
@@ -29,13 +29,14 @@ from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning
 from labels.noise import with_white_noise
 from labels.variables import SHAFT_ANGLE
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     import pandas
 
+# s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
+# grows with the length of what is looked at; so what is longer than anything learned from is cut, and the pieces vote.
 LONGEST_WINDOW = 10.5
-"""s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
-grows with the length of what is looked at; so what is longer than anything learned from is cut, and the pieces vote."""
 SHORTEST_COPY = 0.3
 NOISY_COPIES = 2
 RECORDS_A_TASK = 24

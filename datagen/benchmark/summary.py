@@ -24,8 +24,8 @@ from labels.classifier.scores import (
     exact_interval,
     paired_difference,
 )
-from labels.features.conditioning import Array
 from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
+from physics.arrays import Array
 from physics.bearing import RACES
 
 AGAINST = ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")

@@ -22,23 +22,23 @@ from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS
 from labels.classifier.rule import Rule, fit_rule
 from labels.classifier.spall_classifier import SpallClassifier
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     import pandas
 
+# Share by which the speed told of a record that is learned from is off at most.
 SPEED_ERROR = 0.02
-"""Share by which the speed told of a record that is learned from is off at most."""
+# Hz; the bandwidth of each row learned from is drawn between this and the record's own.
 LOWEST_BANDWIDTH = 5500.0
-"""Hz; the bandwidth of each row learned from is drawn between this and the record's own."""
+# dB; lowest and highest ratio of signal over noise in the noisy copies that are learned from.
 COPIES_DB = (-18.0, 12.0)
-"""dB; lowest and highest ratio of signal over noise in the noisy copies that are learned from."""
+# Virtual bearings; with fewer nothing is learned.
 FEWEST_BEARINGS = 4
-"""Virtual bearings; with fewer nothing is learned."""
+# Rows that an estimator is asked about at once, so that memory does not grow with the corpus.
 ROWS_AT_A_TIME = 2048
-"""Rows that an estimator is asked about at once, so that memory does not grow with the corpus."""
+# Rows that a user's estimator is asked about once fitted, so that what it gets wrong is told before scoring.
 ROWS_TO_TRY = 8
-"""Rows that a user's estimator is asked about once fitted, so that what it gets wrong is told before scoring."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from datagen.benchmark.votes import averaged, joined
 from labels.classifier.classes import called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule
-from labels.features.conditioning import Array
 from labels.schema import LOCATIONS
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     import pandas

@@ -13,7 +13,7 @@ from scipy import fft
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.telling import Count, unheard
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 WINDOW_SAMPLES = 4096
 MOST_WINDOWS = 8

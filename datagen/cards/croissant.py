@@ -32,8 +32,8 @@ CONTEXT: dict[str, Any] = {
     "source": "cr:source",
 }
 TYPES = {"str": "sc:Text", "float64": "sc:Float", "int64": "sc:Integer", "bool": "sc:Boolean"}
+# By version 1.0, beside what every corpus has; version is recommended.
 REQUIRED = ("license", "url", "creator", "datePublished")
-"""By version 1.0, beside what every corpus has; version is recommended."""
 INDEX, SHARDS = "index.csv", "shards"
 
 

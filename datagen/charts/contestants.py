@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.charts.response import Response, of_states, of_trace
+from physics.arrays import Array
 from physics.integrators.methods import MARCHES, METHODS, REFERENCE
 from physics.integrators.rivals.general_purpose import (
     BALL_BY_BALL,
@@ -29,7 +29,6 @@ from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
 
-Array = NDArray[np.float64]
 Raw = object
 
 METHOD, MODEL, COMPILED, SCIPY = "method", "model", "compiled solver", "SciPy solver"

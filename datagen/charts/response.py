@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.integrators.reference.equations import contact_set, write_equations
 from physics.ladder.contact_sets import changes_between_samples
 from physics.motion import motion_model, resonator_acceleration
 from physics.scene import Scene
 from physics.trace import ContactChanges, Trace
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

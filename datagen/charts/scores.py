@@ -6,18 +6,16 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.charts.response import Response
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import line_amplitude
 from labels.truth import PassTable, ball_passes
+from physics.arrays import Array
 from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.stiffness import stiffness_at
 from physics.trace import ContactChanges
-
-Array = NDArray[np.float64]
 
 SCORED_FROM = 0.1
 FEWEST_PASSES = 3.0

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
+from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
 from physics.integrators.methods import MARCHES, METHODS, MODAL
@@ -24,8 +24,6 @@ from physics.response.stability import longest_stable_step, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.load_distribution import equilibrium
-
-Array = NDArray[np.float64]
 
 RATE, DURATION = 65536.0, 0.04
 # Steps of 8 samples to 1/16 of one: samples a step above one, steps a sample below.

@@ -18,10 +18,10 @@ from typer.core import TyperGroup
 from datagen.errors import BadInput
 from datagen.spelling import nearest
 
+# What typer raises for any command line that it cannot read; some of its versions bring their own click.
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
-"""What typer raises for any command line that it cannot read; some of its versions bring their own click."""
+# What shells say of a program that SIGPIPE ended, which Python ignores: 128 + 13.
 OUTPUT_CLOSED = 141
-"""What shells say of a program that SIGPIPE ended, which Python ignores: 128 + 13."""
 KINDS = {int: "a whole number", float: "a number", Path: "a path", str: "a text"}
 
 

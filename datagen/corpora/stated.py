@@ -8,8 +8,8 @@ from dataclasses import fields
 from typing import Any, TypeVar
 
 LARGEST = 2**53
+# What comes of reading JSON that is damaged, or not what it should be.
 UNREADABLE = (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
-"""What comes of reading JSON that is damaged, or not what it should be."""
 Row = TypeVar("Row")
 
 

@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, outside_legend
 from labels.envelope import squared_envelope_spectrum
 from labels.spectrum import amplitude_spectrum
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
 
 HARMONICS = 6
 CURSOR_TOLERANCE = 0.012

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
 from datagen.drawing.close_up import CloseUp
@@ -18,8 +17,7 @@ from labels.features.turning import Turning
 from labels.kurtogram import most_impulsive_band
 from labels.spectrum import amplitude_spectrum
 from labels.variables import AXES
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 REVOLUTIONS_SHOWN = 3.0
 SHOWN_WITHOUT_SPEED = 0.1

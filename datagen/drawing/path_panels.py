@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREY, INK, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
+from physics.arrays import Array
 from physics.cage import CagePath
 from physics.paths.profile import build_path, wrap
 from physics.scene import Scene
@@ -20,7 +20,6 @@ from physics.statics.load_distribution import equilibrium
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
 
 POINTS = 1201
 MARGIN = 0.35

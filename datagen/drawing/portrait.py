@@ -9,15 +9,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.close_up import CloseUp
 from labels.description import largest_spall
 from labels.truth import PassTable
+from physics.arrays import Array
 from physics.scene import Scene
 from physics.spall import Spall
-
-Array = NDArray[np.float64]
 
 PASSES_SHOWN = 3.0
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.corpora.manifest import manifest_path, read_manifest
 from datagen.errors import BadInput
@@ -17,6 +16,7 @@ from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable
 from labels.variables import SHAFT_ANGLE
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     import xarray
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from datagen.drawing.measured_portrait import MeasuredPortrait
     from datagen.drawing.portrait import Portrait
     from datagen.scenarios.scenario import Scenario
-
-Array = NDArray[np.float64]
 
 
 def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, MAP, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
 from labels.spectrogram import spectrogram
+from physics.arrays import Array
 from physics.modes import modes
 from physics.outcome import StaticOutcome
 from physics.rms import rms
@@ -23,7 +24,6 @@ DYNAMIC_RANGE_DB = 70.0
 MOST_NAMED_PASSES = 8
 MOST_BOLD_EVENTS = 12
 LEAST_STIFFNESS_SPAN = 2e-3  # of its value: less is not worth an axis
-Array = NDArray[np.float64]
 
 
 def draw_trace(axes: Axes, portrait: Portrait) -> None:

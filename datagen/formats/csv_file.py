@@ -10,13 +10,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import BLANKS, NotText, Row, open_text, read_csv_rows
 from datagen.formats.csv_layout import CsvLayout
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 DELIMITERS = (";", "\t", "|", ",", BLANKS)
 DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
 WHOLE_NUMBER = re.compile(r"[-+]?\d+")

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 COUNTED = ("condition", "location", "rig", "bearing", "profile", "contact_law", "split", "part")
 CROSSED = (("condition", "location"), ("condition", "split"), ("rig", "split"))
+# Of every HDF5 file. What a crash of the whole computer leaves may have the size of one and hold nothing but zeros.
 BEGINNING = b"\x89HDF\r\n\x1a\n"
-"""Of every HDF5 file. What a crash of the whole computer leaves may have the size of one and hold nothing but zeros."""
 
 
 @dataclass(frozen=True)

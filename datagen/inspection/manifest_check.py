@@ -14,8 +14,8 @@ from datagen.errors import BadInput
 if TYPE_CHECKING:
     from datagen.recipes.recipe import Recipe
 
+# What a manifest says that follows from the sidecars of the shards.
 SUMMED = ("failed", "bytes", "seconds", "refused")
-"""What a manifest says that follows from the sidecars of the shards."""
 
 
 def recipe_of(manifest: Manifest, folder: Path) -> tuple[Recipe | None, list[str]]:

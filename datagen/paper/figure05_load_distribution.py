@@ -13,6 +13,7 @@ from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, f
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import SHOWN_SEED, machine, reference_extended_spall, scene, wavy_extended_spall
+from physics.arrays import Array
 from physics.paths.profile import race_depth
 from physics.reference_scenes import BOTTOM, line_spall
 from physics.scene import Scene
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "figure5"
 CAGE_STEPS = 1200

@@ -13,6 +13,7 @@ from datagen.drawing.style import EXTENDED, HEALTHY, INK, LINE, PURPLE, faint_gr
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import SHOWN_SEED, machine, reference_extended_spall, scene, wavy_extended_spall
+from physics.arrays import Array
 from physics.reference_scenes import BOTTOM, line_spall
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
@@ -20,7 +21,6 @@ from physics.statics.load_distribution import equilibrium
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "figure6"
 COMPONENTS = ("kxx", "kyy", "kxy")

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.style import (
     BLUE,
@@ -25,6 +24,7 @@ from datagen.paper.chapter import Chapter, Row, beside
 from datagen.paper.panels import heading, legend_below, letter
 from datagen.paper.scenes import RATE, SHOWN_SEED, reference_extended_spall, scene, wavy_extended_spall
 from labels.truth import ball_passes
+from physics.arrays import Array
 from physics.reference_scenes import gap_line_spall, line_spall
 from physics.rms import rms
 from physics.scene import Scene
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "figure7"
 DURATION, SETTLED = 0.2, 0.05

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.style import GREEN, GREY, INK, LINE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
@@ -14,12 +13,12 @@ from datagen.paper.published import published_value
 from datagen.paper.recordings import CONDITIONS, SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, bpfo_hz, ftf_hz, scene, shaft_hz, signal, wavy_extended_spall
 from labels.density import velocity_density
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "figure8"
 RESOLUTION = 1.0

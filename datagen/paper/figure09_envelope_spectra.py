@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.style import INK, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
@@ -15,12 +14,12 @@ from datagen.paper.recordings import CONDITIONS, SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import line_amplitude
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 Band = tuple[float, float]
 
 NAME = "figure9"

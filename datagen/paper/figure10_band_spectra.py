@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.style import EXTENDED, GREY, INK, LINE, ORANGE, PALE, SKY, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
@@ -15,6 +14,7 @@ from datagen.paper.published import published_value
 from datagen.paper.recordings import SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine, scene, signal
 from labels.density import power_density
+from physics.arrays import Array
 from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.reference_scenes import line_spall
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "figure10"
 RESOLUTION = 1.0

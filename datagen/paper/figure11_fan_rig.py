@@ -17,6 +17,7 @@ from labels.density import power_density
 from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.spectrogram import spectrogram
 from labels.truth import PassTable, ball_passes
+from physics.arrays import Array
 from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import modes, rated_matrices
 from physics.reference_scenes import gap_line_spall, gradual_line_spall, line_spall
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "figure11"
 PAPER_BAND = (9200.0, 10200.0)

@@ -23,10 +23,9 @@ from datagen.paper.scenes import (
     waved_extended_spall,
     wavy_extended_spall,
 )
+from physics.arrays import Array
 from physics.reference_scenes import extended_spall
 from physics.spall import Spall
-
-Array = NDArray[np.float64]
 
 MICRON, MILLIMETRE = 1e-6, 1e-3
 MEAN_DEPTHS_UM = (4.0, 8.0)

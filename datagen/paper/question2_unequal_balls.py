@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from datagen.drawing.style import EXTENDED, GREY, INK, LINE, faint_grid
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
@@ -16,6 +15,7 @@ from datagen.paper.panels import heading, highest_near, letter, power_decibel, s
 from datagen.paper.scenes import ANALYSED, RATE, SHOWN_SEED, bpfo_hz, ftf_hz, machine, scene, signal
 from datagen.paper.scenes import wavy_extended_spall as extended_spall
 from labels.density import velocity_density
+from physics.arrays import Array
 from physics.imperfections import Imperfections
 from physics.reference_scenes import line_spall
 from physics.scene import Scene
@@ -23,7 +23,6 @@ from physics.scene import Scene
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
 
 NAME = "question2"
 DEVIATIONS_UM = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.drawing.style import BLUE, GREEN, INK, ORANGE, VERMILLION, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, letter
 from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, machine, scene, signal
 from labels.envelope import Band, band_envelope, squared_envelope_spectrum
+from physics.arrays import Array
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.reference_scenes import gradual_line_spall
 from physics.rms import rms
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 NAME = "question3"
 RIGS = ("gearbox", "fan")

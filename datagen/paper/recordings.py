@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from functools import cache
 
-import numpy as np
-from numpy.typing import NDArray
-
 from datagen.drawing.style import EXTENDED, HEALTHY, LINE, ORANGE
 from datagen.paper.scenes import SEEDS, SHOWN_SEED, reference_extended_spall, scene, signal, wavy_extended_spall
+from physics.arrays import Array
 from physics.reference_scenes import gap_line_spall, line_spall
 from physics.spall import Spall
-
-Array = NDArray[np.float64]
 
 CONDITIONS = {
     "healthy": (HEALTHY, "healthy"),

@@ -6,9 +6,9 @@ import math
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from physics.arrays import Array
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.imperfections import Imperfections
@@ -27,8 +27,6 @@ from physics.rig import Rig
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
-
-Array = NDArray[np.float64]
 
 RATE = 65536.0
 ANALYSED = 1.4

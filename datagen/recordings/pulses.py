@@ -6,18 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 HYSTERESIS = 0.1
+# Intervals whose median is the usual one.
 NEIGHBOURS = 9
-"""Intervals whose median is the usual one."""
+# An interval this near to two or more usual ones lacks pulses, two that are this near to one have a pulse too many: the
+# speed changes by no more than a tenth from turn to turn.
 NEAR_WHOLE = 0.2
-"""An interval this near to two or more usual ones lacks pulses, two that are this near to one have a pulse too many:
-the speed changes by no more than a tenth from turn to turn."""
+# Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does.
 MOST_A_TURN = 0.5
-"""Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does."""
+# Share of the pulses that may be lost or double; of a signal with more of them one cannot say that it is a tach's.
 MOST_MENDED = 0.1
-"""Share of the pulses that may be lost or double; of a signal with more of them one cannot say that it is a tach's."""
 
 
 def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:

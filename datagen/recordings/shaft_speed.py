@@ -25,8 +25,8 @@ FEWEST_PULSES = 3
 # A shaft that stays this near (turns) to one that turns evenly is steady. The fourth harmonic of balls that pass five
 # times a turn then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1
+# Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor.
 NOMINAL_WITHIN = 0.2
-"""Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor."""
 
 
 @dataclass(frozen=True)

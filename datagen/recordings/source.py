@@ -27,14 +27,14 @@ from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
 from datagen.recordings.listing import Request
 from datagen.recordings.sample_times import rate_of
 from datagen.recordings.values import RANGES, FromVariable, in_range
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 LONGEST_CELL = 40
 FILL = "fill"
+# What text tables have where a sample is missing.
 EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
-"""What text tables have where a sample is missing."""
+# Samples in a row, and the share of all, that may be missing and filled by straight lines.
 LONGEST_GAP, MOST_MISSING = 10, 0.01
-"""Samples in a row, and the share of all, that may be missing and filled by straight lines."""
 CONSTANT = ("rate_hz",)
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.optional import if_given
 from datagen.scenarios.scenario import Scenario
 from labels.noise import signal_to_noise
+from physics.arrays import Array
 from physics.backgrounds.gear_mesh import gear_mesh
 from physics.backgrounds.impulses import impulses
 from physics.backgrounds.mains_hum import mains_hum
@@ -17,7 +17,6 @@ from physics.backgrounds.pink import pink_noise
 from physics.backgrounds.shaft_harmonics import shaft_harmonics
 from physics.backgrounds.white import white_noise
 
-Array = NDArray[np.float64]
 Layers = dict[str, Array]
 
 

@@ -19,8 +19,8 @@ from datagen.scenarios.scenario import Scenario
 from labels.schema import LAYERS
 from labels.variables import AXES, COMPONENTS, SIGNALS
 
+# What a shard takes beside its signals: labels, tables, scenarios and the library's blocks.
 SHARD_BYTES = 250_000.0
-"""What a shard takes beside its signals: labels, tables, scenarios and the library's blocks."""
 
 
 @dataclass(frozen=True)

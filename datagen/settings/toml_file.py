@@ -9,8 +9,8 @@ from typing import Any
 
 from datagen.errors import BadInput
 
+# What a float still holds; settings have ranges of their own, far below.
 LARGEST_WHOLE = 10**300
-"""What a float still holds; settings have ranges of their own, far below."""
 RANGE = "whole numbers of up to 300 digits"
 
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
 from datagen.sizing.scored_record import ScoredRecord
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 RESAMPLES = 2000
 
 

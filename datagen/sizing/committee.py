@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.spall_size.trees import Trees
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 FOLDS = 3
 

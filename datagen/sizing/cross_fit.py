@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 TOLD_SHARES = (0.80, 0.85, 0.90, 0.95, 0.98)
 

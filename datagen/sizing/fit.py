@@ -17,7 +17,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import read_manifest
@@ -32,8 +31,7 @@ from datagen.sizing.training_rows import Trial, trials
 from datagen.sizing.trial_columns import TrialColumns
 from datagen.versions import measured_on, program_hash
 from labels.spall_size.calibration import Calibration, Judgement
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 SPLITS = ("train", "validation")
 BAD_INPUT = 2

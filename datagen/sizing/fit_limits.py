@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.sizing.cross_fit import CrossFit
 from datagen.sizing.trial_columns import TrialColumns
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 COVERAGE = 0.90
 ABSTENTION = 0.98

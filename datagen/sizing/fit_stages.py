@@ -13,8 +13,8 @@ from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.calibration import SMALLEST_SPREAD, Guess
 from labels.spall_size.measurement import LeadingPairs, leading_order, leading_pairs, measure
 from labels.spall_size.trees import Trees
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 Bearings = NDArray[np.str_]
 
 LARGEST_COST = 3.0  # of a lag told where there are no events

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.corpora.index import read_index
 from datagen.corpora.open_shards import OpenShards
@@ -19,11 +18,10 @@ from datagen.sizing.stated_situation import reason_against, situation_of, wrong_
 from datagen.sizing.stored_record import StoredRecord, stored_record
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
+from physics.arrays import Array
 
 if TYPE_CHECKING:
     import pandas
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

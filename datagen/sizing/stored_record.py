@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from labels.spall_size.event_truth import EventTruth, event_truth
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 PASS_COLUMNS = ("exit_time", "release_time", "regain_time", "fall_time", "rise_time")
 LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
 

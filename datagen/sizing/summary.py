@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
 from datagen.sizing.scored_record import CLEAN_DB, NO_SCORES, ScoredRecord
@@ -23,7 +22,6 @@ from labels.event_scores import EventScores
 from labels.spall_size.known_size import known_size_factor
 from labels.spall_size.size_estimate import Interval
 
-Array = NDArray[np.float64]
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
 
 

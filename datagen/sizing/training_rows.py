@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
 from datagen.sizing.in_blocks import in_blocks
@@ -21,8 +20,7 @@ from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence, gather_evidence
 from labels.spall_size.pairs import LONGEST_LAG
 from labels.spall_size.situation import Situation
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 LEVELS_DB = (20.0, 10.0, 5.0, 0.0)
 SHORTEST_LAG = 1.5  # samples

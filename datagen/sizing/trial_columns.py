@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.sizing.training_rows import Trial
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 SHORTEST_TOLD, SURELY_TOLD = 2.0, 3.0  # samples

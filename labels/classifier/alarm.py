@@ -15,16 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.classifier.log_odds import EDGE, logit, probability_of
-from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
+from physics.arrays import Array
 
 CLEARNESS = "median_band_kurtosis"
+# Values of that feature below which a record cannot be told from noise, and above which it is taken as clear.
 NOISE_LIKE, CLEAR = 0.02, 0.06
-"""Values of that feature below which a record cannot be told from noise, and above which it is taken as clear."""
+# The share of false alarms among rows like noise over the share allowed among all healthy records.
 SHARE_IN_NOISE = 0.5
-"""The share of false alarms among rows like noise over the share allowed among all healthy records."""
+# Kurtosis and mean clearness below this count as this, so that a logarithm and a quotient of them are finite.
 SMALLEST = 1e-4
-"""Kurtosis and mean clearness below this count as this, so that a logarithm and a quotient of them are finite."""
 FEWEST_ROWS = 20
 
 

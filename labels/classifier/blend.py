@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassifierMixin, clone
 
 from labels.classifier.log_odds import logit, probability_of
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 
 class Blend(ClassifierMixin, BaseEstimator):

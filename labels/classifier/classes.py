@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 CLASSES = ("healthy", "line outer", "line inner", "extended outer", "extended inner")
 HEALTHY = "healthy"

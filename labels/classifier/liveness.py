@@ -14,26 +14,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import FEWEST_BINS, Array, Spectrum, over_floor
+from labels.features.conditioning import FEWEST_BINS, Spectrum, over_floor
 from labels.features.families import find_family, lines_in, near_mains
 from labels.features.speed import SPECTRUM_FLOOR_ORDERS, SPEED_TOLERANCE
+from physics.arrays import Array
 
+# m/s: a tenth of the limit between zones A and B of ISO 10816-1 for the smallest machines (0.71 mm/s RMS).
 STILL_VELOCITY = 0.071e-3
-"""m/s: a tenth of the limit between zones A and B of ISO 10816-1 for the smallest machines (0.71 mm/s RMS)."""
 STILL_BAND = (10.0, 1000.0)
+# RMS, in steps of the recorder, below which little but its own noise is recorded.
 LAST_DIGITS = 2.0
-"""RMS, in steps of the recorder, below which little but its own noise is recorded."""
+# dB between the arithmetic and geometric means of the floor's level over the band, beyond what chance puts there: 0 for
+# white noise, 0.02 at most in the eight recordings of a stopped machine in IMS, 0.27 at least in its 96 running ones.
 WHITE = 0.05
-"""dB between the arithmetic and geometric means of the floor's level over the band, beyond what chance puts there: 0
-for white noise, 0.02 at most in the eight recordings of a stopped machine in IMS, 0.27 at least in its 96 running ones.
-"""
 WHITE_BANDS = 24
+# Shares of the bandwidth that are looked at: below and above recorders let through less.
 WHITE_FROM, WHITE_TO = 0.1, 0.8
-"""Shares of the bandwidth that are looked at: below and above recorders let through less."""
+# Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes.
 TURNING_EVIDENCE = 30.0
-"""Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes."""
+# In fewer turns the lines of a machine that runs quietly do not stand out, so that they lack says nothing.
 FEWEST_TURNS = 15.0
-"""In fewer turns the lines of a machine that runs quietly do not stand out, so that they lack says nothing."""
 STOPPED, DEAD = "machine stopped", "no signal"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.special import expit
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 EDGE = 1e-4
 

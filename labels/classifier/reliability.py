@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 
 def equal_priors(positive: NDArray[np.bool_]) -> Array:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
+from physics.arrays import Array
 from physics.bearing import RACES
 
 QUANTILE = 0.95

@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import betaincinv
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 DRAWS = 2000
 SEED = 1963
 LEVEL = 0.95
+# Records with and without a fault, below which an area under the ROC gets no interval.
 FEWEST_A_SIDE = 5
-"""Records with and without a fault, below which an area under the ROC gets no interval."""
+# Spread of a score over the draws that is rounding alone.
 SAME = 1e-9
-"""Spread of a score over the draws that is rounding alone."""
 Names = NDArray[Any]
 Stratum = list[NDArray[np.int64]]
 Score = Callable[..., float]

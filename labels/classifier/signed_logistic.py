@@ -12,7 +12,7 @@ from sklearn.base import BaseEstimator, ClassifierMixin
 from sklearn.exceptions import ConvergenceWarning
 
 from labels.classifier.log_odds import probability_of
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 MOST_STEPS = 2000
 

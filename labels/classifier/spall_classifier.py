@@ -13,19 +13,19 @@ from labels.classifier.alarm import fit_alarm
 from labels.classifier.classes import CLASSES, HEALTHY, decide
 from labels.classifier.learners import SEED, learner
 from labels.classifier.stage import Stage
-from labels.features.conditioning import Array
 from labels.features.table import FEATURE_NAMES
+from physics.arrays import Array
 from physics.bearing import RACES
 
+# Share of simulated healthy records that may be called faulty: that of the rule's threshold.
 FALSE_ALARMS = 0.05
-"""Share of simulated healthy records that may be called faulty: that of the rule's threshold."""
+# Divisions into folds from which held-out probabilities are taken for the alarm: with one it hangs on chance.
 DIVISIONS = 3
-"""Divisions into folds from which held-out probabilities are taken for the alarm: with one it hangs on chance."""
 STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
 IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")
 LEADS = ("inner_lead_evidence", "inner_lead_spread", "inner_lead_strength", "inner_lead_others")
+# More of these never makes a spall less likely.
 RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS, *LEADS)
-"""More of these never makes a spall less likely."""
 DIFFERENCES = ("race_evidence", "race_spread", "race_strength", "race_depth", "race_others")
 SPALL_NAMES = (*RISING, *DIFFERENCES, "turns")
 SIGNS = tuple(1 if name in RISING else -1 if name == "turns" else 0 for name in SPALL_NAMES)

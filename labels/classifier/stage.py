@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.classifier.log_odds import logit, probability_of
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
 FOLDS = 5
 

@@ -8,26 +8,27 @@ from functools import cached_property
 import numpy as np
 
 from labels.features.combs import without_combs
-from labels.features.conditioning import COMMON_BANDWIDTH, Array, Conditioned, condition
+from labels.features.conditioning import COMMON_BANDWIDTH, Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_mains, without_shaft
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.speed import SPEED_TOLERANCE, Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
+from physics.arrays import Array
 
+# Width of the narrowest band, in BPFI: what holds three harmonics of either race's family.
 NARROWEST_BAND = 3.5
-"""Width of the narrowest band, in BPFI: what holds three harmonics of either race's family."""
+# Share of BPFO by which the line may lie off: a slipping cage lowers it, a contact angle of up to 15° raises it.
 OUTER_WINDOW = (-0.027, 0.013)
-"""Share of BPFO by which the line may lie off: a slipping cage lowers it, a contact angle of up to 15° raises it."""
+# The same of BPFI, which slip raises and a contact angle lowers.
 INNER_WINDOW = (-0.012, 0.020)
-"""The same of BPFI, which slip raises and a contact angle lowers."""
+# The same where no harmonics of the shaft tell its speed.
 UNCERTAIN_WINDOW = (-0.025, 0.025)
-"""The same where no harmonics of the shaft tell its speed."""
+# Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records.
 CERTAIN_SPEED = 15.0
-"""Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records."""
 VIBRATION_ORDERS = 12.0
+# Fundamentals, in orders, that no part of a bearing has by design: what other machines and chance put there.
 DECOYS = (2.31, 2.63, 2.87, 3.17, 3.37, 3.71, 4.29, 4.61, 5.23, 5.83, 6.37, 6.71, 7.37, 8.29)
-"""Fundamentals, in orders, that no part of a bearing has by design: what other machines and chance put there."""
 RATIOS = (0.5, 2.0 / 3.0, 1.0, 1.5, 2.0)
 
 

@@ -8,10 +8,8 @@ or of the balls' way over a race, nor sidebands of the races' lines.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import binom
 
-from labels.features.conditioning import Array
 from labels.features.families import (
     STANDS_OUT,
     WIDEST_MARGIN,
@@ -24,42 +22,41 @@ from labels.features.families import (
     tempered,
 )
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
+from physics.arrays import Array, Flags
 
-Flags = NDArray[np.bool_]
-
+# Orders between which a comb's rate is looked for.
 SLOWEST, FASTEST = 0.12, 6.5
-"""Orders between which a comb's rate is looked for."""
+# How many multiples are looked at: a train whose intervals vary keeps the lowest ones only.
 LOOKED_AT = (8, 16, 24)
-"""How many multiples are looked at: a train whose intervals vary keeps the lowest ones only."""
+# Lines that must stand out. Rates so high that the spectrum holds fewer multiples are not told.
 FEWEST_LINES = 5
-"""Lines that must stand out. Rates so high that the spectrum holds fewer multiples are not told."""
+# Share of the lines looked at that must stand out.
 SHARE_OF_LINES = 0.7
-"""Share of the lines looked at that must stand out."""
+# A comb counts if lines that lie anywhere make one as good less often than this; one of 1362 spectra of simulated
+# machines without another shaft has such a one.
 CHANCE = 1e-5
-"""A comb counts if lines that lie anywhere make one as good less often than this; one of 1362 spectra of simulated
-machines without another shaft has such a one."""
+# Share of the places where a line is taken to stand out anyhow, at least.
 FEWEST_BY_CHANCE = 0.01
-"""Share of the places where a line is taken to stand out anyhow, at least."""
+# Places that one line covers, half a component apart.
 COVERED = 6
-"""Places that one line covers, half a component apart."""
+# Rates that are tried, at most.
 MOST_PLACES = 60_000
-"""Rates that are tried, at most."""
+# Shafts that are told apart, at most.
 MOST_COMBS = 3
-"""Shafts that are told apart, at most."""
+# A comb may be found by every eighth of its lines, at most.
 MOST_PARTS = 8
-"""A comb may be found by every eighth of its lines, at most."""
+# Share by which a rate must differ from one that the bearing makes.
 OF_BEARING = 0.03
-"""Share by which a rate must differ from one that the bearing makes."""
+# Nats of a family from which its sidebands are left out.
 EVIDENT = 8.0
-"""Nats of a family from which its sidebands are left out."""
+# Most sidebands of the shaft and of the cage that lines of the outer race, of the inner race and of balls have.
 SIDEBANDS = ((2, 2), (5, 1), (1, 3))
-"""Most sidebands of the shaft and of the cage that lines of the outer race, of the inner race and of balls have."""
+# Half width of a sideband: in orders, and in shares of its carrier, which slip smears.
 SIDEBAND_WIDTH, SIDEBAND_SPREAD = 0.01, 0.001
-"""Half width of a sideband: in orders, and in shares of its carrier, which slip smears."""
+# Share of a comb's rate that is taken out on each side of its lines, at most: more would take most of the spectrum.
 WIDEST_OF_COMB = 0.2
-"""Share of a comb's rate that is taken out on each side of its lines, at most: more would take most of the spectrum."""
+# Lines between those of a comb that must be readable to tell that it is a multiple.
 FEWEST_BETWEEN = 3
-"""Lines between those of a comb that must be readable to tell that it is a multiple."""
 
 
 def without_combs(excess: Array, step: float, known: Kinematics) -> Array:

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from labels.features.turning import Array, Spectrum, Turning
+from labels.features.turning import Spectrum, Turning
+from physics.arrays import Array
 
+# Highest frequency that features look at, Hz: records of any higher rate are limited to it.
 COMMON_BANDWIDTH = 20_000.0
-"""Highest frequency that features look at, Hz: records of any higher rate are limited to it."""
 SHARE_OF_NYQUIST = 0.95
 FEWEST_SAMPLES_USED = 64
 BLOCKS = 96
+# Components in the smallest block from which a local mean power is taken.
 FEWEST_BINS = 24
-"""Components in the smallest block from which a local mean power is taken."""
+# A component is cut to this many times the local mean power; noise exceeds it once in e^10 components.
 TONE_CEILING = 10.0
-"""A component is cut to this many times the local mean power; noise exceeds it once in e^10 components."""
 MEDIAN_OVER_MEAN = float(np.log(2.0))
 
 

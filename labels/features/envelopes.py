@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from labels.features.conditioning import Array, Conditioned, Spectrum, over_floor
+from labels.features.conditioning import Conditioned, Spectrum, over_floor
 from labels.features.families import mains_components
 from labels.features.turning import Turning
+from physics.arrays import Array
 
 LEVELS = 4
 ENVELOPE_HARMONICS = 4.0

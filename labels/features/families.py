@@ -14,28 +14,28 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 from physics.compiled import njit_inline, njit_lean
 
 HARMONICS = 4
+# Nats that noise gives one line in 500.
 STANDS_OUT = 4.0
-"""Nats that noise gives one line in 500."""
+# Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not decide alone.
 KNEE = 12.0
-"""Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not decide alone."""
+# Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so.
 WIDTHS = (0.0, 0.02, 0.06)
-"""Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so."""
 HANN_BINS = 1.5
 MAINS = (50.0, 60.0)
+# Share by which mains (0.4 % in an interconnected grid, EN 50160) and a stated rate may be off together, and the most
+# (Hz) that is granted for it: high multiples are weak, and would cover the axis.
 MAINS_SPREAD, MAINS_REACH = 0.006, 0.8
-"""Share by which mains (0.4 % in an interconnected grid, EN 50160) and a stated rate may be off together, and the most
-(Hz) that is granted for it: high multiples are weak, and would cover the axis."""
+# The share that every multiple is granted.
 STEADY_MAINS = 0.001
-"""The share that every multiple is granted."""
 COARSEST_STEP = 1.3
+# Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family.
 SHAFT_MARGIN = 0.025
-"""Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family."""
+# The most orders that components are counted out around each multiple: more would take a large part of the axis.
 WIDEST_MARGIN = 0.12
-"""The most orders that components are counted out around each multiple: more would take a large part of the axis."""
 
 
 @dataclass(frozen=True)

@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
+# Samples of a glitch, or of glitches side by side.
 MOST_TOGETHER = 3
-"""Samples of a glitch, or of glitches side by side."""
+# Samples to both sides from which they must stand out.
 REACH = 12
-"""Samples to both sides from which they must stand out."""
+# By how many times each exceeds all others there, measured from their median.
 OVER_NEIGHBOURS = 5.0
-"""By how many times each exceeds all others there, measured from their median."""
+# By how many standard deviations of the record, which noise reaches once in 10⁹ samples.
 OVER_SPREAD = 6.0
-"""By how many standard deviations of the record, which noise reaches once in 10⁹ samples."""
 SPREAD_QUANTILE, DEVIATIONS_THERE = 0.95, 1.96
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
 
+# Shares by which the cage's slip moves a family at most, and usually.
 SLIP_TOLERANCE, SLIP_PRIOR = 0.025, 0.012
-"""Shares by which the cage's slip moves a family at most, and usually."""
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ import numpy as np
 from scipy import fft
 
 from labels.features.analysis import VIBRATION_ORDERS, Analysis
-from labels.features.conditioning import Array
 from labels.features.feature import Feature
+from physics.arrays import Array
 from physics.bearing import RACES
 
 ORDERS = "ISO 13373-2:2016 (narrow-band spectra, orders); Petersen et al. 2014, section 6 (low harmonics of BPFO)"

@@ -8,12 +8,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import binary_dilation
 
-from labels.features.conditioning import Array
+from physics.arrays import Array
 
+# In fewer turns of the shaft nothing says what is usual.
 FEWEST_TURNS = 8
-"""In fewer turns of the shaft nothing says what is usual."""
+# By how many times the usual largest sample of a turn a shock exceeds it.
 OVER_USUAL = 8.0
-"""By how many times the usual largest sample of a turn a shock exceeds it."""
 
 
 def without_shocks(signal: Array, turns: float) -> tuple[Array, int]:

@@ -6,30 +6,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labels.features.conditioning import FEWEST_BINS, Array, Conditioned, over_floor
+from labels.features.conditioning import FEWEST_BINS, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
 from labels.features.families import STANDS_OUT, Lines, find_family, harmonic_evidence, lines_in, tempered
 from labels.features.kinematics import Kinematics
+from physics.arrays import Array
 
+# The share by which the shaft may turn faster or slower than stated.
 SPEED_TOLERANCE = 0.022
-"""The share by which the shaft may turn faster or slower than stated."""
 SHAFT_HARMONICS = 8
+# Width, in orders of the shaft, of the blocks from which the floor under the lines of the vibration is taken.
 SPECTRUM_FLOOR_ORDERS = 3.0
-"""Width, in orders of the shaft, of the blocks from which the floor under the lines of the vibration is taken."""
+# Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle.
 SLIP_SPREAD = 0.007
-"""Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle."""
+# Standard deviation of the shaft's speed about the one stated, as a share.
 PRIOR_SPREAD = 0.008
-"""Standard deviation of the shaft's speed about the one stated, as a share."""
+# Fewest and most speeds that are tried.
 PLACES = (45, 800)
-"""Fewest and most speeds that are tried."""
+# How far apart, in components of the spectrum, the highest harmonics of neighbouring speeds lie.
 BINS_BETWEEN = 0.5
-"""How far apart, in components of the spectrum, the highest harmonics of neighbouring speeds lie."""
+# How far a family usually lies from its place at the speed stated, as a share: by slip and a wrong speed.
 FAMILY_PRIOR = 0.015
-"""How far a family usually lies from its place at the speed stated, as a share: by slip and a wrong speed."""
+# Nats that a family needs to tell of the speed.
 DECISIVE = 12.0
-"""Nats that a family needs to tell of the speed."""
+# By how many lines that stand out a speed must lead to be taken for a better one.
 MORE_LINES = 4
-"""By how many lines that stand out a speed must lead to be taken for a better one."""
 
 
 @dataclass(frozen=True)

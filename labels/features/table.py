@@ -6,8 +6,8 @@ import numpy as np
 
 from labels.features import modulation, orders, waveform
 from labels.features.analysis import Analysis
-from labels.features.conditioning import Array
 from labels.features.feature import Feature
+from physics.arrays import Array
 
 GROUPS = (waveform, modulation, orders)
 FEATURES: tuple[Feature, ...] = tuple(row for group in GROUPS for row in group.ROWS)

@@ -16,14 +16,15 @@ from numpy.typing import NDArray
 from scipy import fft
 from scipy.interpolate import CubicSpline
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
+
 Spectrum = NDArray[np.complex128]
 
+# Samples, for each component asked for, between which the spline runs.
 OVERSAMPLING = 8
-"""Samples, for each component asked for, between which the spline runs."""
+# The highest speed over the mean one, which a shaft that runs up evenly from rest has at the end: there what becomes
+# the last component asked for lies at this many times its number.
 REACH = 2
-"""The highest speed over the mean one, which a shaft that runs up evenly from rest has at the end: there what becomes
-the last component asked for lies at this many times its number."""
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import Array, Spectrum
+from labels.features.conditioning import Spectrum
 from labels.features.feature import Feature
+from physics.arrays import Array
 from physics.rms import rms
 
 DYER = "Dyer & Stewart 1978, J. Mech. Design 100"

@@ -19,17 +19,17 @@ from labels.spall_size.columns.table import (
     ROW_COLUMNS_WITH_LOAD,
 )
 from labels.spall_size.trees import Trees
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 Arrays = dict[str, NDArray[Any]]
+# Typical error (logarithm) that is added to what the trees say, so that no interval vanishes.
 SMALLEST_SPREAD = 0.01
-"""Typical error (logarithm) that is added to what the trees say, so that no interval vanishes."""
+# The columns that each model looks at, by the name under which its arrays are kept.
 FITTED_ON: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"pair_score": PAIR_COLUMNS, "blind.rank": LEADING_COLUMNS, "with_load.rank": LEADING_COLUMNS_WITH_LOAD}
     | {f"blind.{model}": ROW_COLUMNS for model in ("lag", "arc", "doubt")}
     | {f"with_load.{model}": ROW_COLUMNS_WITH_LOAD for model in ("lag", "arc", "doubt")}
 )
-"""The columns that each model looks at, by the name under which its arrays are kept."""
 
 
 class MisfitCalibration(ValueError):

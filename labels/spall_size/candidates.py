@@ -10,38 +10,38 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
 Ranked = list[tuple[float, float]]
 
+# Channels whose peaks are candidates; edges are looked for in the first alone.
 SEARCHED = (Channel.ALL, Channel.LOW, Channel.HIGH)
-"""Channels whose peaks are candidates; edges are looked for in the first alone."""
+# Standard deviations of the blurs under which peaks and edges are looked for, samples.
 BLURS = (0.7, 2.0, 5.0)
-"""Standard deviations of the blurs under which peaks and edges are looked for, samples."""
+# That of one more blur, periods.
 PERIOD_BLUR = 0.006
-"""That of one more blur, periods."""
+# Least value of that one, samples.
 LEAST_PERIOD_BLUR = 0.5
-"""Least value of that one, samples."""
+# Candidates that are kept at most.
 MOST = 18
-"""Candidates that are kept at most."""
+# Least distance between two candidates, samples.
 CLOSEST = 1.6
-"""Least distance between two candidates, samples."""
+# Log energy by which a peak must stand above what surrounds it.
 LEAST_PROMINENCE = 0.08
-"""Log energy by which a peak must stand above what surrounds it."""
+# Log energy over twice the blur by which an edge must be steeper than what surrounds it.
 LEAST_STEP = 0.3
-"""Log energy over twice the blur by which an edge must be steeper than what surrounds it."""
+# What lies further below the largest energy (logarithm) does not vary.
 DEPTH = 8.0
-"""What lies further below the largest energy (logarithm) does not vary."""
+# Prominence beyond which a candidate ranks no higher, log energy.
 MOST_PROMINENT = 4.0
-"""Prominence beyond which a candidate ranks no higher, log energy."""
+# What the prominence of an edge counts beside that of a peak.
 EDGE_SHARE = 0.7
-"""What the prominence of an edge counts beside that of a peak."""
+# What the log energy at a candidate counts beside its prominence.
 LEVEL_SHARE = 0.15
-"""What the log energy at a candidate counts beside its prominence."""
+# Samples from an edge to where the peak of a short event would lie, without blur.
 EDGE_SHIFT = 0.5
-"""Samples from an edge to where the peak of a short event would lie, without blur."""
+# How much further that is, as a share of the blur.
 EDGE_SHIFT_OF_BLUR = 0.7
-"""How much further that is, as a share of the blur."""
 
 
 def candidate_places(mean: MeanPass) -> Array:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from labels.spall_size.calibration import Calibration, Judgement
 from labels.spall_size.evidence import Evidence, gather_evidence
@@ -14,15 +13,14 @@ from labels.spall_size.measurement import Measurement, leading_pairs, measure
 from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Axis of a signal that is looked at: y, or the only one of a recording.
 LOAD_AXIS = -1
-"""Axis of a signal that is looked at: y, or the only one of a recording."""
+# Samples from an event to the peak of its prewhitened energy.
 ONSET = 1.8
-"""Samples from an event to the peak of its prewhitened energy."""
+# Arc of a spall that is told at most, rad: half the race.
 LONGEST_EXTENT = math.pi
-"""Arc of a spall that is told at most, rad: half the race."""
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
 
 

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from labels.spall_size.candidates import candidate_places
 from labels.spall_size.columns.table import pair_rows
@@ -16,8 +15,7 @@ from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
 from labels.spall_size.signal.noise_floor import log_noise_share
 from labels.spall_size.signal.pass_track import PassTrack, track_passes
 from labels.spall_size.signal.prewhitening import prewhitened
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.spall_size.situation import Situation
+from physics.arrays import Array
 
 if TYPE_CHECKING:  # the evidence holds columns of pairs, whose table knows of these too
     from labels.spall_size.evidence import Evidence
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,11 @@ from labels.spall_size.evidence import Evidence
 from labels.spall_size.leading import LeadingView
 from labels.spall_size.pairs import Pairs
 from labels.spall_size.situation import Situation
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Logarithm of the ratio of two lags above which both may lead: of those that say nearly the same the best stands for
+# all.
 DISTINCT = 0.05
-"""Logarithm of the ratio of two lags above which both may lead: of those that say nearly the same the best stands for
-all."""
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,15 @@ from numpy.typing import NDArray
 
 from labels.spall_size.signal.mean_pass import MeanPass
 from labels.spall_size.signal.running_energy import RunningEnergy
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 EVENTS = ("entry", "exit")
+# Periods: the lag of two events of one ball is below it, so that no event is paired with itself one pass later.
 LONGEST_LAG = 0.97
-"""Periods: the lag of two events of one ball is below it, so that no event is paired with itself one pass later."""
+# Half the width of the window that is the core of an event, as a share of the lag.
 CORE_SHARE = 0.05
-"""Half the width of the window that is the core of an event, as a share of the lag."""
+# Least half width of a core, samples.
 SMALLEST_CORE = 1.0
-"""Least half width of a core, samples."""
 
 
 @dataclass(frozen=True)

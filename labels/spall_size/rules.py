@@ -6,21 +6,19 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import find_peaks, hilbert
 
 from labels.spall_size.estimator import LOAD_AXIS
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Periods: longer lags are not looked for.
 LONGEST_SHARE = 0.95
-"""Periods: longer lags are not looked for."""
+# Samples: shorter lags are not looked for.
 SHORTEST_SAMPLES = 3
-"""Samples: shorter lags are not looked for."""
+# Share of the highest peak's prominence from which on a peak counts.
 MARKED = 0.5
-"""Share of the highest peak's prominence from which on a peak counts."""
 
 
 def envelope_lag(signal: Array, rate: float, longest: float) -> float:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from physics.bearing import Bearing
 from physics.checks import require, require_not_negative, require_positive
 
+# Hertz factor of the bearing where none is known, N/mⁿ: it only has to be above 0.
 PLACEHOLDER_FACTOR = 1e10
-"""Hertz factor of the bearing where none is known, N/mⁿ: it only has to be above 0."""
 
 
 @dataclass(frozen=True)

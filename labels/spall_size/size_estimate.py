@@ -7,16 +7,16 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
+
 Interval = tuple[float, float]
 UNKNOWN: Interval = (math.nan, math.nan)
 NO_TIMES = np.zeros((0, 2))
+# Ball passes that a record must hold; TOO_SHORT says this in words.
 FEWEST_PASSES = 6
-"""Ball passes that a record must hold; TOO_SHORT says this in words."""
+# Samples that a ball pass must last; TOO_COARSE says this in words.
 FEWEST_SAMPLES_A_PASS = 16
-"""Samples that a ball pass must last; TOO_COARSE says this in words."""
 
 
 class SizeOutcome(Enum):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from physics.bearing import Bearing
 from physics.paths.rolling import hanging_reach
 
+# Compression at a spall over that in the direction of the load: mean cosine of the angle between them over spall
+# centres within ±25 degrees (one standard deviation).
 USUAL_SHARE_OF_PEAK = 0.91
-"""Compression at a spall over that in the direction of the load: mean cosine of the angle between them over spall
-centres within ±25 degrees (one standard deviation)."""
 
 
 def static_compression(bearing: Bearing, load: float) -> float:

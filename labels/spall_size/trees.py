@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.compiled import njit
 
-Array = NDArray[np.float64]
 FIELDS = ("feature", "threshold", "left", "right", "value", "root")
 
 

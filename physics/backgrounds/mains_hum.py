@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
 from physics.checks import require_not_negative, require_positive
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

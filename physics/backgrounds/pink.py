@@ -6,11 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.checks import require_below_nyquist, require_between, require_not_negative, require_positive
-
-Array = NDArray[np.float64]
 
 STEEPEST = 3.0
 

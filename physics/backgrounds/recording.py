@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics.checks import require
-
-Array = NDArray[np.float64]
 
 
 def draw_starts(generator: np.random.Generator, recording_samples: int, samples: int) -> tuple[int, int]:

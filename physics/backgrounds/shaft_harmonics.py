@@ -6,12 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
 from physics.checks import require_count, require_not_negative
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

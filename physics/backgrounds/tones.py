@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 BLOCK = 256
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.checks import require_not_negative
-
-Array = NDArray[np.float64]
 
 
 def white_noise(generator: np.random.Generator, rms: float, samples: int) -> Array:

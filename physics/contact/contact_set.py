@@ -5,13 +5,9 @@ Steps are made with the set frozen; whoever made one asks here whether a ball ha
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_inner
+from physics.arrays import Array
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts
-
-Array = NDArray[np.float64]
 
 # A mark is a polynomial in this number (a multiplier of D. Knuth's generators) with coefficients of 0 and 1, cut to as
 # many bits as a float holds with room for more. The number's powers up to the 2^50th differ in these bits.

@@ -17,9 +17,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics.arrays import Array
 from physics.contact.power import power
 from physics.contact.track import (
     CAGE,
@@ -37,8 +37,6 @@ from physics.contact.track import (
 )
 from physics.contact.turning import cosine_sine
 from physics.paths.depth_path import path_at
-
-Array = NDArray[np.float64]
 
 # Second index of `balls`: cosine and sine of its angle in the cage; clearance minus diameter deviation (m);
 # gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or

@@ -5,13 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline
+from physics.arrays import Array
 from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
-
-Array = NDArray[np.float64]
 
 # Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
 # zero cage angle and time (rad), speed of its race (rad/s); where its path begins and ends and the mean width of its

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline
+from physics.arrays import Array
 from physics.motion import MotionModel, outer_load, outer_ring_acceleration, resonator_acceleration
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

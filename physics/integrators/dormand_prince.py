@@ -10,17 +10,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import press_state
 from physics.integrators.trial import Trial
 from physics.motion import MotionModel
-
-Array = NDArray[np.float64]
 
 STAGES = 7
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])

@@ -11,9 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
@@ -41,8 +41,6 @@ from physics.integrators.propagator import PowerSeries
 from physics.integrators.stops import Stops, next_kink, passed_kinks
 from physics.integrators.trial import Trial
 from physics.motion import MotionModel
-
-Array = NDArray[np.float64]
 
 LOOSEST_TOLERANCE = 2e-3
 FIRST_STEP_SHARE = 1e-3

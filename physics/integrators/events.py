@@ -10,15 +10,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics.arrays import Array
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, Contacts, compression_of, law_force, of_ball, press, set_time
 from physics.motion import MotionModel, outer_load, relative_acceleration
-
-Array = NDArray[np.float64]
 
 SMALLEST_SHARE = 1e-9
 # Newton's method squares the error of a share this small away with its next correction.

@@ -16,17 +16,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes, mark_of
 from physics.contact.forces import ACTIVE, Contacts, set_time
 from physics.integrators.exponential_rk4 import OUTER_STATE, flow_component, step_exponential_rk4
 from physics.integrators.march import Workspace, bind_method, carrying, press_state
 from physics.integrators.propagator import CUBE, FIRST, LAST, MIDDLE, WHOLE
 from physics.motion import MotionModel, outer_load
-
-Array = NDArray[np.float64]
 
 ORDERS = (2, 3, 4)
 # Places in the longer state.

@@ -10,17 +10,13 @@ modes of frequency ω, more with film damping: half the classical method's, whos
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit, njit_inline
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to, press
 from physics.integrators.march import Workspace, bind_method
 from physics.integrators.propagator import FIRST, HALF, LAST, MIDDLE, TO_2_3, TO_3_4, TO_4, WHOLE
 from physics.motion import MotionModel, outer_load
-
-Array = NDArray[np.float64]
 
 # Places of (xo, vo, xr, vr) of the x axis in the state; the y axis follows each.
 OUTER_STATE = (2, 8, 4, 10)

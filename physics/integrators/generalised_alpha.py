@@ -14,17 +14,15 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, press, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.march import Workspace, bind_method, carrying, press_state
 from physics.motion import MotionModel, outer_load
-
-Array = NDArray[np.float64]
 
 RADIUS_AT_INFINITY = 0.9
 ALPHA_M = (2.0 * RADIUS_AT_INFINITY - 1.0) / (RADIUS_AT_INFINITY + 1.0)

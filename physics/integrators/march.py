@@ -11,9 +11,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, specialise
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
 from physics.integrators.events import Way, earliest_change, relative_motion
@@ -32,8 +32,6 @@ from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
 from physics.integrators.stops import Stops, next_kink, passed_kinks
 from physics.integrators.trial import Trial
 from physics.motion import MotionModel
-
-Array = NDArray[np.float64]
 
 SMALLEST_STEP_SHARE = 1e-7
 # A step ends this much before a kink and the next one starts as much after it, so that each reads its own side.

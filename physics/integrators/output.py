@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
+from physics.arrays import Array
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, FORCE, Contacts, of_ball
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
-
-Array = NDArray[np.float64]
 
 DONE, NOT_FINITE, LOG_FULL, OUT_OF_STEPS = range(4)
 LARGEST_ACCELERATION = 1e12

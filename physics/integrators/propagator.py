@@ -10,12 +10,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array
 from physics.motion import MotionModel
-
-Array = NDArray[np.float64]
 
 SERIES_TOLERANCE = 1e-18
 

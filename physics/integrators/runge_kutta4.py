@@ -7,17 +7,13 @@ the same method run blindly through changes of contact, which drops to first ord
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to
 from physics.integrators.accelerations import accelerations
 from physics.integrators.march import Workspace, bind_method, press_state
 from physics.motion import MotionModel
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
+from physics.arrays import Array
 from physics.contact.forces import ACTIVE, of_ball
-
-Array = NDArray[np.float64]
 
 
 class Stops(NamedTuple):

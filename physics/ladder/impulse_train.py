@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from physics.arrays import Array
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
 from physics.modes import coupled_matrix
@@ -27,8 +28,6 @@ from physics.spall import Spall
 from physics.statics.load_distribution import carried
 from physics.statics.stiffness import matrix
 from physics.trace import ContactChanges, Trace
-
-Array = NDArray[np.float64]
 
 # Instants of a record whose stiffness and damping are averaged for its modes.
 MEAN_TIMES = 64

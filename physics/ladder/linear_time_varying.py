@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, specialise, uncompiled
+from physics.arrays import Array
 from physics.assembly import assemble, ball_numbers
 from physics.cage import CagePath
 from physics.contact.contact_set import reset_contact
@@ -38,8 +39,6 @@ from physics.scene import Scene
 from physics.statics.load_distribution import carried, load_vector, refuse
 from physics.statics.rest import NO_EQUILIBRIUM, solve_at
 from physics.trace import Trace
-
-Array = NDArray[np.float64]
 
 NODES_PER_SPACING = 4096
 NODES_PER_SAMPLE = 2

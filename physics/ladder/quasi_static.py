@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
 from physics.scene import Scene
 from physics.statics.load_distribution import carried, load_vector
 from physics.trace import Trace
-
-Array = NDArray[np.float64]
 
 
 def quasi_static_response(scene: Scene, rate: float) -> Trace:

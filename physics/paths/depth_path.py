@@ -9,12 +9,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, njit_lean
+from physics.arrays import Array, Index
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Curve = Callable[[Array], Array]
 
 RELIEF_LEVELS = 8

@@ -6,10 +6,8 @@ import math
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from physics.arrays import Array, Index
 
 # What rounding leaves of a height (m).
 ROUNDING = 1e-15

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
+from physics.arrays import Array
 from physics.cage import crossing_times
 from physics.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

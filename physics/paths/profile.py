@@ -7,8 +7,8 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.paths.depth_path import DepthPath, hermite_path
 from physics.paths.rolling import Branches, branches, deep_gap_drop, hanging_reach, rolled_path
@@ -24,8 +24,6 @@ from physics.paths.spall_surface import (
 )
 from physics.scene import Scene
 from physics.spall import Spall
-
-Array = NDArray[np.float64]
 
 CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, njit_lean
+from physics.arrays import Array, Index
 from physics.paths.held_ball import (
     ROUNDING,
     Ball,
@@ -20,8 +20,6 @@ from physics.paths.held_ball import (
     hold_on_lips,
 )
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Curve = Callable[[Array], Array]
 
 FEWEST_STEPS = 512

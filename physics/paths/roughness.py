@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.checks import require_between, require_not_negative, require_positive
-
-Array = NDArray[np.float64]
 
 STEPS_PER_WIDTH = 8
 FEWEST_STEPS = 16

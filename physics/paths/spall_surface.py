@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from physics.arrays import Array
 from physics.paths.held_ball import Surface
 from physics.spall import Spall
-
-Array = NDArray[np.float64]
 
 TOUCHING_SHARE = 0.02
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from physics.arrays import Array
 from physics.integrators.methods import METHODS
 from physics.integrators.output import Grid
 from physics.integrators.propagator import reach
@@ -19,8 +17,6 @@ from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import Kept, Trace
-
-Array = NDArray[np.float64]
 
 STEPS_PER_FAST_PERIOD = 6.2
 PILOT_PASSES = 3.0

@@ -13,7 +13,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics.integrators.modal.memory import STRIDES, Stride
 from physics.integrators.output import LOGGED, Output
@@ -21,7 +20,6 @@ from physics.response.modal_case import USUAL_PUSHES, Case, March
 from physics.rms import rms
 from physics.trace import Kept
 
-Array = NDArray[np.float64]
 GoOn = Callable[[March, Stride], Output]
 
 # Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of

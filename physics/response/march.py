@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import Contacts
 from physics.integrators.methods import MARCHES
@@ -28,8 +28,6 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.response.kinks import known_kinks
 from physics.scene import Scene
 from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
-
-Array = NDArray[np.float64]
 
 MODEL = "nonlinear 6-DOF"
 FIRST_CHANGE_LOG = 4096

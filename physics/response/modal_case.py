@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.forces import Contacts
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
@@ -24,8 +24,6 @@ from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_o
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, refuse
 from physics.trace import ACCELERATION_ALONE, Kept
-
-Array = NDArray[np.float64]
 
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3

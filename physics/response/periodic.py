@@ -10,8 +10,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.integrators.modal.flow import slowest_decay
 from physics.integrators.modal.memory import Stride
 from physics.integrators.output import Output
@@ -23,8 +23,6 @@ from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import ContactChanges, Trace
-
-Array = NDArray[np.float64]
 
 METHOD = "modal, repeated"
 # Samples of the march for each one asked for: the response is read between them.

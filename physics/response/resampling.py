@@ -6,11 +6,9 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
-
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
 # Points of the polynomial through a place's neighbours: with 25 samples a period it is right to 1e-6.
 POINTS = 6

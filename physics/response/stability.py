@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.integrators.method import ALL_MODES, CONTACT_MODES, Method
 from physics.modes import coupled_matrix
 from physics.outcome import Outcome, SimulationFailed
@@ -14,8 +15,6 @@ from physics.rig import Rig
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.statics.stiffness import matrix
-
-Array = NDArray[np.float64]
 
 MOST_STABLE_SUBSTEPS = 1024
 

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from physics.arrays import Array
 from physics.checks import require_not_negative
 from physics.response.resampling import decimate
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
 from physics.sensor.recorder import Recorder
 from physics.trace import Trace
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

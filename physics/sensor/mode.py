@@ -10,13 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from physics._jit import njit, njit_inline
+from physics.arrays import Array
 from physics.checks import require_below_nyquist, require_between, require_finite, require_positive
-
-Array = NDArray[np.float64]
 
 HIGHEST_DAMPING = 0.7
 # Acceleration over one sample interval is a cubic in the share τ of it: coefficients of 1, τ, τ², τ³.

@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.checks import require_below_nyquist, require_count, require_positive
-
-Array = NDArray[np.float64]
 
 HIGHEST_ORDER = 12
 

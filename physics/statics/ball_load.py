@@ -8,14 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
+from physics.arrays import Array
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import FORCE, Contacts, of_ball
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
 from physics.statics.stiffness import expected, rest_at
-
-Array = NDArray[np.float64]
 
 # Share of the load on the shaft that may be left unbalanced.
 TOLERANCE = 1e-9

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, njit_lean
+from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.forces import Contacts, move_to, set_time
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
 from physics.statics.rest import LARGEST_MOVE, NO_EQUILIBRIUM, Hold, elastic, solve_at
-
-Array = NDArray[np.float64]
 
 COMPONENTS = ("xx", "yy", "xy")
 # A shaft that moved by less than this share of its displacement is expected to move on as far.

@@ -12,9 +12,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner, njit_lean
+from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.contact_set import mark_of
 from physics.contact.forces import FORCE, Contacts
@@ -25,8 +25,6 @@ from physics.paths.profile import is_rough
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
 from physics.statics.stiffness import expected, rest_at, stiffness_trace
-
-Array = NDArray[np.float64]
 
 # Polynomials of four and six neighbours may differ by this share of kyy. Measured in tests/physics: the trace is then
 # within a tenth of 1e-4 of kyy (RMS) of the one solved everywhere.

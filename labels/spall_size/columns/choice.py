@@ -5,18 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from labels.spall_size.columns.rivals import NEAR, SAME
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Pairs that lead at most.
 LEADING = 16
-"""Pairs that lead at most."""
+# Rank that counts at least where lags are weighted by it.
 LEAST_RANK = 1e-6
-"""Rank that counts at least where lags are weighted by it."""
+# Rank that stands where every leading pair says the same.
 NO_RIVAL = -1.0
-"""Rank that stands where every leading pair says the same."""
 NAMES = (
     "rank",
     "rival_rank",

@@ -6,17 +6,18 @@ from itertools import pairwise
 
 import numpy as np
 
-from labels.spall_size.leading import Array, LeadingView
+from labels.spall_size.leading import LeadingView
 from labels.spall_size.pairs import EVENTS
 from labels.spall_size.signal.mean_pass import Channel
 from labels.spall_size.signal.running_energy import RunningEnergy
+from physics.arrays import Array
 
+# Lags from an event at which one window ends and the next begins.
 EDGES = (-0.5, -0.35, -0.25, -0.17, -0.1, -0.05, -0.02, 0.02, 0.05, 0.1, 0.17, 0.25, 0.35, 0.5)
-"""Lags from an event at which one window ends and the next begins."""
+# Least half width of a window, samples.
 LEAST_HALF = 0.5
-"""Least half width of a window, samples."""
+# Channels whose course is told.
 PROFILED = (Channel.ALL, Channel.LOW, Channel.HIGH)
-"""Channels whose course is told."""
 WINDOWS = tuple(f"{start:g}_to_{stop:g}" for start, stop in pairwise(EDGES))
 NAMES = tuple(f"{event}_{channel.word}_{window}" for event in EVENTS for channel in PROFILED for window in WINDOWS)
 

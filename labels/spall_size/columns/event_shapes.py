@@ -7,24 +7,25 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from labels.spall_size.pairs import EVENTS, Array, PairView
+from labels.spall_size.pairs import EVENTS, PairView
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
 from labels.spall_size.signal.running_energy import ENERGY_FLOOR, RunningEnergy
+from physics.arrays import Array
 
+# Samples from a candidate at which windows end; the first is half the width of its core.
 REACHES = (1.5, 3.0, 6.0, 12.0, 24.0, 48.0, 96.0)
-"""Samples from a candidate at which windows end; the first is half the width of its core."""
+# Periods from a candidate at which wider windows end.
 PERIOD_REACHES = (0.03, 0.1, 0.25)
-"""Periods from a candidate at which wider windows end."""
+# Samples from a candidate to which the windows reach whose levels make the steps of the low band.
 LOW_REACHES = (3.0, 12.0, 48.0)
-"""Samples from a candidate to which the windows reach whose levels make the steps of the low band."""
+# Samples from a candidate at which these windows begin.
 LOW_NEAREST = 1.0
-"""Samples from a candidate at which these windows begin."""
+# Standard deviations of the blur under which the sway is read, samples.
 SWAY_BLURS = (2.0, 6.0, 20.0)
-"""Standard deviations of the blur under which the sway is read, samples."""
+# Samples that, added to the blur, make the length over which a slope of the sway is counted.
 SLOPE_REACH = 4.0
-"""Samples that, added to the blur, make the length over which a slope of the sway is counted."""
+# Samples on either side of a candidate among which the extreme of the waveform is looked for.
 WAVE = 3
-"""Samples on either side of a candidate among which the extreme of the waveform is looked for."""
 SHAPES = (
     "core",
     *(f"{side}_{reach:g}" for side in ("before", "after") for reach in REACHES[1:]),

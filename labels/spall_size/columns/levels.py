@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.pairs import EVENTS, Array, PairView
+from labels.spall_size.pairs import EVENTS, PairView
 from labels.spall_size.signal.mean_pass import Channel
+from physics.arrays import Array
 
+# Samples by which the windows before and after an event reach beyond its core at least.
 LEAST_BESIDE = 2.0
-"""Samples by which the windows before and after an event reach beyond its core at least."""
+# Samples between a core and the windows beside it.
 GAP = 1.0
-"""Samples between a core and the windows beside it."""
+# Samples from an event at which the windows just before and just after it begin and end.
 JUST_BESIDE = (2.0, 6.0)
-"""Samples from an event at which the windows just before and just after it begin and end."""
+# Channels in which the cores of both events are compared.
 COMPARED = (Channel.LOW, Channel.HIGH)
-"""Channels in which the cores of both events are compared."""
 SIDES = ("core", "before", "after", "just_before", "just_after")
 NAMES = (
     *(f"{event}_{side}_{channel.word}" for event in EVENTS for channel in Channel for side in SIDES),

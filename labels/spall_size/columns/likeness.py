@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.pairs import EVENTS, Array, PairView
+from labels.spall_size.pairs import EVENTS, PairView
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
 from labels.spall_size.signal.running_energy import ENERGY_FLOOR
+from physics.arrays import Array
 
+# Samples: an event nearer to the anchor than this is the anchor.
 AT_ANCHOR = 1.0
-"""Samples: an event nearer to the anchor than this is the anchor."""
+# Samples between the core of an event and the stretch that is searched for other events.
 GAP = 1.0
-"""Samples between the core of an event and the stretch that is searched for other events."""
+# Log energy that stands where there is no sample between two events.
 NO_ROOM = -9.0
-"""Log energy that stands where there is no sample between two events."""
+# Samples on either side of an event whose waveforms are compared.
 WAVE_REACH = 8
-"""Samples on either side of an event whose waveforms are compared."""
+# Samples by which one of two waveforms may be shifted.
 WAVE_SHIFT = 2
-"""Samples by which one of two waveforms may be shifted."""
+# Samples on either side of an event over which its coherence is taken.
 COHERENT_REACH = 3
-"""Samples on either side of an event over which its coherence is taken."""
 NAMES = ("entry_is_anchor", "exit_is_anchor", "inside", "outside", "alike", "entry_coherence", "exit_coherence")
 
 

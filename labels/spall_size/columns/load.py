@@ -6,20 +6,21 @@ import math
 
 import numpy as np
 
-from labels.spall_size.leading import Array, LeadingView
+from labels.spall_size.leading import LeadingView
 from labels.spall_size.signal.mean_pass import Channel
 from labels.spall_size.static_release import release_arc, static_compression
+from physics.arrays import Array
 
+# Compression over the ball's radius that counts at least.
 LEAST_PRESSED = 1e-9
-"""Compression over the ball's radius that counts at least."""
+# Compression that counts at least, m.
 LEAST_COMPRESSION = 1e-9
-"""Compression that counts at least, m."""
+# Release arc that counts at least, rad.
 LEAST_ARC = 1e-9
-"""Release arc that counts at least, rad."""
+# Acceleration that counts at least, in the unit of the signal.
 LEAST_VIBRATION = 1e-12
-"""Acceleration that counts at least, in the unit of the signal."""
+# Displacement that counts at least, in the unit of the signal times s².
 LEAST_GIVE = 1e-15
-"""Displacement that counts at least, in the unit of the signal times s²."""
 NAMES = (
     "pressed",
     "release",

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.pairs import Array, PairView
+from labels.spall_size.pairs import PairView
 from labels.spall_size.signal.mean_pass import MeanPass
+from physics.arrays import Array
 
+# Lags from the entry up to which the sway after the exit is averaged, a period at most.
 AFTER = 1.5
-"""Lags from the entry up to which the sway after the exit is averaged, a period at most."""
 NAMES = ("sway_inside", "sway_after", "give_at_entry", "give_inside", "give_at_exit")
 
 

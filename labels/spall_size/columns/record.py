@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from labels.spall_size.pairs import Array, PairView
+from labels.spall_size.pairs import PairView
+from physics.arrays import Array
 
 NAMES = (
     "period",

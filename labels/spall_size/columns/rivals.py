@@ -5,15 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.leading import Array, LeadingView
+from labels.spall_size.leading import LeadingView
 from labels.spall_size.pairs import Pairs
+from physics.arrays import Array
 
+# Logarithm of the ratio of two lags up to which they say the same.
 SAME = 0.03
-"""Logarithm of the ratio of two lags up to which they say the same."""
+# Logarithm of the ratio of two lags up to which they may mean the same events.
 NEAR = 0.3
-"""Logarithm of the ratio of two lags up to which they may mean the same events."""
+# How many of the pairs that say something else are told of.
 RIVALS = 3
-"""How many of the pairs that say something else are told of."""
 NAMES = (
     "own_score",
     *(f"rival_{k + 1}_{what}" for k in range(RIVALS) for what in ("score", "apart")),

@@ -21,20 +21,21 @@ from labels.spall_size.columns import (
     rivals,
 )
 from labels.spall_size.leading import LeadingView
-from labels.spall_size.pairs import Array, PairView
+from labels.spall_size.pairs import PairView
+from physics.arrays import Array
 
 PAIR_GROUPS = (record, levels, likeness, motion, event_shapes)
 LEADING_GROUPS = (event_profiles, rivals, length)
+# Of every pair of candidates.
 PAIR_COLUMNS: tuple[str, ...] = tuple(name for group in PAIR_GROUPS for name in group.NAMES)
-"""Of every pair of candidates."""
+# Of a leading pair of a record whose load or Hertz factor is not known.
 LEADING_COLUMNS: tuple[str, ...] = (*PAIR_COLUMNS, *(name for group in LEADING_GROUPS for name in group.NAMES))
-"""Of a leading pair of a record whose load or Hertz factor is not known."""
+# Of a leading pair of a record whose load and Hertz factor are known.
 LEADING_COLUMNS_WITH_LOAD: tuple[str, ...] = (*LEADING_COLUMNS, *load.NAMES)
-"""Of a leading pair of a record whose load and Hertz factor are known."""
+# Of the pair that is taken for the events, load or Hertz factor not known.
 ROW_COLUMNS: tuple[str, ...] = (*LEADING_COLUMNS, *choice.NAMES)
-"""Of the pair that is taken for the events, load or Hertz factor not known."""
+# Of the pair that is taken for the events, load and Hertz factor known.
 ROW_COLUMNS_WITH_LOAD: tuple[str, ...] = (*LEADING_COLUMNS_WITH_LOAD, *choice.NAMES)
-"""Of the pair that is taken for the events, load and Hertz factor known."""
 
 
 def pair_rows(view: PairView) -> Array:

@@ -10,28 +10,27 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import fftconvolve
 
 from labels.spall_size.signal.pass_track import CELLS, PassTrack
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Periods by which an anchor may be moved either way.
 SEARCH_SHARE = 0.02
-"""Periods by which an anchor may be moved either way."""
+# Samples by which an anchor may be moved either way at least.
 FEWEST_SEARCHED = 4
-"""Samples by which an anchor may be moved either way at least."""
+# Periods on either side of an anchor that are matched with the mean of all passes.
 CORE_SHARE = 0.012
-"""Periods on either side of an anchor that are matched with the mean of all passes."""
+# Samples on either side of an anchor that are matched at least.
 SMALLEST_CORE = 8
-"""Samples on either side of an anchor that are matched at least."""
+# How often the mean of all passes is made anew and every pass matched with it.
 ROUNDS = 4
-"""How often the mean of all passes is made anew and every pass matched with it."""
+# Standard deviation, in samples, of the blur of the magnitude that is matched.
 BLUR = 1.0
-"""Standard deviation, in samples, of the blur of the magnitude that is matched."""
+# Shift, as a share of the largest one, that costs a match twice PRIOR_WEIGHT; others cost in proportion to their
+# square.
 PRIOR_WIDTH = 0.6
-"""Shift, as a share of the largest one, that costs a match twice PRIOR_WEIGHT; others cost in proportion to their
-square."""
+# Half of what that shift costs, in standard deviations of the pass's match.
 PRIOR_WEIGHT = 0.25
-"""Half of what that shift costs, in standard deviations of the pass's match."""
+# A pass of less weight is not heard.
 LEAST_WEIGHT = 0.02
-"""A pass of less weight is not heard."""
 
 
 @dataclass(frozen=True)

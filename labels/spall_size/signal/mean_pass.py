@@ -11,18 +11,17 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from labels.spall_size.signal.alignment import Alignment
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Edges of the bands as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold
+# the entry.
 BAND_EDGES = (0.03, 0.12)
-"""Edges of the bands as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold
-the entry."""
+# Periods before and after the anchor that a mean pass holds.
 REACH = 1.1
-"""Periods before and after the anchor that a mean pass holds."""
+# Standard deviation of the blur of the sway, samples.
 SWAY_BLUR = 4.0
-"""Standard deviation of the blur of the sway, samples."""
+# Points of one period from which the displacement is made.
 GIVE_POINTS = 4096
-"""Points of one period from which the displacement is made."""
 
 
 class Channel(IntEnum):

@@ -5,17 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
+# Samples of each of the stretches whose spectra are averaged.
 SEGMENT = 1024
-"""Samples of each of the stretches whose spectra are averaged."""
+# Bins of that spectrum over which it is smoothed.
 SMOOTHED = 9
-"""Bins of that spectrum over which it is smoothed."""
+# Share of noise below which none is told.
 CLEANEST = 1e-9
-"""Share of noise below which none is told."""
 
 
 def log_noise_share(signal: Array) -> float:

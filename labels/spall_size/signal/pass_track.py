@@ -9,26 +9,25 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import fftconvolve
 
+from physics.arrays import Array
 from physics.compiled import njit
 
-Array = NDArray[np.float64]
-
+# Cells into which a period is cut.
 CELLS = 256
-"""Cells into which a period is cut."""
+# Share by which a step of the first path may differ from the stated period.
 FIRST_TOLERANCE = 0.05
-"""Share by which a step of the first path may differ from the stated period."""
+# Share by which a step of a later path may differ from the mean step of the path before.
 TOLERANCE = 0.04
-"""Share by which a step of a later path may differ from the mean step of the path before."""
+# Standard deviation of the steps of the first path, in periods.
 FIRST_DEVIATION = 0.02
-"""Standard deviation of the steps of the first path, in periods."""
+# Standard deviation of the steps of a later path, in periods: the scatter that a slipping cage has.
 DEVIATION = 0.009
-"""Standard deviation of the steps of a later path, in periods: the scatter that a slipping cage has."""
+# How often the pattern is learned from a path and a new path laid by it.
 ROUNDS = 3
-"""How often the pattern is learned from a path and a new path laid by it."""
+# Standard deviation of the blur of the log energy along which the first path is laid, cells.
 BLUR = 1.5
-"""Standard deviation of the blur of the log energy along which the first path is laid, cells."""
+# A record must be long enough for one pass more than this.
 FEWEST_PASSES = 4
-"""A record must be long enough for one pass more than this."""
 
 
 @dataclass(frozen=True)

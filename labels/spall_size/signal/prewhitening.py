@@ -5,21 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solve, solve_toeplitz
 
-Array = NDArray[np.float64]
+from physics.arrays import Array
 
+# Samples of the past from which a sample is predicted.
 ORDER = 30
-"""Samples of the past from which a sample is predicted."""
+# How often the predictor is fitted anew with weights from its residual.
 REWEIGHTINGS = 2
-"""How often the predictor is fitted anew with weights from its residual."""
+# Share of the residual's mean power that is added to each of its squares before they become weights.
 FLOOR_SHARE = 0.02
-"""Share of the residual's mean power that is added to each of its squares before they become weights."""
+# Share of a sample's power that is added to it alone, so that the predictor is defined whatever the signal.
 RIDGE = 1e-9
-"""Share of a sample's power that is added to it alone, so that the predictor is defined whatever the signal."""
+# Samples whose products are summed at a time, to bound the memory.
 BLOCK = 1 << 12
-"""Samples whose products are summed at a time, to bound the memory."""
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
+from physics.arrays import Array
 
-Array = NDArray[np.float64]
-
+# Energy added before a logarithm is taken, in medians of the record, so that nothing has a logarithm too.
 ENERGY_FLOOR = 1e-9
-"""Energy added before a logarithm is taken, in medians of the record, so that nothing has a logarithm too."""
+# Width of a stretch that counts at least, samples.
 LEAST_WIDTH = 1e-9
-"""Width of a stretch that counts at least, samples."""
 
 
 class RunningEnergy:

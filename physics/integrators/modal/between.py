@@ -7,15 +7,11 @@ tells them in a tenth of the time.
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inner, njit_pasted
+from physics.arrays import Array
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.memory import BETWEEN, UNITS, Memory
 from physics.integrators.modal.weights import set_step
-
-Array = NDArray[np.float64]
 
 NODES, BEHIND = 8, 3
 # Radians that the fastest mode may turn in a unit. A weight is then wrong by 2e-10 of the largest of its kind in the

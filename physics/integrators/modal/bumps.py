@@ -7,15 +7,11 @@ the beginning, in the middle and at the end of a step tell. Slopes and depths of
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_inner
+from physics.arrays import Array
 from physics.contact.forces import ACTIVE, COMPRESSION, Contacts, law_power
 from physics.contact.track import CAGE, RELIEF, Track, passage, path_under, place_of
 from physics.paths.depth_path import PIECES
-
-Array = NDArray[np.float64]
 
 # Error of a step, over its length, in terms of how far the middle strays from the cubic of values and rates at both
 # ends.

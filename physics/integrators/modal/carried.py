@@ -8,10 +8,8 @@ end: what the last correction would change of it is of the order of the step's o
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_pasted
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to
 from physics.integrators.modal.flow import LinearFlow, set_rest
@@ -19,8 +17,6 @@ from physics.integrators.modal.layout import AT_END, AT_HALF, END, HALF, KICKS, 
 from physics.integrators.modal.memory import BEFORE, Memory
 from physics.integrators.modal.reading import free_motion, push, turn
 from physics.integrators.modal.remainder import remainder_at
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

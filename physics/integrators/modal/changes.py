@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_inner
+from physics.arrays import Array
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
@@ -28,8 +26,6 @@ from physics.integrators.modal.memory import (
 )
 from physics.integrators.output import Output, change_unlocated, toggle
 from physics.integrators.trial import Trial
-
-Array = NDArray[np.float64]
 
 # What a look at a trial step says: take it, or go on from where it began, where a ball has CHANGED sides meanwhile.
 TAKE, AGAIN, CHANGED = range(3)

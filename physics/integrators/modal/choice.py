@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_pasted
+from physics.arrays import Array
 from physics.contact.contact_set import count_ahead
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
@@ -30,8 +28,6 @@ from physics.integrators.modal.memory import (
     Stride,
 )
 from physics.integrators.stops import Stops, next_kink
-
-Array = NDArray[np.float64]
 
 # A stride is taken only if no ball would change sides within this many times its length.
 LOOK_AHEAD = 1.0

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
+from physics.arrays import Array
 from physics.contact.turning import cosine_sine
 from physics.motion import MotionModel
 
-Array = NDArray[np.float64]
 # Displacement along x and y (m) and velocity along x and y (m/s) of the inner relative to the outer ring.
 Motion = tuple[float, float, float, float]
 

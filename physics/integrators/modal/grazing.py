@@ -12,9 +12,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner
+from physics.arrays import Array
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_force
 from physics.contact.track import (
     CAGE,
@@ -26,8 +26,6 @@ from physics.contact.track import (
     place_of,
 )
 from physics.paths.depth_path import BREAK, RELIEF_LEVELS, span_of
-
-Array = NDArray[np.float64]
 
 # A ball near a change is looked at once a cell of its path, at most this often in a step.
 MOST_LOOKS = 64

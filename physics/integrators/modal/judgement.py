@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_pasted
+from physics.arrays import Array
 from physics.contact.contact_set import count_dips
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
 from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
@@ -24,8 +22,6 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-
-Array = NDArray[np.float64]
 
 # A step is carried by the one before if that was at least this share as long.
 LEAST_RATIO = 0.24

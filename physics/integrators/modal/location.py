@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline
+from physics.arrays import Array
 from physics.contact.forces import Contacts
 from physics.integrators.events import Way, earliest_change
 from physics.integrators.modal.flow import ACCELERATION, LinearFlow, reading, relative, set_rest
 from physics.integrators.modal.memory import Memory
 from physics.integrators.trial import Trial
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

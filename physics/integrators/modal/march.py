@@ -9,10 +9,8 @@ force it makes, how finely steps are graded next to it from how fast contact beg
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_lean, njit_pasted
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
@@ -68,8 +66,6 @@ from physics.integrators.output import (
 )
 from physics.integrators.stops import Stops, passed_kinks
 from physics.integrators.trial import Trial
-
-Array = NDArray[np.float64]
 
 # No scene takes this many steps on average: what does, asks for more accuracy than it has.
 MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000

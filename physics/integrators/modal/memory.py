@@ -7,10 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
 from physics.integrators.modal.layout import POWERS
-
-Array = NDArray[np.float64]
 
 UNITS = 16
 # Steps of more than a sample, in samples, and where the weights of the samples inside each begin.

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics.arrays import Array
 from physics.contact.forces import FORCE, Contacts, of_ball, set_time
 from physics.contact.turning import cosine_sine
 from physics.integrators.modal.choice import Choice
@@ -27,8 +25,6 @@ from physics.integrators.modal.reading import push, read_inside, turn
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.output import Output
 from physics.integrators.trial import Trial
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

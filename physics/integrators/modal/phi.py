@@ -8,13 +8,11 @@ cancellation. A pair of amplitudes multiplies like a complex number if it swings
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_inner
+from physics.arrays import Array
 from physics.integrators.modal.flow import AMPLITUDES, PAIRS
 from physics.integrators.modal.layout import POWERS
-
-Array = NDArray[np.float64]
 
 SERIES_TOLERANCE = 1e-15
 MOST_TERMS = 60

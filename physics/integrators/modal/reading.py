@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline
+from physics.arrays import Array
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, VELOCITY, Motion, weigh
 from physics.integrators.modal.layout import (
     INSIDE_OTHER,
@@ -16,8 +14,6 @@ from physics.integrators.modal.layout import (
     SECTION,
     TURN_NUMBERS,
 )
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_inner
+from physics.arrays import Array
 from physics.contact.forces import Contacts, press
 from physics.integrators.modal.flow import LinearFlow, Motion, relative
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

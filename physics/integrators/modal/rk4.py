@@ -10,10 +10,8 @@ nor with Lawson's integrating-factor RK4.
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_pasted
+from physics.arrays import Array
 from physics.contact.contact_set import count_changes, note_motion
 from physics.contact.forces import Contacts, move_to
 from physics.integrators.modal.flow import LinearFlow, set_rest
@@ -22,7 +20,6 @@ from physics.integrators.modal.memory import Memory
 from physics.integrators.modal.reading import free_motion, push, pushed, turn
 from physics.integrators.modal.remainder import remainder_at
 
-Array = NDArray[np.float64]
 Force = tuple[float, float]
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_lean
+from physics.arrays import Array
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
 from physics.integrators.modal.layout import INSIDE_WEIGHTS, POWERS, STEP_WEIGHTS
 from physics.integrators.modal.memory import FIRST_INSIDE, ROWS, STRIDES, UNITS
 from physics.integrators.modal.weights import set_inside, set_step
-
-Array = NDArray[np.float64]
 
 INSIDE_ROWS = FIRST_INSIDE[-1] + STRIDES[-1] - 1
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inner, njit_pasted
+from physics.arrays import Array
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FORCE, Contacts, Law, law_force
 from physics.integrators.modal.memory import PULLING, Memory
 from physics.integrators.output import HELD, PULLED, Output
-
-Array = NDArray[np.float64]
 
 # The instant at which a force changes its sign is found to 2^-12 of a step.
 HALVINGS = 12

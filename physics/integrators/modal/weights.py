@@ -6,10 +6,8 @@ Everything a step needs is summed up over the modes as far as it goes, and lies 
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inline, njit_lean
+from physics.arrays import Array
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, LinearFlow
 from physics.integrators.modal.layout import (
     AT_END,
@@ -32,8 +30,6 @@ from physics.integrators.modal.layout import (
     TURN_NUMBERS,
 )
 from physics.integrators.modal.phi import double, phi_functions, product
-
-Array = NDArray[np.float64]
 
 
 @njit_inline

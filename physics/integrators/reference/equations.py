@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array
 from physics.cage import CagePath
 from physics.paths.depth_path import DepthPath
 from physics.paths.profile import build_path
 from physics.scene import Scene
 
-Array = NDArray[np.float64]
 Cubics = tuple[Array, Array]
 Turn = tuple[tuple[float, float], tuple[float, float]]
 

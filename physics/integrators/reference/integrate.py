@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
+from physics.arrays import Array
 from physics.integrators.reference.equations import contact_set, slopes, write_equations
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
 from physics.paths.profile import build_path
 from physics.scene import Scene
 
-Array = NDArray[np.float64]
 Change = tuple[float, int, int, bool]
 
 RELATIVE_TOLERANCE = 1e-9

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit
+from physics.arrays import Array
 from physics.integrators.reference.equations import (
     AHEAD,
     AMPLITUDE,
@@ -25,8 +25,6 @@ from physics.integrators.reference.equations import (
     Equations,
     polynomial_at,
 )
-
-Array = NDArray[np.float64]
 
 
 @njit

@@ -12,10 +12,10 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853, RK45
 
 from physics._jit import CCallback, c_callback, njit, specialise
+from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import Contacts, set_time
@@ -26,8 +26,6 @@ from physics.integrators.reference.equations import Equations, write_equations
 from physics.integrators.rivals.ball_by_ball import ball_by_ball_slopes
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
-
-Array = NDArray[np.float64]
 
 SAFETY, MOST_SHRINKING, MOST_GROWTH = 0.9, 0.2, 10.0
 FIRST_STEP = 1e-9

@@ -12,8 +12,8 @@ TIME = np.arange(20_000) / RATE
 KNOWN = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 2000.0 / 60.0)
 
 
+# m/s²: about what 16 bits over a common range give.
 STEP = 0.01
-"""m/s²: about what 16 bits over a common range give."""
 
 
 def found(signal, rate=RATE, known=KNOWN):

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 from physics.bearing import RACES
 from physics.spall import PROFILES
+from physics.words import CONTACT_LAWS
 
 CONDITIONS = ("healthy", "line", "extended")
 LOCATIONS = ("none", *RACES)
-# The same as physics.scene.CONTACT_LAWS, as a test holds; to import that would load scipy with the table of labels.
-CONTACT_LAWS = ("paper", "no_tension")
 SPLITS = ("train", "validation", "test")
 SPEED_BASES = ("set", "measured", "tach", "nominal")
 UNKNOWN = "unknown"

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from functools import partial
 
 from labels.schema import BAND_EDGES, LAYERS, LOCATIONS
+from physics.words import STIFFNESS_COMPONENTS
 
 AXES = ("x", "y")
-# The same as physics.statics.stiffness.COMPONENTS, as a test holds; to import that would load numba with this table.
-COMPONENTS = ("xx", "yy", "xy")
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,13 @@ COORDINATES: tuple[Variable, ...] = (
         "stiffness_time", ("stiffness_time",), "float64", "s", "time of the stiffness", "Time of the stored stiffness."
     ),
     Variable(
-        "component", ("component",), "str", "", "component", "Element of the symmetric matrix.", values=COMPONENTS
+        "component",
+        ("component",),
+        "str",
+        "",
+        "component",
+        "Element of the symmetric matrix.",
+        values=STIFFNESS_COMPONENTS,
     ),
     Variable("row", ("row",), "int64", "1", "row", "Row of balls, from 1."),
     Variable("ball", ("ball",), "int64", "1", "ball", "Ball of a row, from 1, in the direction of rotation."),

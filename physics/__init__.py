@@ -1,16 +1,27 @@
 """Bearing physics: geometry, contact, statics, motion. Reads no file and knows no other package of this project.
 
-What a machine is: `bearing`, `hertz`, `rating`, `rig`, `spall`, `operation`, `imperfections`, `cage`, put together in a
-`scene`; published ones are in `catalog/`. What comes of it, from the front door `simulate` inwards:
+What a machine is, put together in a `scene`:
 
-- `simulate`: a scene in, a `trace` out, or an `outcome` that says what failed; `validity` says where the model ends
+- `bearing`, with `hertz` (how stiff and how wide a contact is), `rating` (static load rating) and `orders` (how often
+  balls pass)
+- `rig`, `spall`, `imperfections`, `operation`, `cage`
+- `catalog/`: published bearings and rigs; `reference_scenes`: the named scenes of the paper's two rigs
+
+What comes of it, from the front door inwards:
+
+- `simulate`: a scene in, a `trace` out, or an `outcome` that says what failed; `request`: how it is wanted, checked
 - `response/`: the response to a stated accuracy; `ladder/`: the simpler models
 - `integrators/`: one numerical method, one file; `integrators/modal/` is the default
 - `motion`, `modes`: the equations of motion around the contacts, and what they are when linear
 - `contact/`: the forces between balls and races; `paths/`: where a spall leads the centre of a ball
 - `statics/`: where the shaft rests, which ball carries what, how stiff the bearing is
+- `contact_events`: release and regain of every ball pass; `validity`: where the model ends
 - `sensor/`, `backgrounds/`: from the bearing to the recording
 
-Kernels read arrays and NamedTuples that `assembly` makes of a scene; `_jit` compiles them and `warming` does so early.
-Other packages compile kernels of theirs by `compiled`.
+What all of them use:
+
+- `assembly`: from a scene to the arrays and NamedTuples that kernels read; `arrays`: names of array types;
+  `words`: those of scenes and results that other packages need
+- `_jit`: compiles kernels; `warming` does so early; `compiled`: what other packages need of the compiler
+- `checks` (a value refused), `rms`, `freed_memory`
 """

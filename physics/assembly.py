@@ -38,11 +38,10 @@ TABLES_KEPT = 8
 def assemble(scene: Scene) -> Contacts:
     """The contacts of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
     bearing, rig = scene.rig.bearing, scene.rig
-    cos_alpha = math.cos(bearing.contact_angle)
     law = Law(
-        stiffness=bearing.load_deflection * cos_alpha ** (bearing.exponent + 1.0),
+        stiffness=bearing.radial_load_deflection,
         exponent=bearing.exponent,
-        damping=rig.film_damping * cos_alpha**2,
+        damping=rig.film_damping * math.cos(bearing.contact_angle) ** 2,
         no_tension=scene.contact_law == "no_tension",
     )
     return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene))

@@ -85,6 +85,11 @@ class Bearing:
         """Db cos α / Dp, dimensionless."""
         return self.ball_diameter * math.cos(self.contact_angle) / self.pitch_diameter
 
+    @property
+    def radial_load_deflection(self) -> float:
+        """K of the radial force against the radial compression, K cosⁿ⁺¹ α, N/mⁿ [P14 Eq. 6]."""
+        return self.load_deflection * math.cos(self.contact_angle) ** (self.exponent + 1.0)
+
     def cage_speed(self, shaft_speed: float) -> float:
         """Nominal cage speed in rad/s for a shaft speed in rad/s [P14 Eq. 1]."""
         return shaft_speed * self.ftf

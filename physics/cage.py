@@ -26,8 +26,8 @@ CROSSING_SHARE = 1e-11
 class CagePath:
     """Cage angle φc(t) = φc(0) + ∫ ωc (1 − s̄ + s(t)) dt, rad, from t = 0 to `duration` (s).
 
-    `knot_values` are s at the times `start + k · knot_step`; none means constant slip s̄. This replaces [P14 Eq. 3],
-    whose random step depends on the solver's step.
+    `knot_values` are s at the times `knot_start + k · knot_step`; none means constant slip s̄. This replaces
+    [P14 Eq. 3], whose random step depends on the solver's step.
     """
 
     nominal_speed: float

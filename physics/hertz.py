@@ -130,6 +130,17 @@ def load_deflection_factor(
     return in_series(inner.load_deflection, outer.load_deflection, BALL_EXPONENT)
 
 
+def hertz_load_deflection(bearing: Bearing) -> float:
+    """K of F = K δ^(3/2) that the geometry and conformities of a ball `bearing` give, N/m^1.5."""
+    return load_deflection_factor(
+        bearing.pitch_diameter,
+        bearing.ball_diameter,
+        bearing.contact_angle,
+        bearing.inner_conformity,
+        bearing.outer_conformity,
+    )
+
+
 def roller_load_deflection_factor(length: float) -> float:
     """K of F = K δ^(10/9) for a steel roller of effective `length` (m) between both races, N/m^(10/9).
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
-from itertools import combinations
 
 from physics.bearing import RACES
 from physics.cage import CagePath
@@ -12,9 +10,8 @@ from physics.checks import InvalidParameter, require, require_one_of
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.rig import Rig
-from physics.spall import Spall
-
-CONTACT_LAWS = ("paper", "no_tension")
+from physics.spall import Spall, require_apart
+from physics.words import CONTACT_LAWS
 
 
 @dataclass(frozen=True)
@@ -49,7 +46,7 @@ class Scene:
                 f"spall on row {spall.row}, but bearing {bearing.name} has {bearing.rows} row(s)",
                 "row",
             )
-        self._check_overlap()
+        require_apart(self.spalls)
         self._check_second_cage()
         deviation = self.imperfections.ball_deviation
         require(
@@ -57,17 +54,6 @@ class Scene:
             f"ball_deviation must hold {bearing.rows} row(s) of {bearing.balls} values",
             "ball_deviation",
         )
-
-    def _check_overlap(self) -> None:
-        for first, second in combinations(self.spalls, 2):
-            apart = abs(math.remainder(first.angle - second.angle, 2.0 * math.pi))
-            least = (first.extent + second.extent) / 2.0
-            require(
-                first.row != second.row or apart >= least * (1.0 - 1e-12),
-                f"two spalls on row {first.row} overlap: their centres are {apart:.6g} rad apart, "
-                f"their extents need {least:.6g} rad",
-                "angle",
-            )
 
     def _check_second_cage(self) -> None:
         if self.second_cage is None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 from physics.bearing import RACES, Bearing
 from physics.checks import (
@@ -17,6 +18,8 @@ from physics.checks import (
 )
 
 PROFILES = ("tukey", "ball_path", "table")
+# Spalls that touch may overlap by this share of their extent, which is rounding.
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -128,3 +131,16 @@ class Spall:
 def is_extended(extent: float, bearing: Bearing) -> bool:
     """True if the arc `extent` (rad) always holds at least one ball of its row: Δφ ≥ 2π/Nb."""
     return extent >= bearing.spacing * (1.0 - 1e-12)
+
+
+def require_apart(spalls: Sequence[Spall]) -> None:
+    """Raise InvalidParameter if two `spalls` of a row overlap; they may touch."""
+    for one, other in combinations(spalls, 2):
+        apart = abs(math.remainder(one.angle - other.angle, math.tau))
+        least = (one.extent + other.extent) / 2.0
+        require(
+            one.row != other.row or apart >= least * (1.0 - ROUNDING),
+            f"two spalls on row {one.row} overlap: their centres are {apart:.6g} rad apart, their extents need "
+            f"{least:.6g} rad",
+            "angle",
+        )

@@ -8,6 +8,7 @@ import numpy as np
 
 from physics.bearing import Bearing
 from physics.hertz import is_roller, roller_length
+from physics.operation import RPM
 from physics.paths.profile import build_path, is_rough
 from physics.rating import static_load_rating
 from physics.scene import Scene
@@ -108,7 +109,7 @@ def _ball_inertia(scene: Scene) -> str:
 
 
 def _speed(scene: Scene) -> str:
-    rpm = scene.operation.shaft_speed * 60.0 / (2.0 * math.pi)
+    rpm = scene.operation.shaft_speed / RPM
     factor = rpm * scene.rig.bearing.pitch_diameter * 1e3
     if factor <= LIMITING_SPEED_FACTOR:
         return ""

@@ -13,7 +13,8 @@ import numpy as np
 from datagen.records.profile_grid import profile_grid
 from datagen.versions import program_versions
 from labels.schema import BAND_EDGES, LABELS, LAYERS, Label
-from labels.variables import AXES, COMPONENTS, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
+from labels.variables import AXES, DEFECTS, PASSES, SIGNALS, VARIABLES, Variable
+from physics.words import STIFFNESS_COMPONENTS
 
 if TYPE_CHECKING:
     import xarray
@@ -131,8 +132,8 @@ def _array(variable: Variable, values: Any) -> tuple[tuple[str, ...], np.ndarray
 
 
 def _coordinates(first: Record, columns: dict[str, Any]) -> dict[str, Any]:
-    known = {"time": first.time, "axis": AXES, "component": COMPONENTS, "stiffness_time": first.stiffness_time,
-             "band_edge": BAND_EDGES, "layer": LAYERS}  # fmt: skip
+    known = {"time": first.time, "axis": AXES, "component": STIFFNESS_COMPONENTS,
+             "stiffness_time": first.stiffness_time, "band_edge": BAND_EDGES, "layer": LAYERS}  # fmt: skip
     for dim in ("row", "ball", "profile_angle"):
         owner = next((v for v in SIGNALS if dim in v.dims and v.name in columns), None)
         if owner is not None:

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from datagen.settings.table import Table
-from physics.simulate import LARGEST_ACCURACY, SMALLEST_ACCURACY
+from physics.request import LARGEST_ACCURACY, SMALLEST_ACCURACY
 
 
 class AccuracySettings(Table):

@@ -29,7 +29,7 @@ from datagen.settings.problems import bad_settings
 from datagen.settings.table import Between, OneOf, Table, refuse
 from datagen.settings.toml_file import read_toml
 from labels.envelope import holds_a_line
-from physics.scene import CONTACT_LAWS
+from physics.words import CONTACT_LAWS
 
 FEWEST_STORED_SAMPLES = 16
 LARGEST_HYPERCUBE = 50_000

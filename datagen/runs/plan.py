@@ -17,7 +17,8 @@ from datagen.records.stiffness_axis import shard_key, stiffness_axis
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from labels.schema import LAYERS
-from labels.variables import AXES, COMPONENTS, SIGNALS
+from labels.variables import AXES, SIGNALS
+from physics.words import STIFFNESS_COMPONENTS
 
 # What a shard takes beside its signals: labels, tables, scenarios and the library's blocks.
 SHARD_BYTES = 250_000.0
@@ -95,7 +96,7 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
         "record": 1,
         "time": scenario.samples,
         "axis": len(AXES),
-        "component": len(COMPONENTS),
+        "component": len(STIFFNESS_COMPONENTS),
         "layer": len(LAYERS),
         "stiffness_time": stiffness_axis(scenario).size,
         "profile_angle": PROFILE_POINTS,

@@ -1,1 +1,9 @@
-"""From a recipe to scenarios: random streams, drawn machines, spalls and runs, and the text that keeps them."""
+"""From a recipe to scenarios: random streams, drawn machines, spalls and runs, and the text that keeps them.
+
+- `sampling`: from a recipe to one `scenario`, in which every number is fixed
+- where numbers come from: `streams`, `design` (spread evenly), `turns` (exact counts), `draw` (one attempt), `picker`
+- what is drawn: `machine`, with `drawn_rig`, `imperfections`, `chain` and `drawn_background` (a `background`);
+  `defect`; `accuracy`
+- what cannot be: `feasibility`, `redraw`
+- as text: `scenario_text`, `sampling_text`, `sensor_text`
+"""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import combinations
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, DefectSettings, SpallSettings
@@ -16,7 +15,7 @@ from physics.bearing import Bearing
 from physics.checks import InvalidParameter, require
 from physics.hertz import contact_width
 from physics.paths.roughness import draw_roughness
-from physics.spall import Spall, is_extended
+from physics.spall import Spall, is_extended, require_apart
 
 TURN = 2.0 * math.pi
 DEFAULT_TAPER_SHARE = {"tukey": 0.1, "ball_path": 0.0, "table": 0.0}
@@ -36,7 +35,7 @@ def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, 
         return ()
     spalls = list(_draw_all(settings.refined[condition, race, profile], race, profile, bearing, load, draw))
     _require_condition(condition, max(spall.extent for spall in spalls), bearing)
-    _require_apart(spalls)
+    require_apart(spalls)
     return tuple(spalls)
 
 
@@ -119,11 +118,3 @@ def _require_condition(condition: str, extent: float, bearing: Bearing) -> None:
             f"of {math.degrees(bearing.spacing):.4g} degrees",
             "extent",
         )
-
-
-def _require_apart(spalls: list[Spall]) -> None:
-    for one, other in combinations(spalls, 2):
-        if one.row == other.row:
-            distance = abs(math.remainder(one.angle - other.angle, TURN))
-            apart = distance >= (one.extent + other.extent) / 2.0
-            require(apart, f"two spalls on row {one.row} overlap: {math.degrees(distance):.4g} degrees apart", "angle")

@@ -14,8 +14,8 @@ from physics.checks import require
 from physics.hertz import (
     BALL_EXPONENT,
     ROLLER_EXPONENT,
+    hertz_load_deflection,
     is_roller,
-    load_deflection_factor,
     roller_load_deflection_factor,
 )
 from physics.modes import rated_matrices
@@ -140,20 +140,10 @@ def _load_deflection(base: Bearing, bearing: Bearing, said: Values) -> float:
     if base is NO_BEARING or said["elements"] is not None:
         if is_roller(bearing):
             return roller_load_deflection_factor(said["roller_length_of_diameter"] * bearing.ball_diameter)
-        return _hertz(bearing)
+        return hertz_load_deflection(bearing)
     if is_roller(bearing) or all(getattr(bearing, field) == getattr(base, field) for field in GEOMETRY):
         return base.load_deflection
-    return base.load_deflection * _hertz(bearing) / _hertz(base)
-
-
-def _hertz(bearing: Bearing) -> float:
-    return load_deflection_factor(
-        bearing.pitch_diameter,
-        bearing.ball_diameter,
-        bearing.contact_angle,
-        bearing.inner_conformity,
-        bearing.outer_conformity,
-    )
+    return base.load_deflection * hertz_load_deflection(bearing) / hertz_load_deflection(base)
 
 
 def _altered_rig(base: Rig, said: Values, factors: Values) -> Rig:

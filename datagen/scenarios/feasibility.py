@@ -31,8 +31,7 @@ def farthest_rest(scene: Scene) -> float:
     bearing, run = scene.rig.bearing, scene.operation
     load = abs(run.load) * (1.0 + run.load_fluctuation) + run.unbalance_force
     side = math.cos(bearing.spacing / 2.0)
-    stiffness = bearing.load_deflection * math.cos(bearing.contact_angle) ** (bearing.exponent + 1.0)
-    compression = (load / (stiffness * side)) ** (1.0 / bearing.exponent)
+    compression = (load / (bearing.radial_load_deflection * side)) ** (1.0 / bearing.exponent)
     return (compression + _deepest_floor(scene)) / side
 
 

@@ -1,4 +1,8 @@
-"""The catalogue: named bearings and rigs, and a printable table of every number with its source."""
+"""The catalogue: named bearings and rigs, and a printable table of every number with its source.
+
+- `bearings`, `rigs`: the entries; `sourced`: a number with its origin
+- `claims`: what the sources print besides their parameters, beside what those parameters give
+"""
 
 from __future__ import annotations
 

@@ -22,8 +22,8 @@ IMS = "IMS run-to-failure data (NASA prognostics repository), readme; Qiu et al.
 ASSUMED_ROLLER_LENGTH = 11e-3
 
 _ball_law = Sourced(1.5, "1", PAPER_LAW, note="balls")
-_no_source = assumed(DEFAULT_CONFORMITY, "1", "groove radius / ball diameter, usual for steel ball bearings")
-_unused = assumed(DEFAULT_CONFORMITY, "1", "without effect: rollers touch along lines")
+_usual_conformity = assumed(DEFAULT_CONFORMITY, "1", "groove radius / ball diameter, usual for steel ball bearings")
+_conformity_without_effect = assumed(DEFAULT_CONFORMITY, "1", "without effect: rollers touch along lines")
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class CatalogBearing:
     contact_angle: Sourced
     exponent: Sourced = _ball_law
     row_offset: Sourced | None = None
-    inner_conformity: Sourced = _no_source
-    outer_conformity: Sourced = _no_source
+    inner_conformity: Sourced = _usual_conformity
+    outer_conformity: Sourced = _usual_conformity
 
     def build(self, name: str) -> Bearing:
         """The bearing without its sources."""
@@ -130,8 +130,8 @@ REXNORD_ZA2115 = CatalogBearing(
     contact_angle=Sourced(math.radians(15.17), "rad", IMS, note="15.17 degrees"),
     exponent=Sourced(ROLLER_EXPONENT, "1", PAPER_LAW, note="rollers"),
     row_offset=assumed(math.pi / 16, "rad", "half the roller spacing"),
-    inner_conformity=_unused,
-    outer_conformity=_unused,
+    inner_conformity=_conformity_without_effect,
+    outer_conformity=_conformity_without_effect,
 )
 
 BEARINGS: dict[str, CatalogBearing] = {

@@ -6,7 +6,7 @@ import math
 
 from physics.catalog.bearings import CWRU, IMS, MFPT, PAPER_FAN, PAPER_GEARBOX
 from physics.catalog.sourced import Claim
-from physics.hertz import contact_width, load_deflection_factor
+from physics.hertz import contact_width, hertz_load_deflection
 from physics.rig import Rig
 
 PAPER_MODEL = "Petersen et al. 2014, section 5.2"
@@ -35,10 +35,7 @@ def resonator_damping_ratio(rig: Rig) -> float:
 
 def hertz_factor(rig: Rig) -> float:
     """K from the geometry and conformities of the rig's ball bearing, N/m^1.5."""
-    b = rig.bearing
-    return load_deflection_factor(
-        b.pitch_diameter, b.ball_diameter, b.contact_angle, b.inner_conformity, b.outer_conformity
-    )
+    return hertz_load_deflection(rig.bearing)
 
 
 def peak_contact_width(rig: Rig) -> float:

@@ -17,9 +17,9 @@ from physics.catalog.bearings import (
 )
 from physics.catalog.claims import CWRU_CLAIMS, FAN_CLAIMS, GEARBOX_CLAIMS, IMS_CLAIMS, MFPT_CLAIMS
 from physics.catalog.sourced import Claim, Sourced, assumed, sourced_fields
+from physics.operation import RPM
 from physics.rig import Rig
 
-RPM = 2.0 * math.pi / 60.0
 POUND_FORCE = 4.4482216152605
 LIKE_PAPER = "between the paper's two rigs"
 

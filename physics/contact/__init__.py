@@ -1,1 +1,6 @@
-"""Balls between their races: where they are (`track`), what presses them (`forces`), which touch (`contact_set`)."""
+"""Balls between their races.
+
+- `track`: where balls are and what they run on, as functions of time
+- `forces`: what presses them; `contact_set`: which of them touch
+- `turning` (cosine and sine) and `power`: plain arithmetic that the compiler puts into vectors
+"""

@@ -96,10 +96,10 @@ def wave_cell(track: Track, angle: float) -> tuple[int, int, float]:
 
 @njit_inline
 def hindmost(track: Track, spall: int, angle: float, time: float, travel: float) -> tuple[float, float, float]:
-    """Of the balls that meet a spall while they cover `travel` (rad) from the cage `angle` (rad) at `time` (s) on: the
-    arc (rad) of the hindmost and how many spacings it is ahead of ball 1 of its row; and the arc that none is beyond.
+    """First of the balls that touch a spall while they cover `travel` (rad) from the cage `angle` (rad) at `time` (s).
 
-    The others follow a spacing apart.
+    Its arc (rad), how many spacings it is ahead of ball 1 of its row, and the largest arc (rad) that any ball may have;
+    the others are ahead of it by whole spacings.
     """
     row = track.spalls[spall]
     ahead = row[SIGN] * (angle - row[ANGLE] - row[SPEED] * time)

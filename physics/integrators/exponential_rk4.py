@@ -4,8 +4,8 @@ Outer ring and resonator are solved exactly under the stages' contact forces, th
 the fast resonator sets no step limit; what remains to resolve are the contact modes and the balls' way over edges.
 Order 4 while the contact set does not change, which the marching loop ensures by stopping at every change. Not to be
 confused with Cox and Matthews' ETDRK4, whose stages lose order when the linear part is stiff, nor with Lawson's
-integrating-factor RK4. Stable up to ω h = 1.41 for contact
-modes of frequency ω, more with film damping: half the classical method's, whose positions see older forces.
+integrating-factor RK4. Stable up to ω h = 1.41 for undamped contact modes of frequency ω: half the classical method's,
+whose positions see older forces.
 """
 
 from __future__ import annotations

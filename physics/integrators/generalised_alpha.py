@@ -34,6 +34,9 @@ MOST_SHORTENINGS = 12
 # Newton's method squares the error: a move this small (share of the displacement) leaves round-off.
 SMALL_MOVE = 1e-8
 SAME_STEP = 1e-6
+# Places of the longer state: the lead of the accelerations of inner ring, outer ring and resonator, along x and y, and
+# the length of the last step.
+LEAD_INNER, LEAD_OUTER, LEAD_RESONATOR, LAST_STEP, STATE_SIZE = 12, 14, 16, 18, 19
 
 
 class Free(NamedTuple):
@@ -144,9 +147,9 @@ def step_generalised_alpha(
     """
     lead = np.empty(6)
     accelerations(motion, time, start, force, lead)
-    if abs(start[18] - step) <= SAME_STEP * step:
+    if abs(start[LAST_STEP] - step) <= SAME_STEP * step:
         for i in range(6):
-            lead[i] += start[12 + i]
+            lead[i] += start[LEAD_INNER + i]
     middle = time + (1.0 - ALPHA_F) * step
     load = outer_load(motion, middle)
     x, y = (
@@ -159,20 +162,22 @@ def step_generalised_alpha(
     for axis in range(2):
         free = x if axis == 0 else y
         pushed = met[axis]
-        end[12 + axis] = free.inner + free.inner_gain * pushed
-        end[14 + axis] = free.outer + free.outer_gain * pushed
-        end[16 + axis] = free.resonator + free.resonator_gain * pushed
+        end[LEAD_INNER + axis] = free.inner + free.inner_gain * pushed
+        end[LEAD_OUTER + axis] = free.outer + free.outer_gain * pushed
+        end[LEAD_RESONATOR + axis] = free.resonator + free.resonator_gain * pushed
     for i in range(6):
-        moved = (0.5 - BETA) * lead[i] + BETA * end[12 + i]
+        moved = (0.5 - BETA) * lead[i] + BETA * end[LEAD_INNER + i]
         end[i] = start[i] + step * start[6 + i] + step * step * moved
-        end[6 + i] = start[6 + i] + step * ((1.0 - GAMMA) * lead[i] + GAMMA * end[12 + i])
+        end[6 + i] = start[6 + i] + step * ((1.0 - GAMMA) * lead[i] + GAMMA * end[LEAD_INNER + i])
     set_time(contacts, time + step)
     accelerations(motion, time + step, end, press_state(contacts, end), lead)
     for i in range(6):
-        end[12 + i] -= lead[i]
-    end[18] = step
+        end[LEAD_INNER + i] -= lead[i]
+    end[LAST_STEP] = step
     return contradicted
 
 
 # The march begins with the accelerations of the equations of motion.
-march_generalised_alpha = carrying(bind_method("generalised_alpha", step_generalised_alpha), np.zeros(7))
+march_generalised_alpha = carrying(
+    bind_method("generalised_alpha", step_generalised_alpha), np.zeros(STATE_SIZE - LEAD_INNER)
+)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
 from physics.modes import coupled_matrix
@@ -25,7 +25,7 @@ from physics.paths.passages import passages
 from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics.load_distribution import carried
+from physics.statics.load_distribution import carried, instants_without_period
 from physics.statics.stiffness import matrix
 from physics.trace import ContactChanges, Trace
 
@@ -34,8 +34,11 @@ MEAN_TIMES = 64
 
 
 class Edges(NamedTuple):
-    """Steps of force on the outer ring: `time` (E,) s of their middles, `row`, `ball` (E,) from 1, `angle` (E,) of the
-    ball, rad, `change` (E,) of its load, N, over the `ramp` (E,), s, and whether it is `all` (E,) of it."""
+    """Steps of force on the outer ring, E of them.
+
+    `time` (s) of their middles, `row` and `ball` from 1, `angle` of the ball (rad), `change` of its load (N) over the
+    `ramp` (s), and whether it is all of its load that the ball loses or takes again (`unloads`).
+    """
 
     time: Array
     row: NDArray[np.int16]
@@ -43,7 +46,7 @@ class Edges(NamedTuple):
     angle: Array
     change: Array
     ramp: Array
-    all: NDArray[np.bool_]
+    unloads: Flags
 
 
 def _sound(scene: Scene) -> Scene:
@@ -53,7 +56,7 @@ def _sound(scene: Scene) -> Scene:
 
 def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
     """Stiffness (2, 2) and film damping (2, 2) of the bearing without spalls, means over the record."""
-    rest = carried(_sound(scene), np.linspace(0.0, scene.duration, MEAN_TIMES))
+    rest = carried(_sound(scene), instants_without_period(scene.duration, MEAN_TIMES))
     return matrix(rest.stiffness.mean(axis=0)), matrix(rest.damping.mean(axis=0))
 
 
@@ -180,7 +183,7 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
 def _changes(scene: Scene, edges: Edges) -> ContactChanges:
     bearing = scene.rig.bearing
     time = edges.time - 0.5 * np.sign(edges.change) * edges.ramp
-    told = np.flatnonzero(edges.all & (time >= 0.0) & (time < scene.duration))
+    told = np.flatnonzero(edges.unloads & (time >= 0.0) & (time < scene.duration))
     told = told[np.argsort(time[told], kind="stable")]
     return ContactChanges(
         time=time[told],

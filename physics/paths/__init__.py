@@ -1,6 +1,8 @@
 """Where a spall leads the centre of a ball.
 
-`profile` is the front door. A surface (`spall_surface`, `roughness`) is a path as it is or after a ball has rolled over
-it (`rolling`, `held_ball`); either becomes cubic pieces between edges (`depth_path`). `passages` and `kinks` say when
-balls come by.
+- `profile`: the front door
+- `spall_surface`, `roughness`: the surface, a path as it is or after a ball has rolled over it
+- `rolling`: where the centre of that ball runs; `held_ball`: what holds it there
+- `depth_path`: either kind of path as cubic pieces between edges
+- `passages`: when balls come by
 """

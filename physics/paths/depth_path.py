@@ -55,11 +55,6 @@ class DepthPath:
         """The path as kernels read it."""
         return paths_of([self])
 
-    @property
-    def kinks(self) -> Array:
-        """Arcs at which the path is not smooth, rad."""
-        return self.breaks
-
     def depth(self, arc: Array) -> Array:
         """Drop (N,) at the arcs (N,), m."""
         return sample_path(self.alone, np.asarray(arc, dtype=np.float64))[0]

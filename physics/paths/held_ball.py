@@ -48,8 +48,8 @@ class Ball(NamedTuple):
     turn: float
 
     def _lever(self, depth: Array, away: Array) -> tuple[Array, Array, Array]:
-        """Where a ball touches the surface at depths (N,), m, so far ahead of it (N,), rad: the radius there (m), how
-        far it lies beside the ball's own (m), and how far from the ball's centre along that (m)."""
+        """Of contacts with the surface at `depth` (N,), m, that lie `away` (N,), rad, ahead of the ball: the radius of
+        the contact, its offset to the side of the ball's centre, and its distance from there along the radius, m."""
         radius = self.race_radius - self.turn * depth
         longest = self.ball_radius * (1.0 - 1e-12)
         lever = np.clip(radius * np.sin(away), -longest, longest)

@@ -103,18 +103,12 @@ def rolled_path(
     no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
     ball touches is looked for among points of the surface and then, exactly, between the neighbours of the point found.
     """
-    count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
+    ball = Ball(race_radius, ball_radius, -1.0 if race == "outer" else 1.0)
     lips = np.zeros(0) if lips is None else lips
+    count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
     fine = 2.0 * half / (count * POINTS_A_STEP)
     probe = surface(np.linspace(-half, half, count * POINTS_A_STEP + 1))
-    extremes = np.concatenate([probe, surface(lips)])
-    outer, proud = race == "outer", max(0.0, -float(extremes.min()))
-    bump_radius = race_radius - proud if outer else race_radius + proud
-    lifted = hanging_reach(race, bump_radius, ball_radius, proud)
-    # Whole steps beyond the edges, so that both edges stay on a point of the grid.
-    beyond = math.ceil(lifted / (fine * POINTS_A_STEP))
-    hung = hanging_reach(race, bump_radius, ball_radius, max(float(extremes.max(initial=0.0)) + proud, 1e-9))
-    reach = math.ceil(1.05 * hung / fine) + 2
+    beyond, reach = _margins(np.concatenate([probe, surface(lips)]), race, ball, fine)
     first, last = -beyond * POINTS_A_STEP, (count + beyond) * POINTS_A_STEP
     points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
 
@@ -125,8 +119,7 @@ def rolled_path(
     # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.
     corners = [reach - first, reach - first + count * POINTS_A_STEP]
     depth[corners] = np.minimum(probe[[0, -1]], 0.0)
-    ball = Ball(race_radius, ball_radius, -1.0 if outer else 1.0)
-    drop, place = _roll(depth, reach, fine, race_radius, ball_radius, outer)
+    drop, place = _roll(depth, reach, fine, race_radius, ball_radius, race == "outer")
     arc = points[reach : points.size - reach : POINTS_A_STEP]
     held = Held(points[place], depth[place], drop)
     hold_on_lips(surface, ball, arc, held, lips, fine * reach)
@@ -134,6 +127,18 @@ def rolled_path(
     hold_as_neighbours(inside, ball, arc, held, fine, LEAP * POINTS_A_STEP * fine)
     slope = ball.slope(held.depth, held.place - arc)
     return RolledPath(arc, held.drop, slope, (held.place - arc[0]) / (fine * POINTS_A_STEP))
+
+
+def _margins(depths: Array, race: str, ball: Ball, fine: float) -> tuple[int, int]:
+    """By how many steps the path goes on beyond the edges of a surface of these `depths` (N,), m, as bumps that stand
+    proud of the race lift the ball there; and how many points, `fine` (rad) apart, a contact is ahead of the ball at
+    most."""
+    proud, deepest = max(0.0, -float(depths.min())), float(depths.max(initial=0.0))
+    bump_radius = ball.race_radius + ball.turn * proud
+    lifted = hanging_reach(race, bump_radius, ball.ball_radius, proud)
+    hung = hanging_reach(race, bump_radius, ball.ball_radius, max(deepest + proud, 1e-9))
+    # Whole steps, so that both edges stay on a point of the grid.
+    return math.ceil(lifted / (fine * POINTS_A_STEP)), math.ceil(1.05 * hung / fine) + 2
 
 
 def branches(path: RolledPath) -> Branches:

@@ -1,7 +1,9 @@
 """The response of a scene, by way of one or several marches.
 
-`march` marches once with a given method and step, `fixed_steps` chooses how many a sample. `modal_case` is a march by
-the default method that can be gone on with; `adaptive` goes on with it to a stated accuracy, `periodic` only until the
-response repeats itself. `stability` bounds explicit steps, `kinks` knows beforehand where steps have to end,
-`oversampling` says how finely to sample a response, and `resampling` gives other samples of what came out.
+- by a method of fixed steps: `march` (once), `fixed_steps` (how many a sample), `stability` (how long they may be)
+- by the default method: `modal_case` (a march that can be gone on with), `adaptive` (to a stated accuracy), with `goal`
+  (tolerance and error) and `attempts` (made again, or confirmed by a finer one)
+- `periodic`: only until the response repeats itself; `lead_in`: begun before the record
+- `kinks`: known instants at which steps have to end
+- `oversampling`: how finely to sample a response; `resampling`: other samples of what came out
 """

@@ -15,8 +15,8 @@ from physics.response.goal import (
     Goal,
     GoOn,
     fewest_touching,
-    led_astray,
     observed_sensitivity,
+    perturbed_response,
     rms_distance,
     steady,
 )
@@ -93,9 +93,12 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
 
 
 class Beginning(NamedTuple):
-    """How a march begins: the mean `square` (m²/s⁴) of its first samples' acceleration, how far it is `apart` (m/s²,
-    RMS) from a coarse one, and how many times as far as the errors of that one's steps add up to; and its `output`: to
-    the end, if contacts may make errors grow."""
+    """How a march begins.
+
+    `square` (m²/s⁴): mean square of the acceleration of its first samples; `apart` (m/s²): RMS distance from a coarse
+    response; `sensitivity`: that distance over what the errors of the coarse steps add up to; `output`: what is marched
+    so far, to the end if contacts may make errors grow.
+    """
 
     square: float
     apart: float
@@ -117,7 +120,7 @@ def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
         size = max(found, 1e-3 * size)
     if case.memory > 0.0:
         # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
-        coarse = led_astray(case, steady(case, length, COARSE, size))
+        coarse = perturbed_response(case, steady(case, length, COARSE, size))
     wanted = AIM * min(max(goal.accuracy, goal.least / size), COARSE)
     fine = march.go_on(steady(case, length, wanted, size, spending=1.0))
     pushed = case.pushed(coarse)

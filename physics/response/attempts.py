@@ -26,6 +26,24 @@ from physics.rms import rms
 CALM = 1.5
 # No further attempt is made after one that has left more than this share of the error.
 MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
+# A response of more than this sensitivity may be chaotic, and is to be confirmed.
+CHAOTIC = 50.0
+# To make a response again it is made with this share of the tolerance at most; to confirm one, at first with SURE.
+FINER, SURE = 0.25, 1.0 / 16.0
+# Of a response that is farther than this share of its size from a coarser one no point is known.
+LOST = 0.1
+# Distances shrink with tolerances to this power, or to a higher one if the responses show it: impacts' errors shrink
+# late.
+LATE = 0.5
+# The finer of two responses may be this many times as wrong as their distance leaves to hope for.
+CONFIRMED = 6.0
+# How many more are made to confirm one; none after one that took MUCH_WORK times the steps of the one to be confirmed.
+MOST_CONFIRMATIONS, MUCH_WORK = 4, 7
+# What the share of the samples before they are LOST must exceed, with two attempts left and with one: it grew at most
+# 2.6 times when the tolerance became MUCH_FINER (in 100 such scenes of 2780 of the wide corpus, from 0.1 to 1 s long).
+SOON = (0.15, 0.4)
+# The next one has at least this share of the tolerance of the one before, and at most SURE.
+MUCH_FINER = 1.0 / 256.0
 
 
 def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tuple[Output, Stride]:
@@ -50,12 +68,6 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
     return output, grid
 
 
-# A response of more than this sensitivity may be chaotic, and is to be confirmed.
-CHAOTIC = 50.0
-# To say a response again it is made with this share of the tolerance at most; to confirm one, at first with SURE.
-FINER, SURE = 0.25, 1.0 / 16.0
-
-
 def confirm_doubtful(goal: Goal, output: Output, grid: Stride, sensitivity: float) -> tuple[Output, float, float]:
     """The response made again with a smaller tolerance than that of the `output`'s grid; its estimated error (m/s²,
     RMS), infinite if no trajectory is known, and the sensitivity that both tell.
@@ -74,15 +86,6 @@ def confirm_doubtful(goal: Goal, output: Output, grid: Stride, sensitivity: floa
     if goal.error(again, sensitivity) > goal.allowed(size):
         again, _ = to_accuracy(goal, goal.begin(), size**2, sensitivity)
     return again, goal.error(again, sensitivity), sensitivity
-
-
-# Of a response that is farther than this share of its size from a coarser one no point is known.
-LOST = 0.1
-# Distances shrink with tolerances to this power, or to a higher one if the responses show it: impacts' errors shrink
-# late.
-LATE = 0.5
-# The finer of two responses may be this many times as wrong as their distance leaves to hope for.
-CONFIRMED = 6.0
 
 
 class Pair(NamedTuple):
@@ -112,15 +115,6 @@ class Pair(NamedTuple):
 
 def _pair(coarse: Output, fine: Output, share: float) -> Pair:
     return Pair(coarse, fine, share, rms_distance(coarse, fine), rms(fine.acceleration))
-
-
-# How many more are made to confirm one; none after one that took MUCH_WORK times the steps of the one to be confirmed.
-MOST_CONFIRMATIONS, MUCH_WORK = 4, 7
-# What the share of the samples before they are LOST must exceed, with two attempts left and with one: it grew at most
-# 2.6 times when the tolerance became MUCH_FINER (in 100 such scenes of 2780 of the wide corpus, from 0.1 to 1 s long).
-SOON = (0.15, 0.4)
-# The next one has at least this share of the tolerance of the one before, and at most SURE.
-MUCH_FINER = 1.0 / 256.0
 
 
 def _confirmed(goal: Goal, pair: Pair, grid: Stride) -> tuple[Output, float]:

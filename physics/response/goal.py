@@ -58,7 +58,7 @@ class Goal:
         """A response with several times the tolerance that a signal of this `size` (m/s², RMS) asks for."""
         share = max(COARSE, self.allowed(size) / size) if size > 0.0 else COARSE
         grid = steady(self.case, self.samples, share, size)
-        return led_astray(self.case, grid, self.go_on)
+        return perturbed_response(self.case, grid, self.go_on)
 
     def allowed(self, size: float) -> float:
         """The error (m/s², RMS) that is allowed of a signal of this `size` (m/s², RMS)."""
@@ -95,11 +95,10 @@ def _grid(case: Case, samples: int, share: float, least: float, seen: float, wei
     )
 
 
-def led_astray(case: Case, grid: Stride, go_on: GoOn = March.go_on) -> Output:
-    """A response on a `steady` grid that sets out with an error such as its steps may make, and that counts as theirs.
+def perturbed_response(case: Case, grid: Stride, go_on: GoOn = March.go_on) -> Output:
+    """A response on a `steady` grid that starts with a deliberate error, as large as one step may make, and counts it.
 
-    Others may take the same steps, as long as a sample or an instant of contact lets them, and make the same errors:
-    without one of its own it would not show what becomes of them.
+    Otherwise two responses that happen to take the same steps make the same errors, and hide how errors grow.
     """
     push = max(grid.least, grid.share * math.sqrt(grid.seen))
     output = go_on(March(case, grid.samples, push=push), grid)

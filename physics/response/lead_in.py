@@ -18,11 +18,10 @@ NEXT_SHARE, MOST_ATTEMPTS = 0.9, 3
 
 
 def respond_behind(respond: Callable[[float], Trace], before: int, accuracy: float, least: float) -> Trace:
-    """The trace that `respond` gives to a relative RMS accuracy, made to the `accuracy` of what comes behind its first
-    samples, and its error estimate relative to that.
+    """The trace that `respond` gives, to a relative RMS `accuracy` of the part behind its first `before` samples.
 
-    What comes behind the first `before` samples may be much quieter than these: the response is then made again until
-    its error is within the accuracy of that, or within `least` (m/s², RMS).
+    That part may be far quieter than the start: `respond` is called with smaller and smaller accuracies until the error
+    is within the `accuracy` of that part, or within `least` (m/s², RMS). The error estimate is relative to that part.
     """
     asked = accuracy
     for _ in range(MOST_ATTEMPTS):

@@ -22,13 +22,12 @@ from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.response.kinks import known_kinks
 from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output, require_done
 from physics.scene import Scene
-from physics.statics.load_distribution import Equilibrium, equilibrium, refuse
+from physics.statics.load_distribution import Equilibrium, equilibrium, instants_without_period, refuse
 from physics.trace import ACCELERATION_ALONE, Kept
 
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
 MEAN_STIFFNESS_TIMES = 64
-GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 SMALLEST_STIFFNESS = 1e3
 
 
@@ -86,8 +85,7 @@ def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
 def resting(scene: Scene) -> Equilibrium:
     """Quasi-static positions of `scene` from t = 0 to its end; raises SimulationFailed if none carries the load at
     t = 0."""
-    # Unevenly spaced, by the golden section, so that no period hides between them.
-    rest = equilibrium(scene, scene.duration * np.sort(np.arange(MEAN_STIFFNESS_TIMES) * GOLDEN % 1.0))
+    rest = equilibrium(scene, instants_without_period(scene.duration, MEAN_STIFFNESS_TIMES))
     if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
         refuse(scene, 0.0)
     return rest

@@ -82,25 +82,29 @@ def respond_until_repeated(
         go_on=marching.go_on,
         pilot=FINENESS * PILOT_SAMPLES,
     )
-    time = np.arange(samples) / rate
-    end = marched.time.size / cells * period
-    place = np.where(time < end, time, end - period + (time - end) % period) * (cells / period)
-    # Points beyond the last sample are those of the period's beginning.
-    following = marched.acceleration[marched.time.size - cells :][:POINTS]
-    last = marched.acceleration[-cells:]
-    left = marching.away(marched.acceleration) / rms(last) if end < duration and last.any() else 0.0
-    acceleration = read_at(np.concatenate([marched.acceleration, following]), place)
-    error = math.hypot(marched.error_estimate, left, _reading_error(last))
-    if error > accuracy and error * rms(acceleration) > least:
+    trace = _read_again(scene, marched, marching, rate, samples)
+    if trace.error_estimate > accuracy and trace.error_estimate * rms(trace.acceleration) > least:
         return respond_accurately(scene, rest, rate, samples, accuracy, least)
+    return trace
+
+
+def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float, samples: int) -> Trace:
+    """The trace of `samples` at `rate` (Hz) that was `marched` at another rate, its last period again and again."""
+    period, duration = period_of(scene), samples / rate
+    time, end = np.arange(samples) / rate, marched.time.size / marching.cells * period
+    place = np.where(time < end, time, end - period + (time - end) % period) * (marching.cells / period)
+    # Points beyond the last sample are those of the period's beginning.
+    following = marched.acceleration[marched.time.size - marching.cells :][:POINTS]
+    last = marched.acceleration[-marching.cells :]
+    left = marching.away(marched.acceleration) / rms(last) if end < duration and last.any() else 0.0
     return replace(
         marched,
         rate=rate,
         time=time,
         method=METHOD if end < duration else marched.method,
-        acceleration=acceleration,
+        acceleration=read_at(np.concatenate([marched.acceleration, following]), place),
         changes=_repeated_changes(scene, marched.changes, end, duration),
-        error_estimate=error,
+        error_estimate=math.hypot(marched.error_estimate, left, _reading_error(last)),
     )
 
 

@@ -24,6 +24,7 @@ OUTCOMES = {
     NOT_LOADED: StaticOutcome.NOT_LOADED,
     NO_EQUILIBRIUM: StaticOutcome.NO_EQUILIBRIUM,
 }
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,14 @@ class _Found(NamedTuple):
     damping: Array
     force: Array
     status: NDArray[np.int64]
+
+
+def instants_without_period(duration: float, count: int) -> Array:
+    """`count` instants (count,), s, rising, spread over `duration` (s) by the golden section.
+
+    Means over evenly spaced instants see no swing at all where these meet the same phase of every ball pass.
+    """
+    return duration * np.sort(np.arange(count) * GOLDEN % 1.0)
 
 
 def equilibrium(scene: Scene, time: Array) -> Equilibrium:

@@ -13,7 +13,6 @@ from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
 from physics.statics.rest import LARGEST_MOVE, NO_EQUILIBRIUM, Hold, elastic, solve_at
 
-COMPONENTS = ("xx", "yy", "xy")
 # A shaft that moved by less than this share of its displacement is expected to move on as far.
 NEARBY = 0.05
 # Unbalanced force over the load at which a search ends; the stiffness is wrong by no more than about that share. From

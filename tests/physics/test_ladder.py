@@ -217,8 +217,8 @@ def test_an_edge_takes_off_the_load_that_the_ball_carries(angle, fluctuation, re
     sound = dataclasses.replace(scene, spalls=())
     edges = edges_of(scene)
     carried = equilibrium(sound, edges.time).ball_load[np.arange(edges.time.size), edges.row - 1, edges.ball - 1]
-    assert edges.all.any()
-    assert np.abs(edges.change[edges.all]) == pytest.approx(carried[edges.all], rel=1e-9)
+    assert edges.unloads.any()
+    assert np.abs(edges.change[edges.unloads]) == pytest.approx(carried[edges.unloads], rel=1e-9)
 
 
 def test_a_spall_that_turns_with_the_cage_makes_no_impulses(reference_scene):

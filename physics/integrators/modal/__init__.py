@@ -1,1 +1,13 @@
-"""The modal method: the linear part in modes, one adaptive march, one file a concern."""
+"""The modal method: the linear part solved exactly in modes, one adaptive march, one file a concern.
+
+Read them in this order:
+
+- `flow`: the linear part in modes; `remainder`: what the contact force is more than that
+- what a step needs: `phi`, `weights` (made of them), `layout` (where they lie), `tables` (of whole units), `between`
+  (of all other lengths), `reading`
+- steps: `rk4` knows no step before it, `carried` goes on from its past
+- how long they are: `judgement`, `bumps` (what a step does not see of a path), `choice`
+- contact: `changes` (who may change sides), `location` (when), `approach` (the way there), `grazing` (touches between
+  the instants of a step), `tension` (how long balls touch, and how long the film pulls)
+- `memory` (what a march remembers), `march`, `output` (what it writes)
+"""

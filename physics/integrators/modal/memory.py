@@ -37,11 +37,18 @@ CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL = ran
 
 
 class Memory(NamedTuple):
-    """Memory of a march: amplitudes (2, 12) at both ends of a step and in between (12,), weights of every step length
-    and of the samples inside strides, contact force of the step along x and y as a polynomial in the share of the step
-    (2, 5), φ-functions, what the loads alone do, scratch for locating changes, contact force at the beginning and in
-    the middle of the step before (2, 2), motion of the balls at the beginning of the step and midway (G, 2, M),
-    `clock` and `marks` as above; the largest size of an eigenvalue (1/s).
+    """What a march remembers between its steps, and scratch that it uses again and again; G cages of M balls.
+
+    - `states` (2, 12): amplitudes at both ends of a step, by turns; `between` (12,): of a sample inside a step
+    - `weights` (rows of modal/layout.py): of every step length; `inside`: of the samples inside strides
+    - `course` (2, 5): contact force of the step along x and y (N), a polynomial in the share of the step
+    - `phi` (2, 6, 12): scratch of modal/weights.py: φ-functions over half a step and the whole of it
+    - `rest` (2, 11): readings of what the loads alone do, at the time of the contacts
+    - `ends` (2, 3, 2): scratch of modal/location.py: both ends of the step in which a change is located
+    - `suspects` (G, M): share of the step at which a ball was seen to contradict the contact set, 0 if it was not
+    - `past` (2, 2): contact force (N) at the beginning and in the middle of the step before
+    - `noted`, `midway` (G, 2, M): compression (m) and its rate (m/s) of the balls at the step's beginning and midway
+    - `clock`, `marks`: the entries named above; `fastest` (1/s): the largest size of an eigenvalue
     """
 
     states: Array

@@ -1,1 +1,4 @@
-"""The slow reference method and equations of its own, which share no kernel with the methods held against it."""
+"""The slow reference method, which shares no kernel with the methods held against it.
+
+`equations`: of motion, ball by ball; `integrate`: SciPy's DOP853 on them.
+"""

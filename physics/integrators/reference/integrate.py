@@ -176,7 +176,7 @@ def _kink_times(scene: Scene, end: float) -> Array:
     """Times (K,) strictly inside (0, end), s, at which a ball meets a kink of a spall's path, each once."""
     met = [np.zeros(0)]
     for index, spall in enumerate(scene.spalls):
-        met += [passages(scene, index, arc, 0.0, end).time for arc in build_path(spall, scene.rig.bearing).kinks]
+        met += [passages(scene, index, arc, 0.0, end).time for arc in build_path(spall, scene.rig.bearing).breaks]
     times = np.sort(np.concatenate(met))
     times = times[(times > 10.0 * KINK_HALF_WIDTH) & (times < end - 10.0 * KINK_HALF_WIDTH)]
     return times[np.diff(times, prepend=-1.0) > 4.0 * KINK_HALF_WIDTH]

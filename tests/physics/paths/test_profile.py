@@ -92,7 +92,7 @@ def test_the_ball_reaches_a_floor_that_lies_above_its_deepest_sag(gearbox, race)
 @RACES
 def test_on_the_floor_the_path_is_flat(gearbox, race):
     path = build_path(gap(race, math.radians(40.0), 4e-6), gearbox.bearing)
-    floor = np.linspace(path.kinks[1], path.kinks[2], 50)
+    floor = np.linspace(path.breaks[1], path.breaks[2], 50)
     assert np.allclose(path.depth(floor), 4e-6, rtol=1e-12)
     assert np.max(np.abs(path.slope(floor[1:-1]))) == 0.0
     assert path.deepest == pytest.approx(0.0, abs=1e-12)
@@ -103,7 +103,7 @@ def test_a_gap_without_depth_is_a_healthy_race(gearbox, race):
     path = build_path(gap(race, depth=0.0), gearbox.bearing)
     assert np.array_equal(path.depth(inside(gap(race))), np.zeros(1001))
     assert not path.bridged
-    assert path.kinks.tolist() == [-EXTENT / 2, EXTENT / 2]
+    assert path.breaks.tolist() == [-EXTENT / 2, EXTENT / 2]
 
 
 @RACES
@@ -137,7 +137,7 @@ def test_the_tukey_path_is_the_window_of_equation_17(gearbox):
     path = build_path(spall, gearbox.bearing)
     assert np.max(np.abs(path.depth(arcs) - expected)) < 10 * PICOMETRE
     assert np.max(np.abs(12e-6 * window(spall, arcs) - expected)) < 1e-20
-    assert path.kinks == pytest.approx([-half, -half + 0.010, half - 0.004, half], abs=1e-15)
+    assert path.breaks == pytest.approx([-half, -half + 0.010, half - 0.004, half], abs=1e-15)
     assert path.largest_depth == 12e-6
     assert path.deepest == pytest.approx(0.5 * (0.010 - 0.004), abs=1e-12)
     assert not path.bridged
@@ -152,13 +152,13 @@ def test_without_tapers_the_tukey_path_is_a_step(gearbox):
     path = build_path(tukey(entry_taper=0.0, exit_taper=0.0), gearbox.bearing)
     edge = np.array([-EXTENT / 2 - 1e-9, -EXTENT / 2 + 1e-9, EXTENT / 2 - 1e-9, EXTENT / 2 + 1e-9])
     assert path.depth(edge) == pytest.approx([0.0, 12e-6, 12e-6, 0.0], abs=1e-20)
-    assert path.kinks.tolist() == [-EXTENT / 2, EXTENT / 2]
+    assert path.breaks.tolist() == [-EXTENT / 2, EXTENT / 2]
 
 
 def test_tapers_that_meet_share_one_kink(gearbox):
     path = build_path(tukey(entry_taper=0.9 * EXTENT, exit_taper=0.1 * EXTENT), gearbox.bearing)
-    assert path.kinks == pytest.approx([-EXTENT / 2, 0.4 * EXTENT, EXTENT / 2], abs=1e-12)
-    assert np.all(np.diff(path.kinks) > 0)
+    assert path.breaks == pytest.approx([-EXTENT / 2, 0.4 * EXTENT, EXTENT / 2], abs=1e-12)
+    assert np.all(np.diff(path.breaks) > 0)
 
 
 @pytest.mark.parametrize(
@@ -177,7 +177,7 @@ def test_every_path_is_zero_outside_smooth_between_its_kinks_and_has_its_own_slo
     outside = EXTENT / 2 * np.array([-100.0, -1.0 - 1e-9, 1.0 + 1e-9, 100.0])
     assert np.array_equal(path.depth(outside), np.zeros(4))
     assert np.array_equal(path.slope(outside), np.zeros(4))
-    assert path.kinks[[0, -1]] == pytest.approx([-EXTENT / 2, EXTENT / 2], rel=1e-12)
+    assert path.breaks[[0, -1]] == pytest.approx([-EXTENT / 2, EXTENT / 2], rel=1e-12)
     h = 1e-9
     nodes = np.concatenate(
         [np.linspace(a, b, n + 1) for a, b, n in zip(path.breaks[:-1], path.breaks[1:], path.cells, strict=True)]
@@ -186,7 +186,7 @@ def test_every_path_is_zero_outside_smooth_between_its_kinks_and_has_its_own_slo
     arcs = arcs[np.abs(arcs[:, None] - nodes).min(axis=1) > 2 * h]
     difference = (path.depth(arcs + h) - path.depth(arcs - h)) / (2 * h)
     assert np.allclose(difference, path.slope(arcs), rtol=1e-5, atol=2e-11)  # rounding of depths, 1e-20, over h
-    away = nodes[np.abs(nodes[:, None] - path.kinks).min(axis=1) > 2 * h]
+    away = nodes[np.abs(nodes[:, None] - path.breaks).min(axis=1) > 2 * h]
     assert np.allclose(path.depth(away - 1e-15), path.depth(away + 1e-15), atol=1e-16)
     assert np.allclose(path.slope(away - h), path.slope(away + h), rtol=1e-3, atol=1e-9 + 4 * h * bend(path))
 

@@ -82,8 +82,8 @@ def test_a_lip_beside_a_measured_spall_lifts_the_ball_before_it_gets_there(gearb
     half = EXTENT / 2
     spall = table(race, [-half, -half + 0.002, -half + 0.004, half], [0.0, -3e-6, 10e-6, 0.0])
     path = build_path(spall, gearbox.bearing)
-    first, last = path.kinks[[0, -1]] * spall.travel_sign
-    arcs = np.linspace(*path.kinks[[0, -1]], 2001)
+    first, last = path.breaks[[0, -1]] * spall.travel_sign
+    arcs = np.linspace(*path.breaks[[0, -1]], 2001)
     depth = path.depth(arcs)
     assert depth.min() == pytest.approx(-3e-6, rel=5e-3)  # the lip is a corner between two points of the surface
     assert np.max(np.abs(depth[[0, -1]])) < 1e-18

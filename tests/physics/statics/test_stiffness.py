@@ -9,7 +9,8 @@ import pytest
 from physics.imperfections import Imperfections, Waviness
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import COMPONENTS, matrix, stiffness_trace
+from physics.statics.stiffness import matrix, stiffness_trace
+from physics.words import STIFFNESS_COMPONENTS
 
 BOTTOM = math.radians(270.0)
 START = np.zeros(1)
@@ -155,6 +156,6 @@ def test_the_trace_is_taken_at_each_instant_s_own_load_and_spall_angle(gearbox, 
 
 def test_matrices_are_symmetric_and_hold_the_components_in_their_order():
     components = np.arange(6.0).reshape(2, 3)
-    assert COMPONENTS == ("xx", "yy", "xy")
+    assert STIFFNESS_COMPONENTS == ("xx", "yy", "xy")
     assert matrix(components).tolist() == [[[0.0, 2.0], [2.0, 1.0]], [[3.0, 5.0], [5.0, 4.0]]]
     assert matrix((1.0, 2.0, 3.0)).tolist() == [[1.0, 3.0], [3.0, 2.0]]

@@ -1,9 +1,11 @@
 """Benchmarks of classifiers: features of corpora, training, scoring, reports.
 
 - `options`: what was asked; `request`: that checked; `classify`: the run from training to report
-- `known`: what may be known of a record; `rows`: its features; `windows`: raw pieces for other people's estimators
-- `training`, `learning` (the curve), `importance`; `impulse_train`, `impulse_training`: learning without physics
+- `known`: what may be known of a record; `fitness`: whether it can be judged; `rows`: its features; `windows`: raw
+  pieces for other people's estimators
+- `training`, `trained` (what came of it, as a file), `learning` (the curve), `importance`
+- `impulse_train`, `impulse_training`: learning without physics
 - `machines`: no record is scored of a machine that was learned from; `answers`: what an estimator says, checked
-- `verdicts`, `votes`: one answer a record; `summary`: scores, which `model_scores` holds; `score_log`: the log
-  beside each scored corpus
+- `votes`, `verdicts`: one answer a record; `predictions`: these as a table
+- `summary`: scores, which `model_scores` holds; `score_log`: the log beside each scored corpus
 """

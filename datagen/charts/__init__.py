@@ -1,1 +1,6 @@
-"""Speed against accuracy: methods, models and general-purpose solvers run on one scene and measured."""
+"""Speed against accuracy: methods, models and general-purpose solvers run on one scene and measured.
+
+- `scenes`: which scene; `contestants`: what is run on it; `response`: what each gives back
+- `measure`: all of them timed and scored, by `scores`; `table`: the outcome
+- `stability`: maps of where each method fails
+"""

@@ -1,1 +1,8 @@
-"""Records in files: shards, their index and manifest, and the check of all of them."""
+"""Records in files: shards, their index and their manifest.
+
+- `format`: records as one dataset; `shard`: that as a file; `reading`, `open_shards`: read again
+- `index`: all labels, one row a record; `manifest`: what a corpus was made from
+- `stated`: values of JSON files that anybody may have edited
+
+Whether they are sound is checked in datagen/inspection.
+"""

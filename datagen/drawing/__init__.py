@@ -1,1 +1,10 @@
-"""Panels of the preview and of the pictures in the documentation."""
+"""Every picture that commands draw.
+
+- `preview`: one record on one sheet; a `portrait` is what its `sheet` shows, made of `time_panels`, `frequency_panels`
+  and `path_panels`; `close_up` is the stretch shown enlarged
+- `measured_portrait`, `measured_sheet`: the same of an imported recording
+- `overview`: a whole corpus
+- `scores` of classifiers, `size_report` of spall sizes
+- `work_precision`: speed against accuracy; `stability_map`: where methods fail
+- `style`: one look for all
+"""

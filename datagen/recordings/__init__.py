@@ -1,1 +1,8 @@
-"""Recordings of real machines, brought by a SPEC into the same schema as simulated records."""
+"""Recordings of real machines, brought by a SPEC into the same schema as simulated records.
+
+- `spec_files`: where a SPEC is found; `spec`: the whole; `settings`: what it says of a recording; `values`: its numbers
+- `listing`: which records it asks for, with `file_names` and `label_table`
+- `source`: one opened file; `recorded`: its records
+- `sample_times`: the sampling rate; `shaft_speed`: the speed, with `pulses` of a tach
+- `description`: labels; `dataset`: the records as a shard holds them; `importing`: the whole import
+"""

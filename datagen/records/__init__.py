@@ -1,1 +1,4 @@
-"""From a scenario to one record: simulated, given its background, described by labels and exact truth."""
+"""From a scenario to one record: simulated, given its background, described by labels and exact truth.
+
+`record`: the whole; `layers`: its background; `stiffness_axis`, `profile_grid`: where stiffness and depth are stored.
+"""

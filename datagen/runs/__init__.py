@@ -1,1 +1,6 @@
-"""Making a corpus: the plan of its shards, the workers, crashes and resumption."""
+"""Making a corpus: the plan of its shards, the workers, crashes and resumption.
+
+- `generate`: from a recipe to a corpus; `run`: one run over its folder
+- `requirements`: what can never be made is refused; `plan`: which record goes into which shard
+- `workers`, and the `task` of each; `progress`: told to a person
+"""

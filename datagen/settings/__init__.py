@@ -1,1 +1,4 @@
-"""Settings in TOML, of recipes and of import SPECs: tables with ranges, and clear messages about what is wrong."""
+"""Settings in TOML, of recipes and of import SPECs: tables with ranges, and clear messages about what is wrong.
+
+`table`: kinds of setting; `toml_file`: a file read; `toml_lines`, `problems`: which line is wrong, and what with it.
+"""

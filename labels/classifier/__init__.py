@@ -2,7 +2,8 @@
 
 - `classes`: the classes, and the location and condition that follow from their probabilities
 - `spall_classifier`: the baseline; it asks three questions, each a calibrated `stage`
-- `learners`: forest, logistic regression and boosting, of which `blend` and `signed_logistic` are parts
+- `learners`: forest, logistic regression and boosting; `signed_logistic` and `blend` (the mean of several `log_odds`)
+  are parts of them
 - `alarm`: the probability at which a spall is called
 - `rule`: the yardstick without learning
 - `liveness`: whether a record shows a running machine at all

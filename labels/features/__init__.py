@@ -1,7 +1,9 @@
 """The feature table: numbers that a vibration analyst would recognise, from acceleration, geometry and shaft speed.
 
+- `glitches`, `shocks`: what a recorder wrote wrongly and blows from outside, taken out first
 - `conditioning`: a signal's spectrum, raw and flattened; `envelopes`: envelope spectra of a tree of bands
 - `turning`: all of that over the angle turned, for speeds that change
+- `combs`: lines of another shaft's knocks, taken out
 - `families`: evidence of lines with harmonics and sidebands; `kinematics`: where a bearing has them
 - `speed`: the shaft's speed refined; `analysis`: all of these of one record, computed once
 - `waveform`, `modulation`, `orders`: groups of features; `table`: all of them, by name; `feature`: what a row says

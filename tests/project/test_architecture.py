@@ -32,7 +32,18 @@ ROOMS = (
 )
 # The floors of datagen, packages and lone files: each may import from itself and from those before it.
 FLOORS = (
-    ("errors", "marked_tables", "optional", "own_code", "scored_runs", "spelling", "telling", "versions"),
+    (
+        "errors",
+        "exits",
+        "marked_tables",
+        "optional",
+        "own_code",
+        "scored_runs",
+        "spelling",
+        "stated_speed",
+        "telling",
+        "versions",
+    ),
     ("files",),
     ("distributions",),
     ("settings",),

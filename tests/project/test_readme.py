@@ -1,9 +1,12 @@
-"""What the README promises to people who copy its lines."""
+"""What the README promises to people who copy its lines, and what the pages point to."""
 
 import re
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "datasets" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```sh\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
 
@@ -22,3 +25,14 @@ def test_the_first_makes_the_quick_start_and_the_second_runs_the_tests():
 def test_every_picture_and_page_it_points_to_exists():
     for target in re.findall(r"\]\(([^)#]+)\)", TEXT):
         assert (ROOT / target).exists(), target
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_module_and_heading_that_a_page_names_exists(page):
+    text = page.read_text(encoding="utf-8")
+    for name in re.findall(r"`((?:physics|labels|datagen|tests|docs)/[\w/]+\.py)`", text):
+        assert (ROOT / name).exists(), name
+    for target, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", text):
+        aimed_at = page.parent / target if target else page
+        headings = re.findall(r"^#+ (.*)$", aimed_at.read_text(encoding="utf-8"), re.MULTILINE)
+        assert anchor in [re.sub(r"[^\w -]", "", one.lower()).replace(" ", "-") for one in headings], anchor

@@ -1,11 +1,15 @@
-"""The verdicts at the top of the pages of scores quote the tables below them, which scripts write."""
+"""The README, and the verdicts at the top of the pages of scores, quote the tables of these pages."""
 
 import re
+from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+README = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
 
 
 @pytest.mark.parametrize("page", ["size.md", "transfer.md"])
@@ -16,3 +20,66 @@ def test_every_decimal_of_the_verdict_stands_in_a_table_of_the_page(page):
     figures = re.findall(r"\d+\.\d+", verdict)
     assert len(figures) > 8
     assert [figure for figure in figures if figure not in re.findall(r"\d+\.\d+", tables)] == []
+
+
+# Ways to read a cell like "0.936 (0.886 to 0.980)", "7.4 (5.4–9.5)", "3.7 (1.6)" or "10 of 65 [0.076, 0.265]".
+ALL, FIRST, IN_BRACKETS, OF_65, OF_78 = r"[\d.]+", r"^[\d.]+", r"\(([\d.]+)\)", r"^\d+(?= of 65)", r"^\d+(?= of 78)"
+LEARNERS, FOUND = "(forest|logistic|boosting)", "(outer and inner, )?without odd ones"
+LEVELS, NOISY = "clean|20|10|5|0", "(20|10|5|0) dB"
+PAGES = {"scores": "transfer.md", "draws": "transfer.md", "size ladder": "size.md"}
+
+
+class Claim(NamedTuple):
+    """A sentence of the README whose number all cells round to, or whose two numbers are the smallest and the largest.
+
+    `table` stands on its page between marks. `row` and `column` are patterns: of the cells that a row begins with, and
+    of a column's name. What is read from a cell counts `scale` times.
+    """
+
+    sentence: str
+    table: str
+    row: tuple[str, ...]
+    column: str
+    reading: str
+    scale: float = 1.0
+
+
+CLAIMS = (
+    Claim("three odd records: {} % are found", "scores", ("cwru_de12k", LEARNERS), FOUND, FIRST, 100.0),
+    Claim("{} to {} % over draws of the training set", "draws", ("cwru_de12k", LEARNERS), FOUND, ALL, 100.0),
+    Claim("without learning finds {} %", "scores", ("cwru_de12k", "rule"), FOUND, FIRST, 100.0),
+    Claim("{} to {} % over the same draws", "draws", ("cwru_de12k", "rule"), FOUND, ALL, 100.0),
+    Claim("machines {} to {} of 65", "scores", ("transfer", LEARNERS), "false alarms", OF_65),
+    Claim("{} to {} of 78", "scores", ("corpus", LEARNERS), "false alarms", OF_78),
+    Claim("{} to {} % of clean records", "size ladder", ("no estimate, load given",), "clean", FIRST),
+    Claim("{} to {} % of noisy ones", "size ladder", ("no estimate, load given",), NOISY, FIRST),
+    Claim("wrong by {} to {} % in the mean", "size ladder", ("arc error, load and.*",), f"clean|{NOISY}", FIRST),
+    Claim("release and regain by {} to {} %", "size ladder", ("lag error",), f"clean|{NOISY}", FIRST),
+    Claim("medians are {} to {} %", "size ladder", ("noise, dB", LEVELS), "arc error.*", IN_BRACKETS),
+    Claim("% and {} to {} %. It has not", "size ladder", ("noise, dB", LEVELS), "lag error.*", IN_BRACKETS),
+)
+
+
+def numbers(claim):
+    """What stands in the rows and columns that a claim quotes."""
+    text = (DOCS / PAGES[claim.table]).read_text(encoding="utf-8")
+    marked = text.split(f"<!-- {claim.table}: begin ")[1].split(f"<!-- {claim.table}: end -->")[0]
+    lines = [[cell.strip() for cell in line.split("|")[1:-1]] for line in marked.splitlines()]
+    head: list[str] = []
+    for row, following in pairwise([*lines, []]):
+        if following[:1] == ["---"]:
+            head = row
+        elif len(row) == len(head) and all(map(re.fullmatch, claim.row, row)):
+            chosen = [cell for name, cell in zip(head, row, strict=True) if re.fullmatch(claim.column, name)]
+            yield from (claim.scale * float(number) for cell in chosen for number in re.findall(claim.reading, cell))
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.sentence)
+def test_a_figure_of_the_readme_quotes_its_table(claim):
+    said = re.findall(re.escape(claim.sentence).replace(r"\{\}", r"([\d.]+)"), README)
+    assert len(said) == 1, f"the README says this {len(said)} times"
+    low, high = said[0] if isinstance(said[0], tuple) else said * 2
+    found = list(numbers(claim))
+    for stated, measured in ((low, min(found)), (high, max(found))):
+        last_digit = 10.0 ** -len(stated.partition(".")[2])
+        assert abs(float(stated) - measured) <= 0.5 * last_digit + 1e-9, f"{stated} stands for {measured:g}"

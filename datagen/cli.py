@@ -21,7 +21,7 @@ from datagen.commands import (
     size,
 )
 from datagen.commands.program import app
-from datagen.commands.usage import OUTPUT_CLOSED
+from datagen.exits import OUTPUT_CLOSED
 
 COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
 

@@ -3,6 +3,9 @@
 with Corpus("out/quickstart") as corpus:
     x = corpus.to_numpy("acceleration", corpus.labels.query("rig == 'gearbox'").record)
     train, test = next(corpus.folds(5))
+
+Of one record `waveform` gives any stored variable, `signal` the acceleration along one axis, `scenario` what it was
+simulated from and `dataset` everything; of many records `to_numpy` gives a variable at once and `batches` in pieces.
 """
 
 from __future__ import annotations
@@ -67,8 +70,11 @@ class Corpus:
         return self.waveform(row["record"]), row
 
     def waveform(self, record: int, variable: str = "acceleration") -> NDArray[Any]:
-        """One signal of the record with the global index `record`, shape and unit as in labels.variables, without the
-        record dimension; BadInput if the record or the signal is not in the corpus."""
+        """One variable of the record with the global index `record`, exactly as it is stored: dtype, unit and shape are
+        those of labels.variables, without the record dimension, so (T, axes) in m/s² for the acceleration.
+
+        Raises BadInput if the record or the variable is not in the corpus.
+        """
         shard, position = self._place(record)
         with self._shards.reading(shard) as file:
             _require_at_its_place(file, record, position, shard)
@@ -79,7 +85,7 @@ class Corpus:
         return found
 
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
-        """Acceleration (T,) along one axis of a record, m/s²; BadInput if there is no such record or axis."""
+        """Acceleration (T,) of a record along one axis, float64, m/s²; BadInput if there is no such record or axis."""
         shard, position = self._place(record)
         axes = self.axes(record)
         if axis not in axes:
@@ -96,7 +102,7 @@ class Corpus:
             return [str(name) for name in file.variables["axis"][:]]
 
     def has(self, record: int, variable: str) -> bool:
-        """Whether that signal of a record is in the corpus; BadInput if there is no such record."""
+        """Whether that variable of a record is in the corpus; BadInput if there is no such record."""
         shard, _ = self._place(record)
         with self._shards.reading(shard) as file:
             return variable in file.variables and file.variables[variable].dimensions[:1] == ("record",)
@@ -104,7 +110,7 @@ class Corpus:
     def _place(self, record: int) -> tuple[str, int]:
         if isinstance(record, bool | np.bool_) or not _is_whole(record):
             allowed = "a record index, such as those in labels[mask].record"
-            raise BadInput("no index of a record", str(self.folder), "record", record, allowed)
+            raise BadInput("not the index of a record", str(self.folder), "record", record, allowed)
         try:
             return self._places[int(record)]
         except KeyError:
@@ -143,9 +149,10 @@ class Corpus:
     def batches(
         self, size: int, variable: str = "acceleration", records: Iterable[int] | None = None
     ) -> Iterator[tuple[NDArray[np.int64], NDArray[Any]]]:
-        """Batches of (records (B,), signals (B, …)), B ≤ `size`, over `records` (all, in order, if not given).
+        """What `to_numpy` gives of `records` (all, in order, if not given), in batches: pairs of records (B,) and
+        their arrays (B, …) with B ≤ `size`.
 
-        Only one batch is in memory; BadInput if its records differ in shape, or for a size below 1.
+        Only one batch is in memory at a time. Raises BadInput if its records differ in shape, or for a size below 1.
         """
         if size < 1:
             raise BadInput(field="size", value=size, allowed="1 or more")
@@ -156,7 +163,8 @@ class Corpus:
             yield batch.astype(np.int64), signals
 
     def to_numpy(self, variable: str = "acceleration", records: Iterable[int] | None = None) -> NDArray[Any]:
-        """One signal of `records` (all, in order, if not given) stacked (N, …); BadInput if they differ in shape."""
+        """What `waveform` gives of each of `records` (all, in order, if not given), stacked to (N, …); BadInput if they
+        differ in shape."""
         chosen = list(self.labels["record"] if records is None else records)
         return self._stack([self.waveform(record, variable) for record in chosen], variable)
 

@@ -15,10 +15,15 @@ def unheard(*_: object) -> None:
 
 @dataclass(frozen=True)
 class Listener:
-    """Who hears of a run: `say` hears the sentences that stay, `step` what is under way at the moment."""
+    """Who hears of a run; what is left out is not heard.
+
+    `say` hears sentences that stay, `step` what is under way at the moment, `advance` how many of how many records are
+    done.
+    """
 
     say: Say = unheard
     step: Say = unheard
+    advance: Count = unheard
 
     def counting(self, what: str) -> Count:
         """What hears how many records of how many are done, as a step called `what`."""

@@ -7,6 +7,7 @@ table.
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import sys
 import tomllib
@@ -106,5 +107,15 @@ def main(out: Path, records: int, tests: list[str]) -> None:
             report(out, "plain impulse trains", "impulse-trains", tests, records)
 
 
+def command_line() -> argparse.Namespace:
+    """What was asked for on the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=Path, metavar="OUT", help="folder for the corpora and reports")
+    parser.add_argument("records", type=int, metavar="RECORDS", help=f"records to learn from, up to {HELD_OUT.start}")
+    parser.add_argument("tests", nargs="*", metavar="TEST", help="corpus to score on")
+    return parser.parse_args()
+
+
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), int(sys.argv[2]), sys.argv[3:])
+    asked = command_line()
+    main(asked.out, asked.records, asked.tests)

@@ -7,7 +7,7 @@ angle as it was.
 
 from __future__ import annotations
 
-import sys
+import argparse
 from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
@@ -181,5 +181,14 @@ def main(train: Path, tests: list[Path]) -> None:
     write_marked(PAGE, "disturbed", __file__, "\n".join(lines))
 
 
+def command_line() -> argparse.Namespace:
+    """What was asked for on the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("train", type=Path, metavar="TRAIN", help="corpus to learn from")
+    parser.add_argument("tests", nargs="+", type=Path, metavar="TEST", help="corpus of recordings to disturb and score")
+    return parser.parse_args()
+
+
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), [Path(folder) for folder in sys.argv[2:]])
+    asked = command_line()
+    main(asked.train, asked.tests)

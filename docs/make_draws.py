@@ -6,8 +6,8 @@ gets the scores, from which `docs/make_transfer.py` makes its table.
 
 from __future__ import annotations
 
+import argparse
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -70,5 +70,15 @@ def main(train: Path, out: Path, tests: list[Path]) -> None:
         out.write_text(json.dumps(found, indent=1))
 
 
+def command_line() -> argparse.Namespace:
+    """What was asked for on the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("train", type=Path, metavar="TRAIN", help="corpus to learn from")
+    parser.add_argument("out", type=Path, metavar="OUT", help="JSON file for the scores")
+    parser.add_argument("tests", nargs="+", type=Path, metavar="TEST", help="corpus to score on")
+    return parser.parse_args()
+
+
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]), [Path(folder) for folder in sys.argv[3:]])
+    asked = command_line()
+    main(asked.train, asked.out, asked.tests)

@@ -8,7 +8,7 @@ at that same ratio. OUT gets the corpora and reports; TEST are the corpora to sc
 
 from __future__ import annotations
 
-import sys
+import argparse
 import tomllib
 from copy import deepcopy
 from pathlib import Path
@@ -69,7 +69,18 @@ def main(out: Path, records: int, file: Path, rate: float, channels: list[str], 
         report(out, name, folder / "corpus", tests, records)
 
 
+def command_line() -> argparse.Namespace:
+    """What was asked for on the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=Path, metavar="OUT", help="folder for the corpora and reports")
+    parser.add_argument("records", type=int, metavar="RECORDS", help="records to learn from")
+    parser.add_argument("file", type=Path, metavar="FILE", help="recording of a healthy machine")
+    parser.add_argument("rate", type=float, metavar="RATE", help="its sampling rate, Hz")
+    parser.add_argument("channels", metavar="CHANNEL,CHANNEL…", help="its variables to use, separated by commas")
+    parser.add_argument("tests", nargs="+", metavar="TEST", help="corpus to score on")
+    return parser.parse_args()
+
+
 if __name__ == "__main__":
-    main(
-        Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), float(sys.argv[4]), sys.argv[5].split(","), sys.argv[6:]
-    )
+    asked = command_line()
+    main(asked.out, asked.records, asked.file, asked.rate, asked.channels.split(","), asked.tests)

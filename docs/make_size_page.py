@@ -6,9 +6,9 @@ of the fresh ladder.
 
 from __future__ import annotations
 
+import argparse
 import json
 import re
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -124,9 +124,9 @@ def percent(share: float | None) -> str:
     return "–" if share is None else f"{100 * share:.1f} %"
 
 
-def main(folders: list[str]) -> None:
+def main(folders: list[Path]) -> None:
     """Replace what stands between the marks."""
-    summaries = [json.loads((Path(folder) / "size_report.json").read_text())["summary"] for folder in folders]
+    summaries = [json.loads((folder / "size_report.json").read_text())["summary"] for folder in folders]
     test, test_blind, fresh, fresh_blind = summaries
     text = [
         "Errors are |error| / true where told, in per cent with 90 % intervals (bootstrap over virtual bearings).", "",
@@ -139,5 +139,16 @@ def main(folders: list[str]) -> None:
     write_marked(PAGE, "size ladder", __file__, "\n".join(text))
 
 
+def command_line() -> argparse.Namespace:
+    """What was asked for on the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("test", type=Path, metavar="TEST", help="the ladder's test split")
+    parser.add_argument("test_blind", type=Path, metavar="TEST_BLIND", help="the same, scored with --blind")
+    parser.add_argument("fresh", type=Path, metavar="FRESH", help="the fresh ladder")
+    parser.add_argument("fresh_blind", type=Path, metavar="FRESH_BLIND", help="the same, scored with --blind")
+    return parser.parse_args()
+
+
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    asked = command_line()
+    main([asked.test, asked.test_blind, asked.fresh, asked.fresh_blind])

@@ -6,8 +6,8 @@ of make_recorded_background.py, whose tables stay as they are without them. A fi
 
 from __future__ import annotations
 
+import argparse
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -218,16 +218,16 @@ def simulated(report: dict[str, Any], model: str) -> str:
     return interval(own[0][FAULTS]) if own else "–"
 
 
-def main(paths: list[str]) -> None:
+def main(paths: list[Path]) -> None:
     """Write the tables."""
-    draws = [path for path in paths if Path(path).name == "draws.json"]
+    draws = [path for path in paths if path.name == "draws.json"]
     others = [path for path in paths if path not in draws]
-    reports = {Path(path).absolute().parent.name: json.loads(Path(path).read_text()) for path in others}
+    reports = {path.absolute().parent.name: json.loads(path.read_text()) for path in others}
     first = next(iter(reports.values()))
     learned = f"Learned from {first['training_records']} simulated records; no real one."
     tables = {"scores": [learned, "", *main_table(first)], "noise": noise_table(first)}
     for path in draws:
-        tables["draws"] = draws_table(json.loads(Path(path).read_text()))
+        tables["draws"] = draws_table(json.loads(path.read_text()))
     ablations = dict(list(reports.items())[1:])
     backgrounds = {name: ablations.pop(name) for name in BACKGROUNDS if name in ablations}
     for name, found in (("ablation", ablations), ("background", backgrounds)):
@@ -239,5 +239,15 @@ def main(paths: list[str]) -> None:
         write_marked(PAGE, name, __file__, "\n".join(lines))
 
 
+def command_line() -> argparse.Namespace:
+    """What was asked for on the command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(
+        "paths", nargs="+", type=Path, metavar="FILE", help="report.json of the main run, then others or draws.json"
+    )
+    return parser.parse_args()
+
+
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    asked = command_line()
+    main(asked.paths)

@@ -58,15 +58,15 @@ def simulate(
     `model`: a simpler one of physics.ladder has neither method, steps nor an estimate, and keeps states and forces as
         far as it knows them, asked for or not.
     `substeps`: fixed steps a sample, not of the modal method. None starts from the fewest that resolve the fastest mode
-        and doubles them, up to 32, until a pilot of a few ball passes differs from one at half the step by no more than
-        `accuracy`.
+        and doubles them, up to 32, until the response differs from one at half the step by no more than `accuracy`.
     `accuracy`: relative RMS error of the acceleration that is allowed, 1e-6 to 0.1.
     `least_error` (m/s², RMS): an error that is always allowed.
     `keep_state`: displacements and velocities too.
     `keep_force`: the normal force of every ball too; not of the reference method.
     `keep_outer`: the outer ring's motion too, at the multiple of the rate; not of the reference method.
     `fastest_path` (Hz): that multiple is also large enough for what is to follow the outer ring at up to this.
-    `estimate_error`: False spares methods with fixed steps the pilot, and so the doubling; the reference has none.
+    `estimate_error`: False spares methods with fixed steps the response at half the step, and so the doubling; the
+        reference has none.
     `repeat`: whether the modal method, where nothing slips and the acceleration alone is kept, stops when the response
         repeats itself from ball to ball.
     `lead_in` (s): the machine starts so long before t = 0, rounded to whole samples, so that one that runs is recorded

@@ -140,7 +140,7 @@ def require_apart(spalls: Sequence[Spall]) -> None:
         least = (one.extent + other.extent) / 2.0
         require(
             one.row != other.row or apart >= least * (1.0 - ROUNDING),
-            f"two spalls on row {one.row} overlap: their centres are {apart:.6g} rad apart, their extents need "
-            f"{least:.6g} rad",
+            f"two spalls on row {one.row} overlap: {math.degrees(apart):.4g} degrees apart, and their extents need "
+            f"{math.degrees(least):.4g}",
             "angle",
         )

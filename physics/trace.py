@@ -54,7 +54,8 @@ class Trace:
     `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for;
     `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring
     along x and y, at `outer_rate` (Hz), a whole multiple of `rate`, or None if not asked for.
-    `error_estimate` is the estimated RMS error of the acceleration relative to its RMS; NaN if it was not estimated.
+    `error_estimate` is the estimated RMS error of the acceleration relative to its RMS, of fixed steps by how far a
+    response at half the step is apart; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `chaotic`: errors grow faster than shorter steps could reduce them, so compare spectra, not samples.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls; NaN where the

@@ -1,4 +1,4 @@
-"""What an estimator answers, as probabilities of our classes; what is no such answer is refused."""
+"""The answers of an estimator as probabilities of our classes; anything else is refused."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def estimator_name(estimator: Any) -> str:
 def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
     """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator.
 
-    A class that it never saw has 0. Raises BadInput, which calls the estimator what the user has `given`, for names
-    that are no classes, for another shape, and for numbers that are no probabilities.
+    A class that it never saw has 0. Raises BadInput, which names the estimator as the user has `given` it, for names
+    that are not classes, for another shape, and for numbers that are not probabilities.
     """
     name = given or estimator_name(estimator)
     with own_code(name, "it failed to answer"):
@@ -43,7 +43,7 @@ def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
 
 
 def _answer(estimator: Any, table: Array) -> tuple[NDArray[Any], list[Any]]:
-    """The answer and, where it is of probabilities, the classes that its columns are of."""
+    """The answer and, if it consists of probabilities, the classes of its columns."""
     if hasattr(estimator, "predict_proba"):
         return np.atleast_1d(np.asarray(estimator.predict_proba(table))), list(estimator.classes_)
     said = estimator.predict(table) if hasattr(estimator, "predict") else estimator(table)

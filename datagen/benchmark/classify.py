@@ -80,7 +80,8 @@ class Benchmark:
         return Reading() if self.learning.bandwidth is None else Reading(bandwidth=self.learning.bandwidth)
 
     def training_reading(self) -> Reading:
-        """How those that are learned from are: speeds only roughly known, any bandwidth, and noisy copies."""
+        """How the records that are learned from are read: with speeds only roughly known, any bandwidth, and noisy
+        copies."""
         return replace(
             self.reading(),
             speed_error=self.learning.speed_error,
@@ -123,7 +124,7 @@ def _learn(
     training = _learned_from(benchmark, labels, listener)
     rule = train_rule(training)
     own_input = _own_input(benchmark, training, labels, listener)
-    # It copies the user's estimator, which is as it was made only before it learns.
+    # The curve comes first: it needs copies of the user's estimator from before it has learned.
     curve = _curve(benchmark, own_input, listener)
     models = _models(benchmark, own_input, listener)
     listener.step("importances of the features")

@@ -17,9 +17,9 @@ TOO_FAST = "ball passes too fast for the rate"
 # s; the shortest that is learned from lasts 0.3 s. In 0.1 s a third of the faults of CWRU is found, in 0.05 s a sixth,
 # and a healthy recording of MFPT alarms.
 SHORTEST = 0.1
-# Of the shaft: a slow bearing passes several balls in one, and is judged well by them.
+# Turns of the shaft: in a single one several balls pass even of a slow bearing, and it is judged well by them.
 FEWEST_TURNS = 1.0
-# Of the bandwidth: no band has lines of an envelope above it.
+# Share of the bandwidth above which no band has lines of an envelope.
 HIGHEST_SHARE = 0.45
 
 

@@ -128,6 +128,9 @@ def impulses(
     location: str,
     modulated: bool,
 ) -> Array:
+    """Impulses (size,) at which balls hit a defect on the race `location`, with random slip and jitter of their times
+    and random heights, which follow the load of an inner race and, if `modulated`, vary with the turn of the shaft on
+    an outer one; `own` draws what belongs to the machine, `generator` what belongs to the record."""
     slip = generator.uniform(0.0, 0.02)
     cage = kinematics.ftf * (1.0 - slip)
     order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)

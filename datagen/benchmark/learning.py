@@ -12,7 +12,8 @@ from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
 from datagen.telling import Say, unheard
 from labels.classifier.classes import HEALTHY
-from labels.classifier.scores import Interval, balanced_accuracy, bootstrap
+from labels.classifier.scores import balanced_accuracy, bootstrap
+from labels.interval import Interval
 
 SHARES = (0.125, 0.25, 0.5, 1.0)
 HELD_OUT = 0.25

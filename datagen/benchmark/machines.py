@@ -19,7 +19,7 @@ TEST = "test"
 
 @dataclass(frozen=True)
 class Learned:
-    """The machines that were learned from, `seen` (S,), and all that are `known` (K,) of their corpus."""
+    """The machines that were learned from, `seen` (S,), and all machines of their corpus, `known` (K,)."""
 
     seen: NDArray[np.str_]
     known: NDArray[np.str_]

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from labels.classifier.scores import Interval
-
-GROUPS = ("calibration", "condition")
+from labels.interval import Interval
 
 
 @dataclass(frozen=True)
 class Confusion:
-    """Counts (R, C) of records by what they are, the `rows`, and what is said of them, the `columns`."""
+    """Counts (R, C) of records by their true class, in `rows`, and by the class they are given, in `columns`."""
 
     rows: tuple[str, ...]
     columns: tuple[str, ...]
@@ -20,20 +18,20 @@ class Confusion:
 
 
 @dataclass(frozen=True)
-class Bounds:
-    """The interval of a score that stands beside it."""
-
-    low: float
-    high: float
-
-
-@dataclass(frozen=True)
 class Calibration:
-    """Reliability of the probability of a spall by `labels.classifier.reliability`, and its error with an interval."""
+    """Reliability of the probability of a spall by `labels.classifier.reliability`, and its error."""
 
     reliability: dict[str, list[float]]
-    calibration_error: float
-    calibration_error_interval: Bounds
+    calibration_error: Interval
+
+    def to_dict(self) -> dict[str, Any]:
+        """As a report holds it: the interval of the error stands beside it."""
+        error = asdict(self.calibration_error)
+        return {
+            "reliability": self.reliability,
+            "calibration_error": error.pop("value"),
+            "calibration_error_interval": error,
+        }
 
 
 @dataclass(frozen=True)
@@ -80,15 +78,17 @@ class Scores:
 
     @property
     def headline(self) -> dict[str, Interval]:
-        """The three scores that are told first, by a short word."""
+        """The three scores that are shown first, each by a short word."""
         return {"faults": self.faults_balanced_accuracy, "race": self.race_accuracy, "AUC": self.detection_auc}
 
     def to_dict(self) -> dict[str, Any]:
         """As a report holds them: what does not apply is left out, and parts of a group stand like scores alone."""
         found: dict[str, Any] = {}
         for name, value in asdict(self).items():
-            if value is not None:
-                found |= value if name in GROUPS else {name: value}
+            if name == "calibration" and self.calibration is not None:
+                found |= self.calibration.to_dict()
+            elif value is not None:
+                found |= value if name == "condition" else {name: value}
         return found
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from datagen.benchmark.training import SPEED_ERROR
+from datagen.stated_speed import SPEED_ERROR
 
 FEATURES, WINDOWS = "features", "windows"
 
@@ -15,8 +15,8 @@ class Learning:
     """What is learned and how: kept with what was learned, since it holds whenever that is used again.
 
     `learner` is one of ours or "all"; `estimator` names the user's own, None for ours; `input` is what that is given;
-    `bandwidth` (Hz) limits all records, None: as usual; `speed_error` is the share by which speeds told in training may
-    be off; `first` is how many records are learned from, None: all.
+    `bandwidth` (Hz) limits all records, None: as usual; `speed_error` is the largest relative error of the speeds used
+    in training; `first` is how many records are learned from, None: all.
     """
 
     learner: str = "all"
@@ -34,8 +34,8 @@ class Learning:
 
 @dataclass(frozen=True)
 class Scoring:
-    """How it is scored: below which probability what is said is a `reject`; at which ratios (dB, as text with commas)
-    recordings are scored with noise too, in how many draws."""
+    """How it is scored: an answer of a probability below `reject` is rejected; recordings of faults are also scored
+    with noise at the ratios `noise_db` (dB, as text with commas), in `noise_draws` draws."""
 
     reject: float = 0.0
     noise_db: str = ""
@@ -43,7 +43,7 @@ class Scoring:
 
     @property
     def levels(self) -> tuple[float, ...]:
-        """Signal over noise, dB, of the noise to add; ValueError for text that holds something else than numbers."""
+        """Signal over noise, dB, of the noise to add; ValueError for text that holds anything but numbers."""
         return tuple(float(part) for part in self.noise_db.split(",") if part.strip())
 
 

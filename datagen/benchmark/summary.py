@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.benchmark.model_scores import Bounds, Calibration, ConditionScores, Confusion, MinusRule, Scores
+from datagen.benchmark.model_scores import Calibration, ConditionScores, Confusion, MinusRule, Scores
 from datagen.benchmark.predictions import record_predictions
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
 from labels.classifier.reliability import calibration_error, equal_priors, reliability
 from labels.classifier.scores import (
-    Interval,
     accuracy,
     accuracy_against,
     area_interval,
@@ -24,6 +23,7 @@ from labels.classifier.scores import (
     exact_interval,
     paired_difference,
 )
+from labels.interval import Interval
 from labels.schema import CONDITIONS, LOCATIONS, UNKNOWN
 from physics.arrays import Array
 from physics.bearing import RACES
@@ -143,8 +143,7 @@ def _calibration(tested: Tested, said: Verdicts) -> Calibration | None:
     )
     return Calibration(
         reliability=reliability(spall, probability, equal_priors(spall)),
-        calibration_error=error.value,
-        calibration_error_interval=Bounds(error.low, error.high),
+        calibration_error=error,
     )
 
 

@@ -27,8 +27,6 @@ from physics.arrays import Array
 if TYPE_CHECKING:
     import pandas
 
-# Share by which the speed told of a record that is learned from is off at most.
-SPEED_ERROR = 0.02
 # Hz; the bandwidth of each row learned from is drawn between this and the record's own.
 LOWEST_BANDWIDTH = 5500.0
 # dB; lowest and highest ratio of signal over noise in the noisy copies that are learned from.
@@ -155,7 +153,7 @@ def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
 
 
 def copy_of(own: Any, given: str = "") -> Any:
-    """A copy of the user's estimator as it was made, called what is `given`; raises BadInput if there can be none."""
+    """An unfitted copy of the user's estimator; raises BadInput, which names it as `given`, if it cannot be copied."""
     from sklearn.base import clone
 
     with own_code(given or estimator_name(own), "it cannot be copied"):
@@ -165,7 +163,7 @@ def copy_of(own: Any, given: str = "") -> Any:
 def train_own(training: TrainingSet, own: Any, takes_windows: bool, given: str = "") -> Model:
     """The user's estimator, fitted if it can be; its spalls are called at even odds. `given` is its name in messages.
 
-    Raises BadInput if it cannot be fitted, or answers something else than our classes to the first rows.
+    Raises BadInput if it cannot be fitted, or answers anything but our classes to the first rows.
     """
     name = estimator_name(own)
     if hasattr(own, "fit"):

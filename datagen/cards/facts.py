@@ -82,7 +82,7 @@ def corpus_facts(folder: Path) -> Facts:
         summary=str(_stated(manifest, "summary")),
         terms=Terms(*(str(_stated(manifest, name)) for name in ("licence", "citation", "url"))),
         kinds=tuple(_kinds(table)),
-        solved=tuple(_solved(table)),
+        solved=tuple(solved(table)),
         validity=_validity(table),
         rates_hz=tuple(sorted(set(table["rate_hz"].tolist()))),
         durations_s=(float(table["duration_s"].min()), float(table["duration_s"].max())),
@@ -108,7 +108,8 @@ def _kinds(table: pandas.DataFrame) -> list[Kind]:
     ]
 
 
-def _solved(table: pandas.DataFrame) -> list[Solved]:
+def solved(table: pandas.DataFrame) -> list[Solved]:
+    """Steps and error estimates of the records of each model and method."""
     return [
         Solved(
             str(model), str(method), len(rows), _known(rows["step"].min()), _known(rows["step"].max()),

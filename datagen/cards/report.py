@@ -39,7 +39,7 @@ def write_report(folder: Path, out: Path | None = None) -> Report:
     _check_folder(out)
     facts = corpus_facts(folder)
     if not facts.info.records:
-        raise BadInput("this corpus holds no record yet", str(folder))
+        raise BadInput("this corpus holds no records yet", str(folder))
     contents = _contents(folder, facts, out)
     write_results(out, contents)
     for picture in out.glob("record_*.png"):
@@ -74,4 +74,4 @@ def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:
 def _check_folder(out: Path) -> None:
     require_folder(out)
     if out.is_dir() and any(out.iterdir()) and not (out / CARD).is_file():
-        raise BadInput("this folder holds other things than a report", str(out), "--out")
+        raise BadInput("this folder holds things other than a report", str(out), "--out")

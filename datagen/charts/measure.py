@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 
@@ -15,6 +15,7 @@ from datagen.charts.contestants import METHOD, Contestant, contestants
 from datagen.charts.response import Response, of_trace
 from datagen.charts.scenes import Subject
 from datagen.charts.scores import SCORED_FROM, Score, score
+from datagen.telling import Say
 from datagen.versions import measured_on
 from physics.integrators.method import NO_MODES
 from physics.integrators.methods import METHODS, REFERENCE
@@ -74,7 +75,7 @@ class Chart:
     made_with: dict[str, str]
 
 
-def measure(subject: Subject, quick: bool, rounds: int, told: Callable[[str], None]) -> Chart:
+def measure(subject: Subject, quick: bool, rounds: int, told: Say) -> Chart:
     """Run everything on `subject`; `told` hears of every contestant before it is run.
 
     Raises SimulationFailed where the scene has no reference, being one that cannot be simulated.
@@ -102,7 +103,7 @@ def measure(subject: Subject, quick: bool, rounds: int, told: Callable[[str], No
         reference=f"exponential_rk4, {QUICK_STEPS} steps a sample" if quick else METHODS[REFERENCE].title,
         rounds=rounds,
         runs=tuple(runs),
-        edges=_edges(scene, subject.rate, runs),
+        edges=stability_edges(scene, subject.rate, runs),
         best={name: at_error(runs, name, TARGET) for name in dict.fromkeys(run.name for run in runs)},
         contracts=contracts(),
         made_with=made_with(),
@@ -151,7 +152,7 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
         scene = subject.lasting(min(scene.duration, SCORED_FROM + max(PART, passes)))
     try:
         contestant.run(subject.lasting(WARM_UP), subject.rate)
-        seconds, result = _timed(contestant, scene, subject.rate, rounds)
+        seconds, result = timed(contestant, scene, subject.rate, rounds)
         response = contestant.response(scene, subject.rate, result)
     except SimulationFailed as failure:
         return Run(contestant.group, contestant.name, contestant.setting, 0.0, math.nan, math.nan, None, str(failure))
@@ -160,7 +161,7 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
     return Run(contestant.group, contestant.name, contestant.setting, scene.duration, seconds, speed, found, "")
 
 
-def _timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tuple[float, object]:
+def timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tuple[float, object]:
     """Median processor time (s), and the result; what takes long is run once.
 
     A first run pays for memory and code that only a whole record needs, so that it does not count where it is short.
@@ -181,7 +182,8 @@ def _timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tu
     return statistics.median(seconds), result
 
 
-def _edges(scene: Scene, rate: float, runs: list[Run]) -> dict[str, float]:
+def stability_edges(scene: Scene, rate: float, runs: list[Run]) -> dict[str, float]:
+    """Speed, in times real time, that each method would reach with its longest stable step, by its coarsest run."""
     rest = equilibrium(scene, np.zeros(1))
     edges = {}
     for name, method in METHODS.items():

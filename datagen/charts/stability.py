@@ -10,6 +10,7 @@ import numpy as np
 
 from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
+from datagen.telling import Say
 from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
@@ -128,7 +129,7 @@ SWEEPS = (
 )
 
 
-def stability_maps(told: Callable[[str], None]) -> list[Map]:
+def stability_maps(told: Say) -> list[Map]:
     """Every method over every sweep; `told` hears of each sweep."""
     maps = []
     for sweep in SWEEPS:
@@ -142,7 +143,7 @@ def stability_maps(told: Callable[[str], None]) -> list[Map]:
 def _map(name: str, sweep: Sweep, scenes: list[Scene], exact: list[Array | None]) -> Map:
     scale, rows = (BY_ACCURACY, ACCURACIES) if name == MODAL else (BY_STEP, STEPS)
     cells = [[_cell(scene, name, row, found) for row in rows] for scene, found in zip(scenes, exact, strict=True)]
-    limit = tuple(_limit(scene, name) for scene in scenes)
+    limit = tuple(longest_step(scene, name) for scene in scenes)
     return Map(
         method=name,
         scale=scale,
@@ -152,7 +153,7 @@ def _map(name: str, sweep: Sweep, scenes: list[Scene], exact: list[Array | None]
         values=sweep.values,
         error=tuple(tuple(error for error, _ in row) for row in cells),
         outcomes=tuple(tuple(outcome for _, outcome in row) for row in cells),
-        refused=tuple(tuple(_refused(row, longest) for row in rows) for longest in limit),
+        refused=tuple(tuple(is_refused(row, longest) for row in rows) for longest in limit),
         limit=limit,
     )
 
@@ -200,10 +201,12 @@ def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[f
     return relative_error(found, exact[:: max(1, round(row))][: found.shape[0]]), VALUE
 
 
-def _refused(step: float, longest: float) -> bool:
+def is_refused(step: float, longest: float) -> bool:
+    """Whether a step is longer than the `longest` stable one, but for rounding."""
     return step > longest * (1.0 + ROUNDING)
 
 
-def _limit(scene: Scene, method: str) -> float:
+def longest_step(scene: Scene, method: str) -> float:
+    """The longest stable step of a method on a scene at rest, in samples; NaN if the method states no limit."""
     rest = equilibrium(scene, np.zeros(1))
     return longest_stable_step(scene.rig, METHODS[method], rest.stiffness[0], rest.damping[0]) * RATE

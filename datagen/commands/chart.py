@@ -18,26 +18,21 @@ SOURCE_HELP = (
 
 @command("spallgen chart G1 --out out/charts")
 def chart(
-    source: Annotated[
-        str,
-        typer.Argument(metavar="RECIPE|SCENE", help=SOURCE_HELP),
-    ] = "",
-    out: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON; needed.")
-    ] = None,
-    record: Annotated[int, typer.Option(metavar="N", help="Which record of a recipe.")] = 0,
-    quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s, no slow reference.")] = False,
-    rounds: Annotated[int, typer.Option(metavar="N", help="Times each run is repeated; the median counts.")] = 5,
-    stability: Annotated[bool, typer.Option("--stability", help="Map where methods fail instead; no scene.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON.")],
+    source: Annotated[str, typer.Argument(metavar="RECIPE|SCENE", help=SOURCE_HELP)] = "",
+    record: Annotated[int, typer.Option(metavar="N", help="Number of the record, if a recipe is given.")] = 0,
+    quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s of signal, no slow reference.")] = False,
+    rounds: Annotated[
+        int, typer.Option(metavar="N", min=1, help="How often each run is repeated; the median counts.")
+    ] = 5,
+    stability: Annotated[
+        bool, typer.Option("--stability", help="Map where the methods fail, instead of a scene.")
+    ] = False,
     json_file: JsonFile = None,
 ) -> None:
     """Measure methods, models and general-purpose solvers on one scene and draw error against speed."""
-    if out is None:
-        raise BadInput("where to write is missing", field="--out", allowed="a folder")
-    if rounds < 1:
-        raise BadInput(field="--rounds", value=rounds, allowed="1 or more")
     if bool(source) == stability:
-        raise BadInput("give a scene or recipe, or --stability", field="RECIPE|SCENE", value=source)
+        raise BadInput("give either a scene or recipe, or --stability", field="RECIPE|SCENE", value=source)
     written, result = _stability(out) if stability else _work_precision(source, record, quick, rounds, out)
     write_json(json_file, result)
     print("written: " + ", ".join(str(path) for path in written))

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.commands.program import FAILED, CorpusFolder, JsonFile, command, complain, write_json
+from datagen.commands.program import CorpusFolder, JsonFile, command, complain, write_json
+from datagen.exits import FAILED
 
 if TYPE_CHECKING:
     from datagen.inspection.check import Verdict
@@ -15,10 +16,12 @@ if TYPE_CHECKING:
 @command("spallgen check out/quickstart")
 def check(
     folder: CorpusFolder,
-    remake: Annotated[int, typer.Option(metavar="N", min=0, help="Simulate N records again and compare.")] = 1,
+    remake: Annotated[
+        int, typer.Option(metavar="N", min=0, help="Simulate N records again and compare them with the stored ones.")
+    ] = 1,
     json_file: JsonFile = None,
 ) -> None:
-    """Read a whole corpus and say everything that is wrong with it."""
+    """Read a whole corpus and report everything that is wrong with it."""
     from datagen.inspection.check import check_corpus
 
     verdict = check_corpus(folder, remake)
@@ -36,7 +39,7 @@ def _tell_verdict(verdict: Verdict, remake: int) -> None:
     state = "sound" if verdict.sound else f"NOT sound: {len(verdict.problems)} problems"
     print(f"{verdict.folder}: {verdict.records} records in {verdict.shards} shards, {state}")
     if not verdict.remade and verdict.sound and remake and not verdict.imported:
-        print("not simulated again: this program's physics are another version than the corpus's")
+        print("not simulated again: this program's version of the physics differs from the corpus's")
     if verdict.remade:
         names = ", ".join(map(str, verdict.remade))
         print(

@@ -9,40 +9,60 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from datagen.commands.program import JsonFile, command, show_tables, write_json
+from datagen.stated_speed import SPEED_ERROR
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
     from datagen.benchmark.classify import Benchmark
-    from datagen.benchmark.model_scores import Bounds, Scores
-    from labels.classifier.scores import Interval
+    from datagen.benchmark.model_scores import Scores
+    from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
 Train = Annotated[
     Path, Option("--train", metavar="DIR|FILE", help="Simulated corpus to learn from, or a file that --save wrote.")
 ]
 Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
-Save = Annotated[Path | None, Option("--save", metavar="FILE", help="Keep what was learned, for --train FILE later.")]
+Save = Annotated[
+    Path | None, Option("--save", metavar="FILE", help="Save what was learned; --train FILE takes it later.")
+]
 More = Annotated[list[Path] | None, Argument(metavar="[DIR]...", help="More corpora to score on.")]
-Learner = Annotated[str, Option(help="forest, logistic, boosting or all.")]
+Learner = Annotated[str, Option(help="Model to train: forest, logistic, boosting or all.")]
 Estimator = Annotated[str | None, Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function.")]
-Inputs = Annotated[str, Option("--input", help="What your estimator gets: features or windows.")]
+Inputs = Annotated[str, Option("--input", help="Input of your estimator: features or windows.")]
 Bandwidth = Annotated[
     float | None, Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given.")
 ]
 SpeedError = Annotated[
-    float, Option(metavar="SHARE", help="By how much speeds told in training may be off, 0 to 0.02.")
+    float,
+    Option(metavar="SHARE", help=f"Largest relative error of the shaft speeds used in training, 0 to {SPEED_ERROR}."),
 ]
-First = Annotated[int | None, Option(metavar="N", min=1, help="Learn from the first N records only.")]
+First = Annotated[int | None, Option(metavar="N", min=1, help="Learn from only the first N records.")]
 Reject = Annotated[
-    float, Option("--reject", min=0.0, max=1.0, help="Reject records of which what is said is less likely.")
+    float,
+    Option(
+        "--reject",
+        min=0.0,
+        max=1.0,
+        help="Reject a record if its most likely answer has a lower probability than this.",
+    ),
 ]
 NoiseDb = Annotated[
-    str, Option(metavar="DB,DB", help="Also score recordings of faults with white noise at these ratios.")
+    str,
+    Option(
+        metavar="DB,DB", help="Also score recordings of faults with white noise added at these signal-to-noise ratios."
+    ),
 ]
-NoiseDraws = Annotated[int, Option(metavar="N", min=1, help="Draws of that noise.")]
-Curve = Annotated[bool, Option(help="Also learn from shares of the corpus.")]
-Workers = Annotated[int, Option(metavar="N", min=1, help="Processes that compute features.")]
-Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder of report.json, .png and .csv.")]
+NoiseDraws = Annotated[int, Option(metavar="N", min=1, help="How many times that noise is drawn.")]
+Curve = Annotated[bool, Option(help="Also learn from fractions of the corpus.")]
+Workers = Annotated[
+    int,
+    Option(
+        metavar="N",
+        min=1,
+        help="Processes that compute features; few by default, as each holds a record in memory.",
+    ),
+]
+Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder for report.json, report.png and report.csv.")]
 
 
 @command("spallgen classify --train out/transfer --test out/transfer --test out/cwru --out out/scores")
@@ -54,7 +74,7 @@ def classify(
     estimator: Estimator = None,
     input: Inputs = "features",
     bandwidth: Bandwidth = None,
-    speed_error: SpeedError = 0.02,
+    speed_error: SpeedError = SPEED_ERROR,
     first: First = None,
     reject: Reject = 0.0,
     noise_db: NoiseDb = "",
@@ -65,11 +85,12 @@ def classify(
     out: Out = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Learn health and location from a simulated corpus and score on corpora, simulated or imported.
+    """Learn health and fault location from a simulated corpus; score the models on corpora, simulated or imported.
 
-    A corpus with virtual bearings that are also learned from, the same folder or another of the same recipe, is divided
-    by its label split, that is by virtual bearing. Every run on imported recordings is logged in their folder, in
-    scored_runs.jsonl. A file that --save wrote is a pickle, which can run any program: use your own only.
+    A corpus that shares virtual bearings with the one to learn from (the same folder, or another corpus of the same
+    recipe) is divided by its label split, so that no bearing is both learned from and scored. Every run on imported
+    recordings is logged in their folder, in scored_runs.jsonl. A file written by --save is a pickle, which can run any
+    program when it is loaded: use only your own.
     """
     from datagen.benchmark.model_scores import report
     from datagen.benchmark.options import Asked, Learning, Scoring
@@ -82,7 +103,7 @@ def classify(
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
     write_json(json_file, report(results))
-    _tell(results)
+    tell_results(results)
 
 
 def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
@@ -102,13 +123,14 @@ def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
     return results
 
 
-def _tell(results: dict[str, Any]) -> None:
+def tell_results(results: dict[str, Any]) -> None:
+    """Print the scores of every corpus, and the answers about records that are not scored."""
     from datagen.commands.tables import verdict_table
 
     for test in results["tests"]:
         print(f"{test['corpus']}: {test['records']} records, {test['locations']}")
         for name, scores in test["models"].items():
-            print(f"  {name:10} {_line(scores)}")
+            print(f"  {name:10} {score_line(scores)}")
         for reason, count in test["rejections"].items():
             print(f"  rejected   {count}: {reason}")
         if test["despiked"]["glitches"]:
@@ -117,13 +139,14 @@ def _tell(results: dict[str, Any]) -> None:
             print("  shocks cut {shocks} in {records} records".format(**test["shocks_cut"]))
         for noisy in test["noise"]:
             for name, scores in noisy["models"].items():
-                print(f"  {name:10} {noisy['snr_db']:g} dB: {_line(scores)}")
+                print(f"  {name:10} {noisy['snr_db']:g} dB: {score_line(scores)}")
         unscored = [entry for entry in test["predictions"] if entry["truth"] not in LOCATIONS]
         if unscored:
             show_tables([verdict_table(unscored, list(test["models"]))])
 
 
-def _line(scores: Scores) -> str:
+def score_line(scores: Scores) -> str:
+    """The scores of one model in one line."""
     parts = [f"{word} {_interval(found)}" for word, found in scores.headline.items()]
     share = _bracket(scores.false_alarm_share)
     counts = (
@@ -131,8 +154,8 @@ def _line(scores: Scores) -> str:
         f"rejected {scores.rejected}",
     )
     if scores.calibration:
-        around = _bracket(scores.calibration.calibration_error_interval)
-        parts.append(f"calibration error {scores.calibration.calibration_error:.3f}{around}")
+        error = scores.calibration.calibration_error
+        parts.append(f"calibration error {error.value:.3f}{_bracket(error)}")
     return ", ".join([*parts, *counts])
 
 
@@ -151,6 +174,6 @@ def _interval(found: Interval) -> str:
     return f"{found.value:.3f}{_bracket(found)}"
 
 
-def _bracket(found: Interval | Bounds) -> str:
+def _bracket(found: Interval) -> str:
     """The interval of a score in brackets; nothing where it has none."""
     return f" [{found.low:.3f}, {found.high:.3f}]" if math.isfinite(found.low) else ""

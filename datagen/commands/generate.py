@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.commands.program import FAILED, JsonFile, command, complain, write_json
+from datagen.commands.program import JsonFile, command, complain, write_json
 from datagen.errors import BadInput
+from datagen.exits import FAILED
 
 if TYPE_CHECKING:
     from datagen.runs.run import Summary
@@ -16,28 +17,34 @@ if TYPE_CHECKING:
 
 @command(
     "spallgen generate datasets/quickstart --out out/quickstart",
-    kept="finished records are kept, and the same command goes on from there",
+    kept="finished records are kept, and the same command continues from there",
 )
 def generate(
     recipe: Annotated[Path, typer.Argument(metavar="RECIPE", help="Recipe file, its folder, or name of a dataset.")],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the corpus.")],
-    limit: Annotated[int | None, typer.Option(metavar="N", help="Make the first N records only.")] = None,
-    records: Annotated[str | None, typer.Option(metavar="17,40", help="Make these records only.")] = None,
-    workers: Annotated[int | None, typer.Option(metavar="N", help="Processes; all processors if not given.")] = None,
-    backend: Annotated[str | None, typer.Option(metavar="loky|dask", help="Who runs the processes.")] = None,
-    scheduler: Annotated[str | None, typer.Option(metavar="ADDR", help="Address of a Dask scheduler.")] = None,
+    limit: Annotated[int | None, typer.Option(metavar="N", help="Make only the first N records.")] = None,
+    records: Annotated[str | None, typer.Option(metavar="17,40", help="Make only these records.")] = None,
+    workers: Annotated[
+        int | None, typer.Option(metavar="N", help="Processes; one for each processor if not given.")
+    ] = None,
+    backend: Annotated[
+        str | None, typer.Option(metavar="loky|dask", help="What runs the processes; loky if not given.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDR", help="Address of a running Dask scheduler; needs --backend dask.")
+    ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Make the records of a recipe, or go on where an earlier run stopped."""
+    """Make the records of a recipe, or continue where an earlier run stopped."""
     from datagen.recipes.recipe import load_recipe
     from datagen.runs.generate import generate as make
-    from datagen.runs.progress import reporter
+    from datagen.runs.progress import records_told
     from datagen.runs.workers import Engine
 
     chosen = None if records is None else _numbers("--records", records)
     engine = Engine(workers=workers, backend=backend, scheduler=scheduler)
-    with reporter() as told:
-        run = make(load_recipe(recipe), out, limit=limit, records=chosen, engine=engine, reporter=told)
+    with records_told() as listener:
+        run = make(load_recipe(recipe), out, limit=limit, records=chosen, engine=engine, listener=listener)
     write_json(json_file, run)
     _tell_run(run)
     if not run.complete:
@@ -48,7 +55,7 @@ def _numbers(option: str, text: str) -> list[int]:
     try:
         numbers = [int(part) for part in text.split(",")]
     except ValueError:
-        raise BadInput(field=option, value=text, allowed="whole numbers with commas between, such as 17,40") from None
+        raise BadInput(field=option, value=text, allowed="whole numbers separated by commas, such as 17,40") from None
     twice = next((number for number in numbers if numbers.count(number) > 1), None)
     if twice is not None:
         raise BadInput(f"{twice} is listed more than once", field=option, value=text, allowed="each record once")

@@ -15,14 +15,16 @@ if TYPE_CHECKING:
 
 @command("spallgen import cwru --root ~/cwru --out out/cwru", name="import")
 def import_recordings(
-    spec: Annotated[Path, typer.Argument(metavar="SPEC.toml", help="SPEC of the files, or name of one: cwru, mfpt.")],
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the corpus; new or empty.")],
+    spec: Annotated[
+        Path, typer.Argument(metavar="SPEC.toml", help="SPEC file, or the name of a shipped one: cwru, mfpt.")
+    ],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the corpus; it must be new or empty.")],
     root: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder of the files; the SPEC's own if not given.")
+        Path | None, typer.Option(metavar="DIR", help="Folder of the recordings; where the SPEC says if not given.")
     ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Bring recordings (.mat, .npz, .npy, .csv, .wav, .nc) into a corpus; nothing is written if a file is bad."""
+    """Import recordings (.mat, .npz, .npy, .csv, .wav, .nc) as a corpus; nothing is written if any file is bad."""
     from datagen.recordings.importing import import_recordings as bring
     from datagen.recordings.spec import load_spec
     from datagen.runs.progress import steps_told
@@ -37,9 +39,9 @@ def _tell(done: Imported) -> None:
     from datagen.runs.progress import for_people
 
     for problem, names in (
-        ("not there", done.absent),
+        ("not found", done.absent),
         ("left out as repeats", done.skipped),
-        ("without a signal, as of a sensor that is not connected", done.dead),
+        ("without a signal, as if the sensor were not connected", done.dead),
     ):
         if names:
             shown = ", ".join(names[:6]) + (" …" if len(names) > 6 else "")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import typer
 
-from datagen.commands.program import FAILED, CorpusFolder, JsonFile, command, complain, show_tables, write_json
+from datagen.commands.program import CorpusFolder, JsonFile, command, complain, show_tables, write_json
+from datagen.exits import FAILED
 
 
 @command("spallgen info out/quickstart")
 def info(folder: CorpusFolder, json_file: JsonFile = None) -> None:
-    """Show what a corpus holds: counts, balance, ranges, size, cost, and shards that are seen at once to be damaged."""
+    """Show what a corpus holds: counts, balance, ranges, size, cost, and any shards that are evidently damaged."""
     from datagen.commands.tables import info_tables
     from datagen.inspection.info import corpus_info
 

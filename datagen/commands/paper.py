@@ -12,16 +12,21 @@ from datagen.commands.program import JsonFile, command, write_json
 
 @command("spallgen paper --out paper-figures --figures 5,6,q2")
 def paper(
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for pictures, tables and page.")],
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", help="Folder for the pictures, the tables and README.md.")
+    ],
     figures: Annotated[
-        str | None, typer.Option(metavar="LIST", help="Which: 5 to 11, q1 to q3, with commas; all if left out.")
+        str | None,
+        typer.Option(metavar="LIST", help="Which: 5 to 11 and q1 to q3, separated by commas; all if not given."),
     ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Draw Figures 5 to 11 of Petersen et al. 2014 from simulations, beside its numbers, and answer three questions."""
+    """Draw Figures 5 to 11 of Petersen (2014) from simulations, beside its numbers, and answer three questions."""
     from datagen.paper.book import chosen, write_book
+    from datagen.runs.progress import steps_told
 
     names = chosen(figures)
-    results = write_book(out, names, report=lambda title: print(title, flush=True))
+    with steps_told() as listener:
+        results = write_book(out, names, listener.say)
     write_json(json_file, results)
     print(f"pictures, tables and README.md are in {out}")

@@ -7,14 +7,15 @@ from typing import Annotated
 
 import typer
 
-from datagen.commands.program import FAILED, JsonFile, command, complain, write_json
+from datagen.commands.program import JsonFile, command, complain, write_json
+from datagen.exits import FAILED
 
 
 @command("spallgen preview datasets/quickstart --record 3 --out record3.png")
 def preview(
     source: Annotated[Path, typer.Argument(metavar="RECIPE|DIR", help="Recipe, or folder of a corpus.")],
     out: Annotated[Path, typer.Option("--out", metavar="FILE.png", help="Picture to write.")],
-    record: Annotated[int, typer.Option(metavar="N", help="Which record.")] = 0,
+    record: Annotated[int, typer.Option(metavar="N", help="Number of the record.")] = 0,
     json_file: JsonFile = None,
 ) -> None:
     """Draw one record: trace, spectrogram, envelope spectrum, stiffness and profile."""

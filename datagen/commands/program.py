@@ -13,13 +13,12 @@ import typer
 from datagen.commands.termination import Terminated, terminable
 from datagen.commands.usage import Program
 from datagen.errors import BadInput
+from datagen.exits import BAD_INPUT, FAILED, INTERRUPTED, TERMINATED, print_error
 from datagen.files.places import require_file
 from physics.outcome import SimulationFailed
 
 if TYPE_CHECKING:
     from rich.table import Table
-
-FAILED, BAD_INPUT, INTERRUPTED, TERMINATED = 1, 2, 130, 143
 
 app = typer.Typer(
     name="spallgen",
@@ -54,7 +53,7 @@ def spallgen(
 
 
 def command(
-    example: str, name: str | None = None, *, kept: str = "what was not yet written is lost"
+    example: str, name: str | None = None, *, kept: str = "what had not been written is lost"
 ) -> Callable[[Command], Command]:
     """Add a command to the program, called `name` or like its function: bad input, a scene that cannot be simulated
     and Ctrl-C or SIGTERM, after which `kept` is said, end it with a sentence and their exit code."""
@@ -68,18 +67,18 @@ def command(
                     function(*args, **options)
                 sys.stdout.flush()
             except BadInput as problem:
-                complain(f"error: {problem}")
+                print_error(problem)
                 raise typer.Exit(BAD_INPUT) from None
             except SimulationFailed as problem:
-                complain(f"error: this cannot be simulated: {problem}")
+                print_error(f"this cannot be simulated: {problem}")
                 raise typer.Exit(FAILED) from None
             except PermissionError as problem:
-                complain(f"error: {problem.filename}: {problem.strerror}; allowed: what you may read and write")
+                print_error(f"{problem.filename}: {problem.strerror}; allowed: a path that you may read and write")
                 raise typer.Exit(BAD_INPUT) from None
             except BrokenPipeError:  # the program's to handle
                 raise
             except OSError as problem:
-                complain(f"error: {problem.filename or 'the output'}: {problem.strerror}")
+                print_error(f"{problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt as stop:
                 complain(f"interrupted; {kept}")

@@ -13,14 +13,16 @@ from datagen.commands.program import CorpusFolder, JsonFile, command, write_json
 @command("spallgen report out/quickstart --out out/quickstart-card")
 def report(
     folder: CorpusFolder,
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder; DIR/report if not given.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder to write into; DIR/report if not given.")
+    ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Write the card of a corpus: what it holds, how it was made, pictures, and its labels in other words."""
+    """Write the card of a corpus: what it holds, how it was made, pictures, and its labels in another vocabulary."""
     from datagen.cards.report import write_report
 
     written = write_report(folder, out)
     write_json(json_file, written)
     print(f"{len(written.files)} files are in {written.folder}: {', '.join(written.files[:4])} and pictures")
     if written.unstated:
-        print(f"nobody stated for croissant.json: {', '.join(written.unstated)}; add them before you publish it")
+        print(f"croissant.json lacks: {', '.join(written.unstated)}; add them to it before publishing")

@@ -13,7 +13,9 @@ from datagen.files.places import require_file
 
 @command("spallgen schema --out recipe.schema.json")
 def schema(
-    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="File to write; shown if none.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="File to write; printed if not given.")
+    ] = None,
     json_file: JsonFile = None,
 ) -> None:
     """Write the JSON Schema of recipes: an editor completes, explains and checks keys with it."""

@@ -14,11 +14,22 @@ if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
 
 Estimator = Annotated[
-    str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator, a class or a function.")
+    str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator: a class or a function.")
+]
+LoadKnown = Annotated[
+    bool, typer.Option("--load-known/--blind", help="Whether the estimator is told the load and the Hertz factor.")
+]
+Split = Annotated[
+    str | None,
+    typer.Option(metavar="SPLIT", help="train, validation, test or all; if not given, test if the corpus has one."),
 ]
 KnownSizes = Annotated[
     list[str] | None,
-    typer.Option("--known-size", metavar="RECORD=MM", help="Measured spall of a record; may be given again."),
+    typer.Option("--known-size", metavar="RECORD=MM", help="Measured spall length of a record; may be given again."),
+]
+Workers = Annotated[
+    int,
+    typer.Option(metavar="N", min=1, help="Processes; one by default, as each further one loads the estimator again."),
 ]
 OutFolder = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for report, table and pictures.")]
 
@@ -27,20 +38,16 @@ OutFolder = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Fo
 def size(
     folder: CorpusFolder,
     estimator: Estimator = None,
-    load_known: Annotated[
-        bool, typer.Option("--load-known/--blind", help="Tell the estimator load and Hertz factor, or not.")
-    ] = True,
-    split: Annotated[
-        str | None, typer.Option(metavar="SPLIT", help="train, validation, test or all; test if there is one.")
-    ] = None,
+    load_known: LoadKnown = True,
+    split: Split = None,
     known_size: KnownSizes = None,
-    workers: Annotated[int, typer.Option(metavar="N", min=1, help="Processes.")] = 1,
+    workers: Workers = 1,
     out: OutFolder = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Estimate the size of the spall in every record and score lag, arc, abstention and intervals.
+    """Estimate the size of the spall in every record; score lag, arc, abstention and intervals.
 
-    Recordings are scored by the extents that are stated of them, and such a run is logged in their folder, in
+    Recordings are scored against the extents stated for them, and such a run is logged in their folder, in
     scored_runs.jsonl.
     """
     from datagen.runs.progress import steps_told
@@ -68,10 +75,12 @@ def _tell(scores: SizeScores) -> None:
     from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 
     told, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)
-    silent = "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be asked for one"
+    silent = (
+        "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be given to the estimator"
+    )
     print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {told} with an estimate{silent}")
     if scores.load_known and not scores.load_told:
-        print("blind: no load or no Hertz factor is known of these records")
+        print("blind: the load or the Hertz factor of these records is unknown")
     if scores.stated is not None:
         print(stated_sentence(scores.stated))
     for known in scores.known_sizes:

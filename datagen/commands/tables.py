@@ -46,7 +46,7 @@ def _lost(files: dict[str, int]) -> str:
     """Shards that cannot be read, the first three by name, with how many records they have."""
     names = list(files)
     said = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-    return f"{said}, with {sum(files.values())} records, which all else here still counts"
+    return f"{said}, with {sum(files.values())} records, which all other numbers here still count"
 
 
 def _bearings(info: Info) -> str:
@@ -76,7 +76,7 @@ def _crossed(info: Info, title: str) -> Table:
 
 
 def _refused(info: Info) -> Table:
-    table = Table("parameter", title="impossible draws, drawn again")
+    table = Table("parameter", title="impossible draws that were drawn again")
     for heading in ("refused", "per record"):
         table.add_column(heading, justify="right")
     table.add_column("for example")
@@ -98,8 +98,8 @@ def _ranges(info: Info) -> Table:
 def verdict_table(predictions: list[dict[str, Any]], models: list[str]) -> Table:
     """What every model says of the records, with the probability that it gives it, or why a record was rejected."""
     table = Table(
-        title="records that are not scored, as what they are is not known or no class of ours",
-        caption="In brackets the probability of what is said, from a model that gives one.",
+        title="records not scored: their true class is unknown or not one of ours",
+        caption="In brackets: the probability of the answer, if the model gives one.",
     )
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")

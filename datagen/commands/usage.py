@@ -16,12 +16,11 @@ import typer
 from typer.core import TyperGroup
 
 from datagen.errors import BadInput
+from datagen.exits import BAD_INPUT, OUTPUT_CLOSED, print_error
 from datagen.spelling import nearest
 
 # What typer raises for any command line that it cannot read; some of its versions bring their own click.
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
-# What shells say of a program that SIGPIPE ended, which Python ignores: 128 + 13.
-OUTPUT_CLOSED = 141
 KINDS = {int: "a whole number", float: "a number", Path: "a path", str: "a text"}
 
 
@@ -55,7 +54,7 @@ class Program(TyperGroup):
             if type(problem).__name__ == "NoArgsIsHelpError":  # nothing is wrong, and the help is shown
                 raise
             print_error(self._explained(problem))
-            raise typer.Exit(2) from None
+            raise typer.Exit(BAD_INPUT) from None
 
     def _explained(self, problem: Any) -> BadInput:
         """What is wrong with the command line, as bad input."""
@@ -71,11 +70,6 @@ class Program(TyperGroup):
             return BadInput(said, field=word, allowed=", ".join(self.commands))
         said = problem.format_message().rstrip(".")
         return BadInput(said[:1].lower() + said[1:], field=str(context.info_name), allowed=_usage(context))
-
-
-def print_error(problem: BadInput) -> None:
-    """Say on standard error what cannot be used."""
-    typer.echo(f"error: {problem}", err=True)
 
 
 def _of_parameter(problem: Any, command: Any, parameter: Any, given: Sequence[str]) -> BadInput:
@@ -99,8 +93,10 @@ def _of_option(problem: Any, command: Any) -> BadInput:
         return BadInput(f"there is no such option{near}", field=problem.option_name, allowed=allowed)
     parameter = next(one for one in command.params if problem.option_name in (*one.opts, *one.secondary_opts))
     if parameter.is_flag:
-        return BadInput("it takes no value", field=problem.option_name, allowed=problem.option_name)
-    return BadInput("its value is missing", field=problem.option_name, allowed=_allowed(command, parameter.name))
+        return BadInput("this option takes no value", field=problem.option_name, allowed=problem.option_name)
+    return BadInput(
+        "the value of this option is missing", field=problem.option_name, allowed=_allowed(command, parameter.name)
+    )
 
 
 def _meant(known: str | None) -> str:

@@ -32,7 +32,7 @@ SIMULATED_ATTRIBUTES = {
     "processing_level": SIMULATED,
 }
 ROUNDED = "Rounded from float64 to float32: relative error of each value at most 6e-8."
-# Stored over raw size with zlib, as measured on both test rigs; for saying beforehand what disk a corpus needs.
+# Stored over raw size with zlib, as measured on both test rigs; used to estimate the disk space that a corpus needs.
 ZLIB_SHARE = {
     "acceleration": 0.85,
     "acceleration_clean": 0.85,

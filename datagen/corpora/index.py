@@ -27,7 +27,7 @@ LABEL_COLUMNS = tuple(column for label in LABELS for column in label.columns)
 COLUMN_TYPES = {column: label.dtype for label in LABELS for column in label.columns}
 PLACE_TYPES = {"shard": "str", "position": "int64"}
 SHARD_NAME = r"shards/shard_\d{6,}\.nc"
-WORDS = {"float64": "number", "int64": "whole number", "bool": "True or False"}
+WORDS = {"float64": "number", "int64": "whole number", "bool": "truth value, True or False"}
 Row = tuple[Any, ...]
 
 
@@ -100,7 +100,7 @@ def read_index(folder: Path) -> pandas.DataFrame:
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
     except (UnicodeDecodeError, csv.Error):
-        raise _no_index("no table of text", path) from None
+        raise _no_index("not a table of text", path) from None
     texts = _columns(rows, path)
     kinds = COLUMN_TYPES | PLACE_TYPES
     table = pandas.DataFrame({name: _checked(name, texts[name], kind, path) for name, kind in kinds.items()})
@@ -117,7 +117,7 @@ def _check_places(table: pandas.DataFrame, path: Path) -> None:
     }
     for column, rows in wrong.items():
         if rows.any():
-            problem = "is there twice" if column == "record" else "is no place in a corpus"
+            problem = "occurs twice" if column == "record" else "is not a place in a corpus"
             first = int(rows.to_numpy().argmax())
             raise _no_index(f"{column} = {table[column].iloc[first]} {problem}", path, first + 2)
 
@@ -140,7 +140,7 @@ def _checked(name: str, texts: tuple[str, ...], kind: str, path: Path) -> NDArra
         return _typed(texts, kind)
     except (ValueError, KeyError, OverflowError):
         line, text = next((k, text) for k, text in enumerate(texts, start=2) if not _is_one(text, kind))
-        raise _no_index(f'{name} = "{text}" is no {WORDS[kind]}', path, line) from None
+        raise _no_index(f'{name} = "{text}" is not a {WORDS[kind]}', path, line) from None
 
 
 def _is_one(text: str, kind: str) -> bool:
@@ -152,7 +152,7 @@ def _is_one(text: str, kind: str) -> bool:
 
 
 def _no_index(problem: str, path: Path, line: int = 0) -> BadInput:
-    remedy = "delete it and generate again into the same folder, which writes it anew (recordings: import again)"
+    remedy = "delete it and generate again into the same folder, which writes it again (recordings: import again)"
     return BadInput(f"not the index of a corpus: {problem}; {remedy}", f"{path}, line {line}" if line else str(path))
 
 

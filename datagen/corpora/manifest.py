@@ -128,8 +128,8 @@ def no_corpus(folder: Path, lacking: str) -> BadInput:
     if not folder.exists():
         return BadInput("no such folder", str(folder), allowed="the folder of a corpus")
     if not folder.is_dir():
-        return BadInput("this is no folder", str(folder), allowed="the folder of a corpus")
-    return BadInput(f"this folder has no {lacking}, so it is no corpus, or an interrupted one", str(folder))
+        return BadInput("this is not a folder", str(folder), allowed="the folder of a corpus")
+    return BadInput(f"this folder has no {lacking}, so it is not a corpus, or its making was interrupted", str(folder))
 
 
 def _spans(found: list[Any], records: int) -> tuple[Span, ...]:
@@ -144,14 +144,14 @@ def _in_words(problem: Exception) -> str:
     if isinstance(problem, OSError):
         return f"cannot be read ({problem.strerror})"
     if isinstance(problem, json.JSONDecodeError):
-        return f"no JSON from line {problem.lineno}, column {problem.colno} on"
+        return f"not JSON from line {problem.lineno}, column {problem.colno} on"
     if isinstance(problem, RecursionError):
         return "it is nested too deeply"
     if isinstance(problem, UnicodeDecodeError):
         return "no text"
     if isinstance(problem, KeyError):
         return f'it lacks "{problem.args[0]}"'
-    return "its entries are not those of this format"
+    return "its entries are not those of this version of the format"
 
 
 def shard_entry(sidecar: Sidecar, folder: Path) -> ShardEntry:

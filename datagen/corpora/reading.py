@@ -27,7 +27,9 @@ def reading(folder: Path, shard: str) -> Iterator[None]:
     except UnicodeEncodeError:
         raise unspeakable(folder / shard) from None
     except PermissionError:
-        raise BadInput("you may not read this shard; change its permissions", str(folder / shard)) from None
+        raise BadInput(
+            "this shard cannot be read for lack of permission; change its permissions", str(folder / shard)
+        ) from None
     except FileNotFoundError:
         raise BadInput(f"this shard is missing: {AGAIN}", str(folder / shard)) from None
     except IndexError:

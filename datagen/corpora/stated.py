@@ -1,4 +1,5 @@
-"""Values of JSON files that anybody may have edited, as what they must be: TypeError or ValueError otherwise."""
+"""Checks of values from JSON files that anybody may have edited: TypeError or ValueError for any other kind of
+value."""
 
 from __future__ import annotations
 
@@ -8,7 +9,7 @@ from dataclasses import fields
 from typing import Any, TypeVar
 
 LARGEST = 2**53
-# What comes of reading JSON that is damaged, or not what it should be.
+# Errors raised by reading JSON that is damaged, or not what it should be.
 UNREADABLE = (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
 Row = TypeVar("Row")
 
@@ -16,14 +17,14 @@ Row = TypeVar("Row")
 def text(found: object) -> str:
     """A text."""
     if not isinstance(found, str):
-        raise TypeError(f"{found!r} is no text")
+        raise TypeError(f"{found!r} is not a text")
     return found
 
 
 def whole(found: object) -> int:
     """A whole number from 0 to what a float holds exactly."""
     if isinstance(found, bool) or not isinstance(found, int):
-        raise TypeError(f"{found!r} is no whole number")
+        raise TypeError(f"{found!r} is not a whole number")
     if not 0 <= found <= LARGEST:
         raise ValueError(f"{found} is out of range")
     return found
@@ -32,7 +33,7 @@ def whole(found: object) -> int:
 def amount(found: object) -> float:
     """A finite number from 0."""
     if isinstance(found, bool) or not isinstance(found, int | float):
-        raise TypeError(f"{found!r} is no number")
+        raise TypeError(f"{found!r} is not a number")
     if not 0.0 <= found < math.inf:
         raise ValueError(f"{found} is out of range")
     return float(found)

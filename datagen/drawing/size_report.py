@@ -96,9 +96,9 @@ def _bars(axes: Axes, rows: list[ErrorRow], title: str) -> None:
     table = most_frequent(rows)
     place = np.arange(len(table))
     bars = (
-        ([row.lag_error for row in table], BLUE, "lag"),
-        ([row.arc_error for row in table], ORANGE, "arc"),
-        ([row.no_estimate for row in table], GREY, "no estimate, share"),
+        ([row.lag_error.value for row in table], BLUE, "lag"),
+        ([row.arc_error.value for row in table], ORANGE, "arc"),
+        ([row.no_estimate.value for row in table], GREY, "no estimate, share"),
     )
     for k, (heights, colour, name) in enumerate(bars):
         axes.bar(place + (k - 1) * 0.27, heights, 0.27, color=colour, label=name)

@@ -24,7 +24,10 @@ def require_folder(folder: Path, field: str = OUT) -> None:
     nearest = next(path for path in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(path))
     if not nearest.is_dir():
         raise BadInput(
-            f"{nearest} is in the way and no folder", field=field, value=str(folder), allowed="a new or existing folder"
+            f"{nearest} is in the way: it is not a folder",
+            field=field,
+            value=str(folder),
+            allowed="a new or existing folder",
         )
     if not _writable(nearest):
         raise BadInput(
@@ -43,7 +46,7 @@ def require_results_folder(folder: Path, field: str = OUT) -> None:
 def refuse_other_than_file(path: Path, allowed: str) -> None:
     """Raise BadInput that says what lies at `path` where no file does; nothing happens if nothing lies there."""
     if path.exists():
-        problem = "this is a folder" if path.is_dir() else "this is a pipe or a device, and a file is needed"
+        problem = "this is a folder" if path.is_dir() else "this is a pipe or a device; a file is needed"
         raise BadInput(problem, str(path), allowed=allowed)
 
 

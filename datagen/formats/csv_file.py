@@ -45,15 +45,15 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
         return _columns(path, layout, read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding))
     except NotText:
         raise BadInput(
-            "is no text in this encoding", str(path), "csv.encoding", layout.encoding,
-            'that of the file, such as "latin-1" or "utf-16"',
+            "is not text in this encoding", str(path), "csv.encoding", layout.encoding,
+            'the encoding of the file, such as "latin-1" or "utf-16"',
         ) from None  # fmt: skip
 
 
 def _refuse_packed(path: Path) -> None:
     with path.open("rb") as file:
         if file.read(max(map(len, PACKED))).startswith(PACKED):
-            raise BadInput("is compressed or packed, and no text", str(path), allowed="the file as text, unpacked")
+            raise BadInput("is compressed or packed, not text", str(path), allowed="the file as text, unpacked")
 
 
 def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
@@ -102,7 +102,7 @@ def _names(path: Path, head: Row, layout: CsvLayout, width: int) -> list[str]:
     twice = next((name for name in names if name and names.count(name) > 1), None)
     if twice is not None:
         raise BadInput(
-            "this column is there twice", f"{path}, line {head[0]}", twice,
+            "this column occurs twice", f"{path}, line {head[0]}", twice,
             allowed='different names, or csv = {header = false, skip_lines = …}, which calls the columns "1", "2", …',
         )  # fmt: skip
     return names
@@ -148,7 +148,7 @@ def _refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayo
         # Blanks part words too: among them one number with a comma proves nothing.
         if sign != "," and numbers == len(cells) > 1 and len(broken) > (sign == BLANKS):
             raise BadInput(
-                "these commas seem to be those of decimals"
+                "these commas seem to be decimal signs"
                 f'; did you mean csv = {{delimiter = {json.dumps(sign)}, decimal = ","}}?',
                 f"{path}, line {line}", "csv.delimiter", ",",
             )  # fmt: skip

@@ -31,10 +31,14 @@ class CsvLayout(Table):
     def _delimiter_can_delimit(self) -> CsvLayout:
         if self.delimiter in '"\r\n':
             raise refuse(
-                "cells may be quoted, and rows are lines", "delimiter", 'a character that is neither " nor a line end'
+                "this character is reserved for quotes or line ends",
+                "delimiter",
+                'a character that is neither " nor a line end',
             )
         if self.delimiter == self.decimal:
-            raise refuse("decimal sign and delimiter are the same", "delimiter", "another character than in decimal")
+            raise refuse(
+                "decimal sign and delimiter are the same", "delimiter", "a character other than the one in decimal"
+            )
         return self
 
     @field_validator("encoding")

@@ -74,6 +74,6 @@ def _check_whole(path: Path) -> None:
     try:
         netcdf_file(path, mmap=False).close()
     except ValueError:
-        raise BadInput("the file breaks off: it is shorter than its variables", str(path)) from None
+        raise BadInput("the file is cut off: it is shorter than its variables", str(path)) from None
     except Exception:  # scipy cannot read it; whether the netCDF library can is seen later
         return

@@ -31,7 +31,7 @@ class _Members(Mapping[str, NDArray[Any]]):
             if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
                 raise BadInput(
                     f"its array {name} holds Python objects, which are not read", str(self.path),
-                    allowed="arrays of numbers, each channel or recording one of its own",
+                    allowed="arrays of numbers, one for each channel or recording",
                 ) from None  # fmt: skip
             raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
 

@@ -21,7 +21,7 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
         return text.format(**values)
     except (AttributeError, KeyError, IndexError, ValueError):
         nameless = "{number" in text and number is None
-        problem = "cannot be filled in for this file" + (", whose name holds no number" if nameless else "")
+        problem = "cannot be filled in for this file" + (", whose name contains no number" if nameless else "")
         allowed = ", ".join(f"{{{name}}}" for name in values) + ", as in X{number:03}_DE_time"
         raise BadInput(problem, str(path), field, text, allowed) from None
 

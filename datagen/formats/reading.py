@@ -30,7 +30,9 @@ def file_format(path: Path, stated: str | None) -> str:
     ending = path.suffix.lower().removeprefix(".")
     kind = stated or ENDINGS.get(ending, ending)
     if kind not in FORMATS:
-        raise BadInput("the file's ending says no known format", str(path), "format", ending, ", ".join(FORMATS))
+        raise BadInput(
+            "the file's name does not end like that of a known format", str(path), "format", ending, ", ".join(FORMATS)
+        )
     return kind
 
 

@@ -29,7 +29,7 @@ def read_wav(path: Path) -> Arrays:
         ) from None
     early = next((str(one.message) for one in told if EARLY_END in str(one.message)), "")
     if early:
-        raise BadInput(f"the file breaks off: {early}", str(path))
+        raise BadInput(f"the file is cut off: {early}", str(path))
     return {ONLY_NAME: _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
 
 

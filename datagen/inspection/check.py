@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from datagen.corpus import Corpus
 
 LARGEST_DIFFERENCE = 1e-3
-FORBIDDEN = "you may not read it; change its permissions"
+FORBIDDEN = "it cannot be read for lack of permission; change its permissions"
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def check_corpus(folder: Path, remake: int = 0) -> Verdict:
     """
     manifest = read_manifest(folder)
     if manifest.identity.format_hash != format_hash():
-        raise BadInput(f"made by another version of the format than this program's ({FORMAT})", str(folder))
+        raise BadInput(f"written in another version of the format than this program's ({FORMAT})", str(folder))
     check = _Check(folder, manifest)
     check.files()
     for sidecar in check.sidecars:
@@ -113,7 +113,7 @@ class _Check:
         known = {shard_path(self.folder, sidecar.shard) for sidecar in self.sidecars if sidecar.records}
         for path in sorted({*shards.glob("*.nc")} - known):
             self.damaged.append(str(path.relative_to(self.folder)))
-            self.problems.append(f"{self.damaged[-1]}: unfinished, there is no sidecar that vouches for it")
+            self.problems.append(f"{self.damaged[-1]}: unfinished: the sidecar that vouches for it is missing")
         listed = {entry.file for entry in self.manifest.shards}
         for path in sorted(known):
             name = path.relative_to(self.folder).as_posix()
@@ -133,7 +133,7 @@ class _Check:
         for sentence in (*damage, *self._wrong_shard(sidecar, dataset)):
             self.problems.append(f"{entry.file}: {sentence}")
         if entry not in self.manifest.shards:
-            self.problems.append(f"{entry.file}: manifest.json says other things of it than its sidecar")
+            self.problems.append(f"{entry.file}: manifest.json and its sidecar disagree about it")
         twice = self.records.intersection(sidecar.records)
         if twice:
             self.problems.append(f"{entry.file}: record {min(twice)} is in another shard too")
@@ -165,7 +165,7 @@ class _Check:
         rows = self.index.iloc[self._rows_of_shard.get(name, [])].sort_values("position")
         stated = {c: [None if value != value else value for value in rows[c].tolist()] for c in LABEL_COLUMNS}
         if stated != sidecar.labels or rows["position"].tolist() != list(range(len(sidecar.records))):
-            yield "index.csv says other things of its records"
+            yield "index.csv disagrees about its records"
 
     @cached_property
     def _rows_of_shard(self) -> Mapping[Hashable, NDArray[np.int64]]:
@@ -179,7 +179,7 @@ class _Check:
             return
         for record, text in zip(dataset["record"].values.tolist(), dataset["scenario"].values, strict=True):
             if draw_scenario(self.recipe, record).to_json() != str(text):
-                yield f"the recipe gives another scenario for record {record} than is stored"
+                yield f"the recipe gives record {record} another scenario than the stored one"
                 return
 
     def remedy(self) -> str:
@@ -209,7 +209,7 @@ class _Check:
         if self.index is None:
             return
         if set(self.index["record"]) != self.records or not self.index["record"].is_unique:
-            self.problems.append("index.csv does not list every record of the shards once")
+            self.problems.append("index.csv does not list every record of the shards exactly once")
         known = self.index[self.index["bearing_id"] != UNKNOWN]
         splits = known.groupby("bearing_id")["split"].nunique()
         if (splits > 1).any():
@@ -262,7 +262,7 @@ def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[s
         with ONE_AT_A_TIME, xarray.open_dataset(path, engine="netcdf4") as opened:
             dataset = opened.load()
         if content_hash(dataset) != sidecar.content:
-            found.append("its arrays are not those that were written")
+            found.append("its arrays are not those originally written")
     except UnicodeEncodeError:
         raise unspeakable(path) from None
     except PermissionError:

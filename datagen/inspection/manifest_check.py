@@ -25,15 +25,15 @@ def recipe_of(manifest: Manifest, folder: Path) -> tuple[Recipe | None, list[str
 
     if manifest.imported:
         same = data_hash(manifest.recipe) == manifest.identity.recipe_hash
-        return None, [] if same else ["manifest.json: its SPEC and files are not those whose hash it states"]
+        return None, [] if same else ["manifest.json: its SPEC and files do not have the hash that it states"]
     try:
         recipe = parse_recipe(manifest.recipe, folder / "manifest.json")
     except BadInput as problem:
         return None, [f"manifest.json: its recipe cannot be read: {problem}"]
     if recipe.hash[:16] != manifest.identity.recipe_hash:
-        return None, ["manifest.json: its recipe is not the one whose hash it states"]
+        return None, ["manifest.json: its recipe does not have the hash that it states"]
     if recipe.name != manifest.name or recipe.count != manifest.recipe_records:
-        return recipe, ["manifest.json: name or recipe_records are not those of its recipe"]
+        return recipe, ["manifest.json: name or recipe_records disagree with its recipe"]
     return recipe, []
 
 
@@ -41,8 +41,8 @@ def differences(manifest: Manifest, folder: Path, sidecars: Sequence[Sidecar]) -
     """In what a manifest differs from what the `sidecars` of all shards of the corpus `folder` add up to."""
     made = {record for sidecar in sidecars for record in sidecar.records}
     if not made <= {record for start, stop in manifest.asked for record in range(start, stop)}:
-        yield "manifest.json: records are there that it says nobody asked for"
+        yield "manifest.json: the corpus holds records that it does not list as asked for"
     summed = manifest.with_shards(folder, sidecars)
     for name in SUMMED:
         if getattr(summed, name) != getattr(manifest, name):
-            yield f"manifest.json: {name} is not what the sidecars of the shards add up to"
+            yield f"manifest.json: {name} disagrees with the sum over the shards' sidecars"

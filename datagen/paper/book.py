@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
@@ -15,6 +15,7 @@ from datagen.files.places import require_results_folder
 from datagen.files.plain import plain_json
 from datagen.paper.chapter import Chapter
 from datagen.paper.tables import csv_text, page
+from datagen.telling import Say, unheard
 
 CHAPTERS = {
     "5": "figure05_load_distribution",
@@ -42,10 +43,11 @@ def chosen(figures: str | None) -> list[str]:
     return [key for key in CHAPTERS if key in asked]
 
 
-def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) -> dict[str, Any]:
+def write_book(out: Path, keys: Sequence[str], say: Say = unheard) -> dict[str, Any]:
     """Compute and draw the chapters `keys` into the folder `out`; returns what paper.json holds.
 
-    For each chapter name.png and name.csv, and for all paper.json and README.md. Raises BadInput if the folder cannot
+    For each chapter name.png and name.csv, and for all paper.json and README.md; `say` hears the title of each chapter
+    that is written. Raises BadInput if the folder cannot
     be made or written into, before anything is computed, and where it is full.
     """
     require_results_folder(out)
@@ -58,7 +60,7 @@ def write_book(out: Path, keys: Sequence[str], report: Callable[[str], None]) ->
         table = csv_text(chapter.rows).encode()
         write_results(out, {f"{chapter.name}.png": picture, f"{chapter.name}.csv": table})
         chapters.append(chapter)
-        report(chapter.title)
+        say(chapter.title)
     results = {chapter.name: _facts(chapter) for chapter in chapters}
     write_results(out, {"paper.json": plain_json(results).encode(), "README.md": page(chapters).encode()})
     return results

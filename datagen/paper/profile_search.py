@@ -64,13 +64,13 @@ class Outcome:
     envelope_ratio: Array
 
     @property
-    def mean(self) -> float:
-        """Median over the draws of the mean of harmonics 3 to 13 above the line spall, dB."""
+    def median_lift_db(self) -> float:
+        """Median over the draws of how far harmonics 3 to 13 lie, on average, above the line spall's, dB."""
         return float(np.median(np.mean(self.above[:, FIRST_READ - 1 :], axis=1)))
 
     @property
     def sixth(self) -> float:
-        """Median over the draws of the sixth harmonic above the line spall, dB."""
+        """Median over the draws of how far the sixth harmonic lies above the line spall's, dB."""
         return float(np.median(self.above[:, SIXTH - 1]))
 
     @property
@@ -78,7 +78,7 @@ class Outcome:
         """Figure 8: the lines as a whole and, in most draws, the sixth lie above, and the sixth is the strongest."""
         sixth = np.mean(self.above[:, SIXTH - 1] > 0.0)
         strongest = np.mean(self.strongest == SIXTH)
-        return self.mean > 0.0 and bool(sixth >= MOST_RECORDS) and bool(strongest >= MOST_RECORDS)
+        return self.median_lift_db > 0.0 and bool(sixth >= MOST_RECORDS) and bool(strongest >= MOST_RECORDS)
 
     @property
     def keeps_envelope(self) -> bool:

@@ -84,7 +84,9 @@ def rows(found: Sequence[Outcome]) -> list[Row]:
             f"extended {np.median(one.envelope_ratio):.3g} ({one.envelope_ratio.min():.2g} at least); {verdict}"
         )
         table.append(
-            only_ours(f"harmonics 3 to 13 over the line spall's: {one.profile.title}", one.mean, "dB", comment)
+            only_ours(
+                f"harmonics 3 to 13 over the line spall's: {one.profile.title}", one.median_lift_db, "dB", comment
+            )
         )
     return table
 
@@ -98,8 +100,8 @@ def _chosen_rows(one: Outcome) -> list[Row]:
             NAME,
             "extended_is_higher",
             "harmonics 3 to 13 over the line spall's",
-            one.mean,
-            agrees=one.mean > 0,
+            one.median_lift_db,
+            agrees=one.median_lift_db > 0,
             unit="dB",
         ),
         beside(NAME, "extended_is_higher", "sixth over the line spall's", one.sixth, agrees=one.sixth > 0, unit="dB"),
@@ -127,7 +129,7 @@ def draw(found: Sequence[Outcome]) -> Figure:
     )
     rough = [one for one in found if math.isfinite(one.profile.shortest_wave_mm)]
     maps = (
-        ("(a)  Harmonics 3 to 13 over line (dB)", [one.mean for one in rough], (-8.0, 8.0)),
+        ("(a)  Harmonics 3 to 13 over line (dB)", [one.median_lift_db for one in rough], (-8.0, 8.0)),
         ("(b)  Sixth harmonic over line (dB)", [one.sixth for one in rough], (-8.0, 8.0)),
         ("(c)  Envelope, line over extended (dB)", [_ratio_db(one) for one in rough], (-60.0, 60.0)),
     )
@@ -184,7 +186,7 @@ def _draw_plane(axes: Axes, found: Sequence[Outcome]) -> None:
         for keeps in (True, False):
             own = [one for one in found if one.profile.family == family and one.keeps_envelope == keeps]
             axes.plot(
-                [max(one.mean, PLANE[0]) for one in own],
+                [max(one.median_lift_db, PLANE[0]) for one in own],
                 [max(one.sixth, PLANE[0]) for one in own],
                 "o",
                 color=colour,

@@ -86,7 +86,7 @@ def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
         _check_orders(source, stated)
         return stated
     if stated:
-        raise BadInput("the bearing's geometry says it already", source.request.place, next(iter(stated)))
+        raise BadInput("it already follows from the bearing's geometry", source.request.place, next(iter(stated)))
     names = ("balls", "rows", "pitch_diameter", "ball_diameter", "contact_angle", *ORDERS)
     return {"bearing": bearing.name} | {name: getattr(bearing, name) for name in names}
 
@@ -97,8 +97,8 @@ def _check_orders(source: Source, stated: dict[str, float]) -> None:
     balls = outer + inner
     if outer >= inner or MOST_BALLS < balls < math.inf:
         raise BadInput(
-            f"with bpfi = {inner:g} it would be of a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
-            f"orders of the shaft, bpfo below bpfi, together the number of balls, up to {MOST_BALLS}",
+            f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
+            f"orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most {MOST_BALLS}",
         )  # fmt: skip
 
 
@@ -118,7 +118,7 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
         derived = "extended" if sizes["extent_spacing"] >= 1.0 - 1e-9 else "line"
     if condition not in (UNKNOWN, derived) and derived != UNKNOWN:
         raise BadInput(
-            f"the defect covers {sizes['extent_spacing']:.3g} ball spacings, which is {derived}",
+            f"the defect covers {sizes['extent_spacing']:.3g} ball spacings, which makes it {derived}",
             source.request.place, "condition", condition,
         )  # fmt: skip
     count = source.setting("spalls")
@@ -134,7 +134,7 @@ def _sizes(source: Source, bearing: Bearing | None, location: str) -> dict[str, 
     radius = bearing.raceway_radius(location) if bearing and location in RACES else math.nan
     angle = math.radians(arc) if arc is not None else math.nan if length is None else length * 1e-3 / radius
     if angle > 2.0 * math.pi:
-        whole = f"a number above 0 to {2e3 * math.pi * radius:.4g}, the way round the {location} race"
+        whole = f"a number above 0 up to {2e3 * math.pi * radius:.4g}, the circumference of the {location} race"
         raise BadInput(file=source.request.place, field="extent_mm", value=length, allowed=whole)
     values: dict[str, Callable[[], float]] = {
         "extent": lambda: angle,

@@ -7,7 +7,7 @@ import re
 import shutil
 import socket
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,6 +27,7 @@ from datagen.recordings.recorded import Key, Recorded, read_recording
 from datagen.recordings.source import remembered_files, source_hash
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
+from datagen.telling import Say, unheard
 from datagen.versions import program_hash, program_versions
 from labels.schema import UNKNOWN
 
@@ -34,15 +35,14 @@ if TYPE_CHECKING:
     import xarray
 
 SHARD_BYTES = 64e6
-# An import that is over by then says nothing before its end.
+# An import that ends within this time tells no progress.
 SECONDS_UNTOLD = 2.0
-Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class Imported:
     """How an import ended: `absent` are listed files that were not there, `skipped` recordings left out as repeats,
-    `dead` those with axes without a signal, as of a sensor that is not connected."""
+    `dead` those with axes without a signal, as if the sensor were not connected."""
 
     folder: str
     records: int
@@ -70,7 +70,7 @@ class _Planned:
     content: str
 
 
-def import_recordings(spec: Spec, folder: Path, root: Path | None = None, tell: Tell = lambda step: None) -> Imported:
+def import_recordings(spec: Spec, folder: Path, root: Path | None = None, tell: Say = unheard) -> Imported:
     """Make the corpus of the SPEC's recordings in `folder`, which must not exist or be empty.
 
     Files are looked for below `root`, by default the SPEC's own. Where it takes long, `tell` hears how far it has got.
@@ -80,7 +80,7 @@ def import_recordings(spec: Spec, folder: Path, root: Path | None = None, tell: 
         return _import(spec, folder, root or _own_root(spec), _patient(tell))
 
 
-def _patient(tell: Tell) -> Tell:
+def _patient(tell: Say) -> Say:
     began = time.monotonic()
     return lambda step: tell(step) if time.monotonic() - began >= SECONDS_UNTOLD else None
 
@@ -91,7 +91,7 @@ def _own_root(spec: Spec) -> Path:
     return spec.source.parent / spec.root
 
 
-def _import(spec: Spec, folder: Path, root: Path, tell: Tell) -> Imported:
+def _import(spec: Spec, folder: Path, root: Path, tell: Say) -> Imported:
     began = time.monotonic()
     _check_folder(folder)
     listing = list_requests(spec, root)
@@ -122,7 +122,7 @@ def _check_folder(folder: Path) -> None:
     require_folder(folder)
     if folder.exists() and any(folder.iterdir()):
         raise BadInput(
-            "this folder is not empty; an import never adds to what is there", str(folder), "--out",
+            "this folder is not empty, and an import never adds to what is there", str(folder), "--out",
             allowed="a new or an empty folder",
         )  # fmt: skip
 
@@ -154,7 +154,7 @@ class _Plan:
         name, where = record.labels["recording"], f"{request.name} ({request.place})"
         if name in self.names:
             raise BadInput(
-                f"the name is taken by {self.names[name]}", request.place, "recording", name,
+                f"this name is already taken by {self.names[name]}", request.place, "recording", name,
                 'a different name for each record, as in recording = "{path} {channel}"',
             )  # fmt: skip
         self.names[name] = where
@@ -209,7 +209,7 @@ def _read_again(shard: list[_Planned]) -> Iterator[Recorded]:
         for piece, record in enumerate(read_recording(request)):
             if piece in contents:
                 if record.content != contents[piece]:
-                    raise BadInput("the file has changed while it was imported", str(request.path))
+                    raise BadInput("the file changed while it was being imported", str(request.path))
                 yield record
 
 

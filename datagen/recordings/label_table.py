@@ -39,7 +39,7 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
     if len(rows) < 2:
-        raise BadInput("the table holds no row", str(path))
+        raise BadInput("the table has no rows", str(path))
     first, heads = rows[0]
     header = [cell.strip() for cell in heads]
     _check_header(header, note_columns, f"{path}, line {first}")
@@ -57,7 +57,7 @@ def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) 
             hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
             raise BadInput(hint, place, column, allowed=", ".join(known))
         if header.count(column) > 1:
-            raise BadInput("this column is there twice", place, column)
+            raise BadInput("this column occurs twice", place, column)
     for column in (FILE_COLUMN, *note_columns):
         if column not in header:
             raise BadInput("this column is missing", place, column)

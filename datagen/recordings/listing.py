@@ -123,7 +123,7 @@ class _Finder:
             if not fitting and recording.absent_files == "skip":
                 self.absent.append(pattern)
             elif not fitting:
-                raise BadInput(f"no file below {self.root} fits", place, "files", pattern)
+                raise BadInput(f"no file below {self.root} matches", place, "files", pattern)
             paths |= dict.fromkeys(fitting)
         return list(paths)
 
@@ -142,7 +142,7 @@ class _Finder:
             fitting = self._below.fitting(name)
             if len(fitting) > 1:
                 known = ", ".join(self._name(path) for path in fitting[:4])
-                raise BadInput(f"{len(fitting)} files below {self.root} fit: {known}", row.place, "file", name)
+                raise BadInput(f"{len(fitting)} files below {self.root} match: {known}", row.place, "file", name)
             if fitting:
                 return fitting[0]
         self._is_absent(row, recording)
@@ -158,7 +158,7 @@ class _Finder:
             for pattern in override.patterns:
                 if not any(self._fits(path, pattern) for path in paths):
                     raise BadInput(
-                        "fits none of these recordings", f"{place}, override[{number}]", "files", pattern,
+                        "matches none of these recordings", f"{place}, override[{number}]", "files", pattern,
                         ", ".join([self._name(path) for path in paths[:4]] + (["…"] if len(paths) > 4 else [])),
                     )  # fmt: skip
 
@@ -184,7 +184,10 @@ def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
     now = [name for name in SPEED_SETTINGS if name in row.settings]
     if before and now:
         raise BadInput(
-            f"two sources for the speed: the SPEC says {before[0]} too", row.place, now[0], allowed="only one of them"
+            f"two sources for the speed: the SPEC also states {before[0]}",
+            row.place,
+            now[0],
+            allowed="only one of them",
         )
 
 

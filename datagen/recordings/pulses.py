@@ -42,7 +42,7 @@ def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) ->
 
 def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     """Times (N,), s, of pulses without those that came twice and with those that were lost, evenly between their
-    neighbours; and how many these were. As they are, and 0, where they are as many as a wheel of its own kind has."""
+    neighbours, and how many these were; unchanged, with 0, if so many are odd that the wheel itself is irregular."""
     if times.size <= NEIGHBOURS:
         return times, 0
     single = _without_doubles(times)

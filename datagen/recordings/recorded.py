@@ -36,7 +36,7 @@ class Recorded:
     """One record before it has an index: `acceleration` (T, axes) m/s², `labels` as far as they are known.
 
     `content` is equal for equal samples at an equal rate; `shaft_angle` (T,), rad, is told where the speed changes.
-    `dead` are the axes without a signal, as of a sensor that is not connected.
+    `dead` are the axes without a signal, as if the sensor were not connected.
     """
 
     acceleration: NDArray[np.float32]
@@ -106,7 +106,7 @@ def _rate(source: Source) -> float:
     if file_format(source.path, source.setting("format")) == "wav":
         held = float(source.arrays[RATE_NAME])
         if stated not in (None, held):
-            raise BadInput("the file says another rate", str(source.path), "rate_hz", stated, f"{held:g}")
+            raise BadInput("the file states another rate", str(source.path), "rate_hz", stated, f"{held:g}")
         if not in_range("rate_hz", held):
             raise BadInput("the file's own", str(source.path), "rate_hz", held, RANGES["rate_hz"].allowed())
         return held
@@ -171,8 +171,8 @@ def _band(source: Source, rate: float, samples: int, signal: NDArray[np.float64]
     if not holds_a_line(stated, samples, rate):
         apart = rate / samples
         raise BadInput(
-            f"holds none of the lines in the spectrum of {samples} samples of {source.path.name}, {apart:g} Hz apart",
-            source.request.place, "envelope_band_hz", list(stated), f"a band at least {apart:g} wide",
+            f"contains no line ({apart:g} Hz apart) of the spectrum of {source.path.name} ({samples} samples)",
+            source.request.place, "envelope_band_hz", list(stated), f"a band at least {apart:g} Hz wide",
         )  # fmt: skip
     return low, high
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 
-# Times are often written with few decimals: so far, in shares of their span, they may lie beside a straight line.
+# Times are often written with few decimals; as a share of their span, they may lie this far off a straight line.
 ROUNDING = 1e-3
 DIGITS = 9
 
@@ -33,7 +33,7 @@ def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
     else:
         step = 0.0
     if step <= 0.0:
-        raise BadInput("is no column of rising times", str(path), "rate_hz", wish, "times or their step, s")
+        raise BadInput("is not a column of rising times", str(path), "rate_hz", wish, "times or their step, s")
     return _roundest(step, 2.0 * beside / max(times.size - 1, 1))
 
 

@@ -14,7 +14,7 @@ from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-# Balls of bearings are no smaller: less is a length in m.
+# mm; the balls of bearings are not smaller, and a number below this is a length in m.
 Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
 MOST_BALLS = 200
 Name = Annotated[str, Field(min_length=1, max_length=120)]

@@ -54,8 +54,9 @@ def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int,
     times, wrong = mended(times, tach.pulses_per_rev)
     if wrong > MOST_MENDED * times.size:
         raise BadInput(
-            f"{wrong} of the {times.size} pulses of its tach are lost or double", str(source.path), "tach.variable",
-            tach.variable, f"a signal with a pulse for every part of a turn, of which {MOST_MENDED:.0%} may be wrong",
+            f"{wrong} of the {times.size} pulses of its tach are missing or double", str(source.path), "tach.variable",
+            tach.variable,
+            f"a signal with the same number of pulses in each turn, of which {MOST_MENDED:.0%} may be wrong",
         )  # fmt: skip
     _require_nominal(source, tach, times, size / rate)
     return _tach_speeds(source, tach, times, wrong, rate, pieces)
@@ -70,9 +71,9 @@ def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], dur
     mean = tach_speed(source, tach, times, 0.0, duration)
     if abs(mean - nominal) > NOMINAL_WITHIN * nominal:
         raise BadInput(
-            f"its pulses say {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}", str(source.path),
+            f"its pulses give {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}", str(source.path),
             "tach.pulses_per_rev", tach.pulses_per_rev,
-            f"the pulses of one revolution, which bring both within {NOMINAL_WITHIN:.0%}, or another nominal speed",
+            f"a number of pulses per revolution that brings both within {NOMINAL_WITHIN:.0%}, or another nominal speed",
         )  # fmt: skip
 
 
@@ -154,8 +155,8 @@ def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[
     pulses = source.array(tach.variable, "tach.variable")
     if tach.rate_hz is None and pulses.size != size:
         raise BadInput(
-            f"holds {pulses.size} samples and the vibration {size}", str(source.path), "tach.variable", tach.variable,
-            "as many, or the sampling rate of the pulses in tach.rate_hz",
+            f"holds {pulses.size} samples, the vibration {size}", str(source.path), "tach.variable", tach.variable,
+            "equally many, or the sampling rate of the pulses in tach.rate_hz",
         )  # fmt: skip
     edges = rising_edges(pulses, tach.threshold)
     return edges / (tach.rate_hz or rate) if edges.size or not dispensable else None
@@ -167,12 +168,12 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
     if inside.size < FEWEST_PULSES:
         raise BadInput(
             f"{inside.size} pulses from {start:g} to {stop:g} s", str(source.path), "tach.variable", tach.variable,
-            f"at least {FEWEST_PULSES} pulses; tach.threshold may move their level",
+            f"at least {FEWEST_PULSES} pulses; tach.threshold sets the level at which they are counted",
         )  # fmt: skip
     speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
     if not in_range("speed_rpm", speed):
         raise BadInput(
-            f"its pulses say {speed:.4g} revolutions per minute", str(source.path), "tach.pulses_per_rev",
-            tach.pulses_per_rev, f"what gives {RANGES['speed_rpm'].allowed()}",
+            f"its pulses give {speed:.4g} revolutions per minute", str(source.path), "tach.pulses_per_rev",
+            tach.pulses_per_rev, f"pulses that give {RANGES['speed_rpm'].allowed()}",
         )  # fmt: skip
     return speed

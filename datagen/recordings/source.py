@@ -71,12 +71,12 @@ class Source:
         """The samples (T,) of a variable: finite numbers, at least 16, short gaps filled if that is asked for."""
         found = choose(self.arrays, wish, self.path, field)
         if found.dtype.kind not in "iuf":
-            raise BadInput(f"holds {found.dtype} and not real numbers", str(self.path), field, wish)
+            raise BadInput(f"holds {found.dtype}, not real numbers", str(self.path), field, wish)
         if found.ndim != 1:
             shape = "x".join(map(str, found.shape)) or "one number"
             lying = found.ndim == 2 and found.shape[0] < found.shape[1]
             allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'
-            raise BadInput(f"is no single channel ({shape})", str(self.path), field, wish, allowed)
+            raise BadInput(f"is not a single channel ({shape})", str(self.path), field, wish, allowed)
         if found.size < FEWEST_STORED_SAMPLES:
             raise BadInput(
                 f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_STORED_SAMPLES} samples"
@@ -90,21 +90,24 @@ class Source:
             allowed = f'finite numbers, or missing_samples = "{FILL}"' if fits else ""
             raise self._not_finite(bad, values.size, wish, field, allowed)
         if not fits:
-            allowed = f"to be filled, empty or NaN, {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all at most"
+            allowed = (
+                f"what is filled must be empty or NaN, at most {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all"
+            )
             raise self._not_finite(bad, values.size, wish, field, allowed)
         good = np.flatnonzero(np.isfinite(values))
         values[bad] = np.interp(bad, good, values[good])
         return values
 
     def _empty(self, wish: str, field: str) -> bool:
-        """Whether samples that are no numbers are empty, as far as a text table tells, and no other text."""
+        """Whether all samples that are not numbers are empty, as far as a text table shows that, and not some other
+        text."""
         name, places = chosen(self.arrays, wish, self.path, field)
         if not isinstance(self.arrays, Columns) or places is not None:
             return True
         return self.arrays.odd[name][1].strip().lower() in EMPTY
 
     def missing(self, wish: str, field: str) -> NDArray[np.intp]:
-        """Which samples of a variable are no finite numbers."""
+        """Which samples of a variable are not finite numbers."""
         return np.flatnonzero(~np.isfinite(choose(self.arrays, wish, self.path, field)))
 
     def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str, allowed: str = "") -> BadInput:
@@ -115,7 +118,7 @@ class Source:
             problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}{self.arrays.hint}"
             return BadInput(problem, f"{self.path}, line {line}", field, wish, allowed)
         if size == 1:
-            return BadInput("is no finite number", str(self.path), field, wish)
+            return BadInput("is not a finite number", str(self.path), field, wish)
         problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
         return BadInput(problem, str(self.path), field, wish, allowed)
 
@@ -138,7 +141,7 @@ class Source:
             return None if said is None else float(said)
         found = choose(self.arrays, said.variable, self.path, name)
         if found.dtype.kind not in "iuf" or not found.size:
-            raise BadInput("is no finite number", str(self.path), name, said.variable)
+            raise BadInput("is not a finite number", str(self.path), name, said.variable)
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
             raise self._not_finite(bad, found.size, said.variable, name)
@@ -146,7 +149,7 @@ class Source:
             value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
         elif name in CONSTANT and np.ptp(found) > 0.0:
             problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g}"
-            allowed = "a variable of one number; of the samples' times with times = true"
+            allowed = "a variable that holds one number, or the times of the samples with times = true"
             raise BadInput(problem, str(self.path), name, said.variable, allowed)
         else:
             value = self._mean(_within(found, span), said.variable, name) * said.factor
@@ -159,8 +162,8 @@ class Source:
         zeros = found.size - np.count_nonzero(found)
         if found.size / 2 < zeros < found.size:
             raise BadInput(
-                f"is 0 in {zeros} of {found.size} places, so that its mean says nothing", str(self.path), field, wish,
-                'one number of it, as in "NAME[0]" or "NAME[0,2]"',
+                f"is 0 in {zeros} of {found.size} places, so its mean means nothing", str(self.path), field, wish,
+                'a single number of it, as in "NAME[0]" or "NAME[0,2]"',
             )  # fmt: skip
         return float(np.mean(found, dtype=np.float64))
 

@@ -89,7 +89,7 @@ class Spec(Table):
         names = [recording.name for recording in self.recording]
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
-            raise refuse(f'two recordings are called "{twice}"', "recording", "a different name for each")
+            raise refuse(f'two recordings are called "{twice}"', "recording", "a different name for each recording")
         return self
 
     @property
@@ -103,7 +103,7 @@ def load_spec(path_or_name: str | Path) -> Spec:
     path = find_spec(path_or_name)
     content, text = read_toml(path)
     if "part" in content and "recording" not in content:
-        problem = "this is a recipe, whose corpus `spallgen generate` makes, and no SPEC of recordings"
+        problem = "this is a recipe, for `spallgen generate`, not a SPEC of recordings"
         raise BadInput(problem, str(path), "part", allowed="[[recording]]")
     return parse_spec(content, path, text)
 

@@ -45,7 +45,7 @@ def number(name: str) -> BeforeValidator:
     def check(value: Any) -> Any:
         if isinstance(value, dict | FromVariable):
             if name != "rate_hz" and isinstance(value, dict) and value.get("times"):
-                raise refuse("only a sampling rate follows from times", "times")
+                raise refuse("times can only give a sampling rate", "times")
             return value
         if not in_range(name, value):
             words = f'{RANGES[name].allowed()}, or {{variable = "NAME"}}'

@@ -15,11 +15,11 @@ from datagen.files.netcdf import check_compression
 from datagen.files.places import require_folder
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import plan_shards, selection
-from datagen.runs.progress import Reporter, Silence
 from datagen.runs.requirements import require_memory, require_possible_rates, require_room
 from datagen.runs.run import Run, Summary
 from datagen.runs.task import kernels_loading_in_workers
-from datagen.runs.workers import Engine, engaged, nobody
+from datagen.runs.workers import Engine, engaged, none_woken
+from datagen.telling import NOBODY, Listener
 from datagen.versions import program_hash
 
 
@@ -30,7 +30,7 @@ def generate(
     limit: int | None = None,
     records: Sequence[int] | None = None,
     engine: Engine | None = None,
-    reporter: Reporter | None = None,
+    listener: Listener = NOBODY,
 ) -> Summary:
     """Make the recipe's records (all, the first `limit`, or those listed) in `folder`, keeping what is finished there.
 
@@ -45,14 +45,14 @@ def generate(
     require_memory(recipe)
     require_possible_rates(recipe, asked)
     earlier = read_manifest(folder).asked if manifest_path(folder).exists() else ()
-    with engaged(engine or Engine()), nullcontext(nobody) if earlier else kernels_loading_in_workers() as are_ready:
+    with engaged(engine or Engine()), nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready:
         # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
         planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)))
         require_room(recipe, planned, folder)
         _make_folder(folder)
         with locked(folder):
             check_folder(folder, identity)  # again: another run may have been here since
-            run = Run(recipe, folder, identity, asked, reporter or Silence())
+            run = Run(recipe, folder, identity, asked, listener)
             try:
                 run.make(planned, are_ready)
             finally:
@@ -68,13 +68,13 @@ def corpus_identity(recipe: Recipe) -> Identity:
 
 
 def check_folder(folder: Path, identity: Identity) -> None:
-    """Raise BadInput if `folder` holds anything but nothing, or a corpus of the same identity."""
+    """Raise BadInput if `folder` is neither empty nor a corpus of the same identity."""
     require_folder(folder)
     if not manifest_path(folder).exists():
         strangers = _strangers(folder)
         if strangers:
             raise BadInput(
-                f"this folder holds other things ({', '.join(strangers[:3])}) and no corpus", str(folder), "--out"
+                f"this folder holds no corpus but other things ({', '.join(strangers[:3])})", str(folder), "--out"
             )
         return
     found = read_manifest(folder).identity
@@ -88,7 +88,7 @@ def check_folder(folder: Path, identity: Identity) -> None:
     if names:
         raise BadInput(
             f"the corpus in this folder was begun with another version of {' and '.join(names)}, and a corpus never "
-            "mixes two: choose another folder, or delete this one",
+            "mixes versions: choose another folder, or delete this one",
             str(folder),
             "--out",
         )

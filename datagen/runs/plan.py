@@ -127,7 +127,7 @@ def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) 
     Raises BadInput for a limit below 1, an empty list, a record that the recipe does not have, or both at once.
     """
     if limit is not None and records is not None:
-        raise BadInput("give either a limit or a list of records", field="--limit, --records")
+        raise BadInput("give only one of them: a limit or a list of records", field="--limit, --records")
     if records is not None:
         if not records:
             raise BadInput("no record is listed", field="--records")

@@ -7,7 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from datagen.telling import Listener
 
@@ -18,28 +18,8 @@ SECONDS_BETWEEN_LINES = 2.0
 CLEARED = "\r\033[K"
 
 
-class Reporter(Protocol):
-    """Who hears of a run: sentences, and the number of records done out of a total."""
-
-    def say(self, sentence: str) -> None:
-        """Tell one sentence."""
-
-    def advance(self, done: int, total: int) -> None:
-        """Tell that `done` of `total` records are finished."""
-
-
-class Silence:
-    """A reporter that tells nothing."""
-
-    def say(self, sentence: str) -> None:
-        """Tell nothing."""
-
-    def advance(self, done: int, total: int) -> None:
-        """Tell nothing."""
-
-
 class Lines:
-    """A reporter for pipes and logs: one plain line every few seconds, on standard error."""
+    """Records that are done, for pipes and logs: one plain line every few seconds, on standard error."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -65,7 +45,7 @@ class Lines:
 
 
 class Bar:
-    """A reporter for a terminal: a bar with rate and remaining time."""
+    """Records that are done, for a terminal: a bar with rate and remaining time, on standard error."""
 
     def __init__(self, progress: Progress) -> None:
         self._progress = progress
@@ -86,10 +66,11 @@ class Bar:
 
 
 @contextmanager
-def reporter() -> Iterator[Reporter]:
-    """The reporter that suits standard error: a bar on a terminal, plain lines elsewhere."""
+def records_told() -> Iterator[Listener]:
+    """Who hears how many records of the block are done: a bar shows it on a terminal, plain lines elsewhere."""
     if not sys.stderr.isatty():
-        yield Lines()
+        lines = Lines()
+        yield Listener(say=lines.say, advance=lines.advance)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -102,12 +83,13 @@ def reporter() -> Iterator[Reporter]:
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=Console(stderr=True)) as progress:
-        yield Bar(progress)
+        bar = Bar(progress)
+        yield Listener(say=bar.say, advance=bar.advance)
 
 
 class Steps:
-    """What tells which of many named steps is under way: on a terminal one line that changes, elsewhere a plain line
-    every few seconds, on standard error."""
+    """Which of many named steps is under way: on a terminal one line that changes, elsewhere a plain line every few
+    seconds, on standard error."""
 
     def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
@@ -139,7 +121,7 @@ def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Listener
     """Who hears of the block's steps and tells them; the changing line is gone afterwards."""
     steps = Steps(clock)
     try:
-        yield Listener(steps.say, steps.step)
+        yield Listener(say=steps.say, step=steps.step)
     finally:
         steps.clear()
 

@@ -95,7 +95,7 @@ def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) 
     for shard in kinds.values():
         if shard.record_bytes > free:
             raise BadInput(
-                f"one record needs about {for_people(shard.record_bytes)} of disk, and {for_people(free)} are free",
+                f"one record needs about {for_people(shard.record_bytes)} of disk space; {for_people(free)} are free",
                 field="--out", value=str(folder), allowed="a folder on a larger disk, or shorter records",
             )  # fmt: skip
         scenario = draw_scenario(recipe, shard.records[0])

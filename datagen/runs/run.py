@@ -17,9 +17,10 @@ from datagen.corpora.shard import Failure, Sidecar, finished_shards
 from datagen.files.atomic import NO_SPACE, sweep_temporaries, write_atomically
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
-from datagen.runs.progress import Reporter, for_people
+from datagen.runs.progress import for_people
 from datagen.runs.task import make_shard, warm_kernels
 from datagen.runs.workers import WorkerLost, run_tasks
+from datagen.telling import Listener
 from datagen.versions import program_versions
 
 ATTEMPTS_TOGETHER = 2
@@ -59,10 +60,10 @@ class Run:
         folder: Path,
         identity: Identity,
         asked: tuple[Span, ...],
-        reporter: Reporter,
+        listener: Listener,
     ) -> None:
         earlier = read_manifest(folder) if manifest_path(folder).exists() else None
-        self.recipe, self.folder, self.reporter = recipe, folder, reporter
+        self.recipe, self.folder, self.listener = recipe, folder, listener
         self.wanted = frozenset(record for start, stop in asked for record in range(start, stop))
         self.manifest = Manifest(
             name=recipe.name,
@@ -104,12 +105,14 @@ class Run:
         todo = self._unfinished(planned)
         self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
         if not todo:
-            self.reporter.say("every record asked for is there already, in files of the right size; `check` reads them")
+            self.listener.say(
+                "all records asked for exist already, in files of the right size; `spallgen check` reads them"
+            )
             return
         self._announce(todo)
         if not workers_are_ready():
-            warm_kernels(self.reporter)
-        self.reporter.advance(self.done, len(self.wanted))
+            warm_kernels(self.listener.say)
+        self.listener.advance(self.done, len(self.wanted))
         self._make_persistently(todo)
 
     def finish(self) -> None:
@@ -124,7 +127,7 @@ class Run:
             if problem.errno not in NO_SPACE:
                 raise
             self.problem = (
-                self.problem or "the disk is full: no room for the index; the same command goes on from there"
+                self.problem or "the disk is full: no room for the index; the same command continues from there"
             )
 
     def summary(self, seconds: float) -> Summary:
@@ -169,8 +172,8 @@ class Run:
         needed, free = needed_bytes(todo), shutil.disk_usage(self.folder).free
         count = sum(len(shard.records) for shard in todo)
         warning = "" if needed < free else ": the disk will be full before the end"
-        self.reporter.say(
-            f"{count} records in {len(todo)} shards to make; they need about {for_people(needed)} of disk, "
+        self.listener.say(
+            f"{count} records in {len(todo)} shards to make; they will need about {for_people(needed)} of disk space, "
             f"{for_people(free)} are free{warning}"
         )
 
@@ -183,7 +186,7 @@ class Run:
                 self._make_together(todo, started)
                 return
             except WorkerLost as loss:
-                self.reporter.say(f"a worker was lost ({loss}); going on with what is missing")
+                self.listener.say(f"a worker was lost ({loss}); continuing with what is missing")
             losses += 1
             todo = self._still(todo)
             if losses % ATTEMPTS_TOGETHER == 0:
@@ -201,7 +204,7 @@ class Run:
             self._make_together([shard], set())
         except WorkerLost as loss:
             self.errors[shard.number] = (shard, f"its worker was lost every time ({loss})")
-            self.reporter.say(f"shard {shard.number} is given up: its worker was lost every time")
+            self.listener.say(f"shard {shard.number} is given up: its worker was lost every time")
 
     def _make_together(self, todo: Sequence[PlannedShard], started: set[int]) -> None:
         """Make the shards, longest first; `started` collects the numbers of those handed to workers."""
@@ -211,9 +214,9 @@ class Run:
                 shard = by_number[row.shard]
                 if row.error:
                     self.errors[row.shard] = (shard, row.error)
-                    self.reporter.say(f"shard {row.shard} could not be made: {row.error.strip().splitlines()[-1]}")
+                    self.listener.say(f"shard {row.shard} could not be made: {row.error.strip().splitlines()[-1]}")
                 self.done += self._wanted_of(shard)
-                self.reporter.advance(self.done, len(self.wanted))
+                self.listener.advance(self.done, len(self.wanted))
 
     def _tasks(self, todo: Sequence[PlannedShard], started: set[int]) -> Iterator[tuple[Any, ...]]:
         folder = self.folder.absolute()
@@ -224,8 +227,8 @@ class Run:
     def _out_of_space(self, todo: Sequence[PlannedShard]) -> str:
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
         return (
-            f"the disk is full: {sum(len(shard.records) for shard in todo)} records are not made, and about "
-            f"{for_people(missing)} more are needed; finished shards are kept, and the same command goes on from there"
+            f"the disk is full: {sum(len(shard.records) for shard in todo)} records have not been made, and about "
+            f"{for_people(missing)} more are needed; finished shards are kept; the same command continues from there"
         )
 
     def _failures(self) -> list[Failure]:

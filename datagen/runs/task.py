@@ -15,11 +15,11 @@ from datagen.files.atomic import NO_SPACE
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
-from datagen.runs.progress import Reporter
-from datagen.runs.workers import nobody, woken_workers
+from datagen.runs.workers import none_woken, woken_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.telling import Say
 from physics.outcome import SimulationFailed
 
 
@@ -34,13 +34,13 @@ class ShardRow:
     error: str = ""
 
 
-def warm_kernels(reporter: Reporter) -> None:
+def warm_kernels(say: Say) -> None:
     """Compile every kernel before workers start, so that they find it in the cache."""
     from physics.compiled import nothing_cached
     from physics.warming import warm_up
 
     if nothing_cached():
-        reporter.say("compiling the physics, once for each version of it")
+        say("compiling the physics; this is done once for each version of it")
     warm_up()
 
 
@@ -50,7 +50,7 @@ def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
     from physics.compiled import nothing_cached
     from physics.warming import warm_up
 
-    with nullcontext(nobody) if nothing_cached() else woken_workers(warm_up) as are_ready:
+    with nullcontext(none_woken) if nothing_cached() else woken_workers(warm_up) as are_ready:
         yield are_ready
 
 

@@ -45,7 +45,7 @@ class WorkerLost(RuntimeError):
 
 def watch_parent(parent: int) -> None:
     """Start a thread that ends this process within a second of the death of its `parent`; Ctrl-C, and SIGTERM to the
-    whole group, are the parent's."""
+    whole group, are left to the parent."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
@@ -86,8 +86,8 @@ def engaged(engine: Engine) -> Iterator[None]:
             yield
 
 
-def nobody() -> bool:
-    """What `woken_workers` gives where there is nobody to wake."""
+def none_woken() -> bool:
+    """That no workers are ready: what `woken_workers` gives where there are none to wake."""
     return False
 
 
@@ -104,7 +104,7 @@ def woken_workers(function: Callable[[], Any]) -> Iterator[Callable[[], bool]]:
 
     count = effective_n_jobs(None)
     if type(get_active_backend()[0]).__name__ != "LokyBackend" or count == 1:
-        yield nobody
+        yield none_woken
         return
     calls = Parallel(return_as="generator_unordered", batch_size=1)(delayed(function)() for _ in range(count))
 
@@ -117,7 +117,7 @@ def woken_workers(function: Callable[[], Any]) -> Iterator[Callable[[], bool]]:
     try:
         yield are_ready
     finally:
-        # What is left to the garbage collector, joblib ends at any time and from any thread: also under the next run.
+        # Left to the garbage collector, these calls might end at any time and in any thread, even during the next run.
         with suppress(Exception):
             are_ready()
 

@@ -62,7 +62,7 @@ class Design:
         if self.kind == "random":
             return number
         if self.kind == "sobol":
-            block = _sobol_block(self.seed, self.part, point // BLOCK)
+            block = sobol_block(self.seed, self.part, point // BLOCK)
             return float(block[point % BLOCK, dimension]) + number * SOBOL_RESOLUTION
         cells = _latin_cells(self.seed, self.part, points, dimension)
         return min((int(cells[point]) + number) / points, 1.0 - 2.0**-53)
@@ -75,7 +75,7 @@ def dimension_of(purpose: str, item: int, position: int) -> int | None:
 
 
 @lru_cache(maxsize=16)
-def _sobol_block(seed: int, part: int, block: int) -> NDArray[np.float64]:
+def sobol_block(seed: int, part: int, block: int) -> NDArray[np.float64]:
     """Points (BLOCK, TOTAL) of the part's sequence, from point `block` · BLOCK on."""
     from scipy.stats import qmc
 

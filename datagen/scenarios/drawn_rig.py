@@ -19,10 +19,11 @@ from physics.hertz import (
     roller_load_deflection_factor,
 )
 from physics.modes import rated_matrices
+from physics.operation import RPM
 from physics.rating import static_load_rating
 from physics.rig import Rig
 
-RPM_PER_RAD_S = 60.0 / (2.0 * math.pi)
+RPM_PER_RAD_S = 1.0 / RPM
 # (setting, field, how many of the setting's units make one SI unit). Append only: the order is that of the stream.
 BEARING_NUMBERS = (
     ("pitch_diameter_mm", "pitch_diameter", 1e3),

@@ -93,7 +93,7 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
     misplaced = _settings_beside(first, location, model) if kind == "distribution" else []
     if misplaced:
         place = dotted((*location[:-1], misplaced[0]))
-        return f"{', '.join(misplaced)}: a setting of its own, written beside it as {place}"
+        return f"{', '.join(misplaced)}: this is a separate setting; write it beside this one as {place}"
     problem = first.get("ctx", {}).get("problem")
     return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
 

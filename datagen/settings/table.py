@@ -184,4 +184,4 @@ def at_most_one(table: BaseModel, *fields: str) -> None:
     """Raise PydanticCustomError if more than one of these settings is given."""
     given = [field for field in fields if getattr(table, field) is not None]
     if len(given) > 1:
-        raise refuse(f"{' and '.join(given)} say the same thing twice", given[1], f"only one of {', '.join(fields)}")
+        raise refuse(f"{' and '.join(given)} set the same thing twice", given[1], f"only one of {', '.join(fields)}")

@@ -31,7 +31,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     except ValueError:  # a number of thousands of digits
         raise BadInput("a whole number in it has too many digits", file=str(path), allowed=RANGE) from None
     if largest >= LARGEST_WHOLE:
-        raise BadInput(f"a whole number in it has {len(str(largest))} digits", file=str(path), allowed=RANGE)
+        raise BadInput(f"a whole number in it is too long: {len(str(largest))} digits", file=str(path), allowed=RANGE)
     return content, text
 
 

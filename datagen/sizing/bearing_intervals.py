@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from datagen.scenarios.streams import stream
 from datagen.sizing.scored_record import ScoredRecord
+from labels.interval import Interval
 from physics.arrays import Array
 
 RESAMPLES = 2000
@@ -24,7 +25,8 @@ def bearing_numbers(records: list[ScoredRecord]) -> NDArray[np.int64]:
 def interval_over_bearings(
     values: Array, bearing: NDArray[np.int64], weights: Array | None = None
 ) -> tuple[float, float]:
-    """90 % interval of the mean of `values` (N,) over virtual bearings (N,) drawn anew, each with all its records.
+    """Ends of the 90 % interval of the mean of `values` (N,); virtual bearings (N,) are drawn anew, each with all its
+    records.
 
     With `weights` (N,) that of the sum of the values over the sum of the weights. NaN for fewer than two bearings, and
     without any weight.
@@ -41,9 +43,8 @@ def interval_over_bearings(
     return float(low), float(high)
 
 
-def mean_with_interval(name: str, values: list[float], records: list[ScoredRecord]) -> dict[str, float]:
-    """The mean of the `values` of these records under its name, and its interval as name_low and name_high."""
+def mean_with_interval(values: list[float], records: list[ScoredRecord]) -> Interval:
+    """The mean of the `values` of these records and its interval; NaN without records."""
     if not values:
-        return dict.fromkeys((name, f"{name}_low", f"{name}_high"), math.nan)
-    low, high = interval_over_bearings(np.array(values), bearing_numbers(records))
-    return {name: float(np.mean(values)), f"{name}_low": low, f"{name}_high": high}
+        return Interval(math.nan, math.nan, math.nan)
+    return Interval(float(np.mean(values)), *interval_over_bearings(np.array(values), bearing_numbers(records)))

@@ -1,4 +1,4 @@
-"""Boosted regressions of other seeds, and the mean of what they say as trees."""
+"""Boosted regressions that differ in their seeds, and their mean as trees."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ class Committee:
     def out_of_fold(
         self, rows: Array, aim: Array, used: NDArray[np.bool_], groups: NDArray[np.str_], weight: Array | None = None
     ) -> Array:
-        """What is said (N,) of each of the `groups` (N,) by a fit to the `used` (N,) rows of other groups."""
+        """Predictions (N,) for the rows of each of the `groups` (N,) by a fit to the `used` (N,) rows of the other
+        groups."""
         from sklearn.model_selection import GroupKFold
 
         told, weight = np.zeros(aim.size), np.ones(aim.size) if weight is None else weight

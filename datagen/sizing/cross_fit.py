@@ -1,4 +1,4 @@
-"""What a calibration would have told of training records whose bearings it was not fitted to."""
+"""How a calibration fares on training records of bearings that it was not fitted to."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ TOLD_SHARES = (0.80, 0.85, 0.90, 0.95, 0.98)
 
 @dataclass(frozen=True)
 class CrossFit:
-    """Relative error `error` (N,) of the lags of N records that ask for a size, and the `expected` one (N,), of which
-    none above `most` is told."""
+    """Relative `error` (N,) of the lags of N records that ask for a size, and the `expected` one (N,); no size is given
+    where that is above `most`."""
 
     error: Array
     expected: Array
     most: float
 
     def most_within(self, error: float) -> float:
-        """`most`, or the largest expected error below it up to which what is told has at most this mean `error`; the
-        smallest if even that record's is larger."""
+        """`most`, or the largest expected error below it up to which the sizes given have at most this mean `error`;
+        the smallest expected error if even that record's error is larger."""
         ordered = np.argsort(self.expected, kind="stable")
         ordered = ordered[self.expected[ordered] <= self.most]
         told = np.cumsum(self.error[ordered]) / np.arange(1, ordered.size + 1)
@@ -33,7 +33,8 @@ class CrossFit:
         return float(self.expected[ordered[within[-1] if within.size else 0]])
 
     def lines(self) -> list[str]:
-        """In words: the silence and the error of what is told, and the error if another share were told."""
+        """In words: the share without a size, the error of the others, and the error if another share were given a
+        size."""
         told = self.expected <= self.most
         ordered = self.error[np.argsort(self.expected, kind="stable")]
         shares = [f"{share:.0%}: {_mean(ordered[: round(share * ordered.size)]):.1%}" for share in TOLD_SHARES]

@@ -21,6 +21,7 @@ import numpy as np
 from datagen.corpora.index import read_index
 from datagen.corpora.manifest import read_manifest
 from datagen.errors import BadInput
+from datagen.exits import BAD_INPUT, print_error
 from datagen.files.atomic import write_file
 from datagen.files.places import OUT, require_file
 from datagen.sizing.committee import FOLDS
@@ -34,7 +35,6 @@ from labels.spall_size.calibration import Calibration, Judgement
 from physics.arrays import Array
 
 SPLITS = ("train", "validation")
-BAD_INPUT = 2
 FEATURE_CODE = ("labels", "labels/spall_size", "labels/spall_size/columns", "labels/spall_size/signal")
 LEARNED_WITH = ("numpy", "scipy", "scikit-learn")
 
@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         fit(asked.corpora, asked.out, asked.workers)
     except BadInput as problem:
-        print(f"error: {problem}", file=sys.stderr)
+        print_error(problem)
         return BAD_INPUT
     return 0
 

@@ -27,7 +27,8 @@ def most_doubt(columns: TrialColumns, error: Array, expected: Array) -> float:
 
 
 def reach(missed: Array, usual: NDArray[np.bool_]) -> float:
-    """How many expected errors hold 90 % of the `usual` ones, of errors `missed` (N,) over those expected.
+    """The factor on expected errors within which 90 % of the `usual` errors lie, from `missed` (N,), errors over
+    expected ones.
 
     Raises BadInput if none of the usual ones is known.
     """

@@ -2,20 +2,43 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import asdict, fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 from datagen.sizing.scored_record import ScoredRecord
-from labels.spall_size.size_estimate import Interval
+from datagen.sizing.size_summary import Figure
+from labels.interval import Interval
 
 if TYPE_CHECKING:
     from datagen.sizing.score import SizeScores
 
 
 def flat_scores(scores: SizeScores) -> dict[str, Any]:
-    """The scores by the names of the JSON report, their records as flat rows."""
+    """The scores by the names of the JSON report, their records as flat rows and the ends of intervals beside means."""
     by_name = {field.name: getattr(scores, field.name) for field in fields(scores)}
-    return by_name | {"records": [flat_row(one) for one in scores.records]}
+    return by_name | {
+        "records": [flat_row(one) for one in scores.records],
+        "summary": flat_summary(scores.summary),
+        "stated": flat_summary(scores.stated),
+    }
+
+
+def flat_summary(part: Any) -> Any:
+    """A summary, or a part of one, with every mean `x` as `x`, `x_low` and `x_high`; that of a figure as `value`,
+    `low` and `high`."""
+    if isinstance(part, Figure):
+        return {"name": part.name, **asdict(part.mean), "count": part.count, "target": part.target, "met": part.met}
+    if isinstance(part, dict):
+        return {name: flat_summary(value) for name, value in part.items()}
+    if isinstance(part, list):
+        return [flat_summary(value) for value in part]
+    if not is_dataclass(part):
+        return part
+    found: dict[str, Any] = {}
+    for name, value in ((field.name, getattr(part, field.name)) for field in fields(part)):
+        bounds = isinstance(value, Interval)
+        found |= _with_bounds(name, value.value, (value.low, value.high)) if bounds else {name: flat_summary(value)}
+    return found
 
 
 def flat_row(one: ScoredRecord) -> dict[str, Any]:
@@ -64,6 +87,6 @@ def flat_row(one: ScoredRecord) -> dict[str, Any]:
     }
 
 
-def _with_bounds(name: str, value: float, interval: Interval) -> dict[str, float]:
+def _with_bounds(name: str, value: float, interval: tuple[float, float]) -> dict[str, float]:
     low, high = interval
     return {name: value, f"{name}_low": low, f"{name}_high": high}

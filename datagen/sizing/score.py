@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
@@ -12,6 +12,7 @@ from datagen.corpora.index import read_index
 from datagen.errors import BadInput
 from datagen.scored_runs import write_line
 from datagen.sizing.estimators import find_estimator
+from datagen.sizing.flat_rows import flat_summary
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
 from datagen.sizing.record_scores import score_record, unsized_row
@@ -81,7 +82,7 @@ def score_sizes(
     stated = summarise_stated(scored)
     if logged:
         time = datetime.now(UTC).isoformat(timespec="seconds")
-        scores = None if stated is None else asdict(stated)
+        scores = None if stated is None else flat_summary(stated)
         write_line(folder, {"time": time, "sizes_by": told_of, "versions": program_versions(), "scores": scores})
     load_told = sum(one.told.load_known for one in scored)
     effect = with_effect(known, scored)

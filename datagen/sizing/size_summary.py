@@ -1,12 +1,14 @@
-"""What is said of many scored records together; the names of its fields are those of the JSON report.
+"""The scores of many records together.
 
-Intervals are of 90 %, of a bootstrap over virtual bearings: of a mean `x` they end at `x_low` and `x_high`, NaN from
-fewer than two bearings.
+The fields are named as in the JSON report, where the interval of a mean `x` ends at `x_low` and `x_high`. Intervals are
+of 90 %, from a bootstrap over virtual bearings, and NaN from fewer than two bearings.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+from labels.interval import Interval
 
 
 @dataclass(frozen=True)
@@ -14,9 +16,7 @@ class Figure:
     """A measured mean over `count` records with its interval, and its target if there is one."""
 
     name: str
-    value: float
-    low: float
-    high: float
+    mean: Interval
     count: int
     target: str = ""
     met: bool | None = None
@@ -24,20 +24,15 @@ class Figure:
 
 @dataclass(frozen=True)
 class ErrorRow:
-    """Records of one `value` of what errors may depend on: share without an estimate, relative errors of the others."""
+    """Errors of the records that share one `value` of a property: share without an estimate, relative errors of the
+    others."""
 
     value: str
     records: int
-    no_estimate: float
-    no_estimate_low: float
-    no_estimate_high: float
-    lag_error: float
-    lag_error_low: float
-    lag_error_high: float
+    no_estimate: Interval
+    lag_error: Interval
     lag_error_median: float
-    arc_error: float
-    arc_error_low: float
-    arc_error_high: float
+    arc_error: Interval
     arc_error_median: float
 
 
@@ -47,15 +42,9 @@ class EventFigures:
 
     true: int
     found: int
-    precision: float
-    precision_low: float
-    precision_high: float
-    recall: float
-    recall_low: float
-    recall_high: float
-    f1: float
-    f1_low: float
-    f1_high: float
+    precision: Interval
+    recall: Interval
+    f1: Interval
 
 
 @dataclass(frozen=True)
@@ -64,9 +53,7 @@ class LongSpalls:
 
     records: int
     told: int
-    error_of_nearest_candidate: float
-    error_of_nearest_candidate_low: float
-    error_of_nearest_candidate_high: float
+    error_of_nearest_candidate: Interval
     median: float
 
 
@@ -91,9 +78,10 @@ class Seconds:
 
 @dataclass(frozen=True)
 class SizeSummary:
-    """Scores of records with known truth, of which `scorable` were to be told a size and `without_event` were not.
+    """Scores of records with known truth: `scorable` ones should be given a size, those `without_event` should not.
 
-    `by` has the rows of errors by the name of what they may depend on, `events` their scores by how near is near.
+    `by` holds the rows of errors by the name of the property, `events` the scores of events by the tolerance within
+    which they match.
     """
 
     records: int
@@ -110,14 +98,12 @@ class SizeSummary:
 
 @dataclass(frozen=True)
 class StatedSizes:
-    """Scores of recordings whose ball passes are unknown, by what is stated of them: `records` of a stated extent and
-    relative errors of the arc of those `told` a size, and how many stated `healthy` were told one."""
+    """Scores of recordings whose ball passes are unknown, by what is stated of them: the number of `records` with a
+    stated extent and relative errors of the arc of those `told` a size, and how many stated `healthy` were told one."""
 
     records: int
     told: int
     told_on_the_stated_race: int
-    arc_error: float
-    arc_error_low: float
-    arc_error_high: float
+    arc_error: Interval
     healthy: int
     healthy_told: int

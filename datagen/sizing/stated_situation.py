@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from datagen.scenarios.streams import stream
+from datagen.stated_speed import SPEED_ERROR
 from labels.spall_size.situation import Situation
 from physics.checks import InvalidParameter
+from physics.operation import RPM
 
-SPEED_ERROR = 0.02
 NEEDED = {
     "balls": "number of balls",
     "pitch_diameter": "pitch diameter",
@@ -46,7 +47,7 @@ def situation_of(
 
     Raises InvalidParameter.
     """
-    speed = float(labels["speed_rpm"]) * 2.0 * math.pi / 60.0
+    speed = float(labels["speed_rpm"]) * RPM
     load = float(labels.get("load_n", math.nan))
     known = contact is not None and math.isfinite(load) and load >= 0.0
     return Situation(

@@ -30,14 +30,14 @@ def summarise_stated(records: list[ScoredRecord]) -> StatedSizes | None:
         records=len(spalled),
         told=len(told),
         told_on_the_stated_race=sum(one.told.race == one.truth.race for one in told),
-        **mean_with_interval("arc_error", errors, told),
+        arc_error=mean_with_interval(errors, told),
         healthy=len(healthy),
         healthy_told=sum(one.found for one in healthy),
     )
 
 
 def states_sizes(folder: Path) -> bool:
-    """True of recordings of which some extent or that they are healthy is stated."""
+    """True if the corpus in `folder` is of recordings and states an extent, or that it is healthy, for any of them."""
     if not read_manifest(folder).imported:
         return False
     table = read_index(folder)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,8 +20,9 @@ from datagen.sizing.size_summary import (
     SizeSummary,
 )
 from labels.event_scores import EventScores
+from labels.interval import Interval
 from labels.spall_size.known_size import known_size_factor
-from labels.spall_size.size_estimate import Interval
+from physics.arrays import Array
 
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
 
@@ -93,7 +95,7 @@ def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     return figures
 
 
-def _holds(interval: Interval, true: float) -> float:
+def _holds(interval: tuple[float, float], true: float) -> float:
     low, high = interval
     return float(low <= true <= high)
 
@@ -113,19 +115,18 @@ def _figure(
     values = np.array([value(one) for one in records])
     kept = np.isfinite(values)
     if not kept.any():
-        return Figure(name, math.nan, math.nan, math.nan, 0)
-    low, high = interval_over_bearings(values[kept], bearing_numbers(records)[kept])
-    mean, count = float(values[kept].mean()), int(kept.sum())
+        return Figure(name, mean_with_interval([], []), 0)
+    ends = interval_over_bearings(values[kept], bearing_numbers(records)[kept])
+    mean, count = Interval(float(values[kept].mean()), *ends), int(kept.sum())
     if target is None:
-        return Figure(name, mean, low, high, count)
-    met = mean >= target if at_least else mean <= target
-    return Figure(name, mean, low, high, count, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
+        return Figure(name, mean, count)
+    met = mean.value >= target if at_least else mean.value <= target
+    return Figure(name, mean, count, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
 
 
 def _coverage(what: str, told: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
     plain = _figure(f"90 % interval of the {what} holds the truth", told, inside)
-    return Figure(plain.name, plain.value, plain.low, plain.high, plain.count, "0.85 to 0.95",
-                  bool(0.85 <= plain.value <= 0.95))  # fmt: skip
+    return replace(plain, target="0.85 to 0.95", met=0.85 <= plain.mean.value <= 0.95)
 
 
 Bin = tuple[float, str]
@@ -173,10 +174,10 @@ def _row(value: str, records: list[ScoredRecord]) -> ErrorRow:
     return ErrorRow(
         value=value,
         records=len(records),
-        **mean_with_interval("no_estimate", [_silent(one) for one in records], records),
-        **mean_with_interval("lag_error", lag, told),
+        no_estimate=mean_with_interval([_silent(one) for one in records], records),
+        lag_error=mean_with_interval(lag, told),
         lag_error_median=_median(lag),
-        **mean_with_interval("arc_error", arc, told),
+        arc_error=mean_with_interval(arc, told),
         arc_error_median=_median(arc),
     )
 
@@ -198,7 +199,7 @@ def _long(records: list[ScoredRecord]) -> LongSpalls:
     return LongSpalls(
         records=len(own),
         told=len(told),
-        **mean_with_interval("error_of_nearest_candidate", errors, near),
+        error_of_nearest_candidate=mean_with_interval(errors, near),
         median=_median(errors),
     )
 
@@ -227,7 +228,8 @@ def _known_size(records: list[ScoredRecord]) -> KnownSizeErrors:
 
 
 def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
-    """The record of least noise and most trust, and the next one after it: what is known to any of its bearing."""
+    """The record of least noise and most trust, and the next one: all other records of the bearing are corrected by the
+    first, and the first by the second."""
 
     def sure(one: ScoredRecord) -> tuple[float, float]:
         return noise_level(one), one.told.trust
@@ -257,10 +259,14 @@ def _event_scores(records: list[ScoredRecord], scores: Callable[[ScoredRecord], 
     bearing = bearing_numbers(records)
     counts = np.array([(one.matched, one.found, one.true) for one in own], dtype=np.float64)
     matched, found, true = counts.reshape(-1, 3).T
-    parts = {"precision": (total.precision, matched, found), "recall": (total.recall, matched, true),
-             "f1": (total.f1, 2.0 * matched, found + true)}  # fmt: skip
-    said: dict[str, float] = {}
-    for name, (value, above, below) in parts.items():
-        low, high = interval_over_bearings(above, bearing, below) if records else (math.nan, math.nan)
-        said |= {name: value, f"{name}_low": low, f"{name}_high": high}
-    return EventFigures(true=total.true, found=total.found, **said)
+
+    def share(value: float, above: Array, below: Array) -> Interval:
+        return Interval(value, *(interval_over_bearings(above, bearing, below) if records else (math.nan, math.nan)))
+
+    return EventFigures(
+        true=total.true,
+        found=total.found,
+        precision=share(total.precision, matched, found),
+        recall=share(total.recall, matched, true),
+        f1=share(total.f1, 2.0 * matched, found + true),
+    )

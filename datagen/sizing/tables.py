@@ -10,6 +10,7 @@ from rich.table import Table
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord, Truth
 from datagen.sizing.size_summary import SizeSummary, StatedSizes
+from labels.interval import Interval
 
 
 def summary_table(summary: SizeSummary) -> Table:
@@ -20,17 +21,17 @@ def summary_table(summary: SizeSummary) -> Table:
     for figure in summary.figures:
         if figure.count:
             met = "" if figure.met is None else "yes" if figure.met else "NO"
-            interval = _reach(figure.low, figure.high)
-            table.add_row(figure.name, f"{figure.value:.3f}", interval, str(figure.count), figure.target, met)
+            mean, count = figure.mean, str(figure.count)
+            table.add_row(figure.name, f"{mean.value:.3f}", _reach(mean), count, figure.target, met)
     for name, events in summary.events.items():
-        interval = _reach(events.f1_low, events.f1_high) if events.true else ""
-        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1:.3f}", interval, str(events.true))
+        interval = _reach(events.f1) if events.true else ""
+        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1.value:.3f}", interval, str(events.true))
     return table
 
 
-def _reach(low: float, high: float) -> str:
+def _reach(mean: Interval) -> str:
     """The ends of an interval; nothing where there is none."""
-    return f"{low:.3f} to {high:.3f}" if math.isfinite(low) else ""
+    return f"{mean.low:.3f} to {mean.high:.3f}" if math.isfinite(mean.low) else ""
 
 
 def estimates_table(records: list[ScoredRecord]) -> Table:
@@ -68,14 +69,14 @@ def _with_interval(value: float, low: float, high: float) -> str:
 
 
 def stated_sentence(stated: StatedSizes) -> str:
-    """What the extents and the health that recordings are stated to have say of the estimates."""
+    """How the estimates compare with the stated extents and the stated health of recordings."""
     parts = []
     if stated.records:
         parts.append(f"of {stated.records} records of a stated extent {stated.told} were told a size")
     if stated.told:
-        low, high = stated.arc_error_low, stated.arc_error_high
-        interval = f" [{low:.3f}, {high:.3f}]" if math.isfinite(low) else ""
-        parts.append(f"mean error of their arc {stated.arc_error:.3f}{interval} of it")
+        error = stated.arc_error
+        interval = f" [{error.low:.3f}, {error.high:.3f}]" if math.isfinite(error.low) else ""
+        parts.append(f"mean error of their arc {error.value:.3f}{interval} of it")
         parts.append(f"{stated.told_on_the_stated_race} on the stated race")
     if stated.healthy:
         parts.append(f"{stated.healthy_told} of {stated.healthy} stated healthy were told a size")

@@ -16,8 +16,8 @@ from physics.arrays import Array
 class Blend(ClassifierMixin, BaseEstimator):
     """The mean of the log odds of its `parts`, each of which learns alone.
 
-    Trees tell what no line can, and say the same of everything beyond what they have seen; a logistic regression goes
-    on rising there.
+    Trees capture what no straight line can, but stay constant beyond the data they have seen; a logistic regression
+    goes on rising there.
     """
 
     def __init__(self, parts: Sequence[Any] = ()) -> None:

@@ -21,7 +21,7 @@ def decide(probability: Array, alarm: float | Array = EVEN) -> NDArray[np.str_]:
 
 
 def called(probability: Array, alarming: NDArray[np.bool_]) -> NDArray[np.str_]:
-    """The class (N,) by probabilities (N, 5): the likeliest spall of what is `alarming` (N,), else healthy."""
+    """The class (N,) from probabilities (N, 5): the likeliest spall where `alarming` (N,) is True, else healthy."""
     likeliest = np.asarray(CLASSES[1:])[probability[:, 1:].argmax(axis=1)]
     return np.where(alarming, likeliest, HEALTHY)
 

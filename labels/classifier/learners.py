@@ -50,7 +50,7 @@ def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> 
 
 
 def _seeing(columns: list[int], estimator: Any) -> Any:
-    """The estimator behind a choice of columns."""
+    """The estimator, given only these `columns` of a row."""
     from sklearn.compose import ColumnTransformer
     from sklearn.pipeline import make_pipeline
 

@@ -32,7 +32,7 @@ WHITE_BANDS = 24
 WHITE_FROM, WHITE_TO = 0.1, 0.8
 # Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes.
 TURNING_EVIDENCE = 30.0
-# In fewer turns the lines of a machine that runs quietly do not stand out, so that they lack says nothing.
+# In fewer turns the lines of a quietly running machine do not stand out, so their absence proves nothing.
 FEWEST_TURNS = 15.0
 STOPPED, DEAD = "machine stopped", "no signal"
 

@@ -1,15 +1,15 @@
-"""Scores of a classifier, each with the interval that a bootstrap over records gives it, or their number alone."""
+"""Scores of a classifier, each with the 95 % interval that a bootstrap over records gives it, or their number alone."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import betaincinv
 
+from labels.interval import Interval
 from physics.arrays import Array
 
 DRAWS = 2000
@@ -22,15 +22,6 @@ SAME = 1e-9
 Names = NDArray[Any]
 Stratum = list[NDArray[np.int64]]
 Score = Callable[..., float]
-
-
-@dataclass(frozen=True)
-class Interval:
-    """A score and its 95 % interval; NaN where it is not defined."""
-
-    value: float
-    low: float
-    high: float
 
 
 def balanced_accuracy(truth: Names, said: Names, classes: Sequence[str] | None = None) -> float:
@@ -154,13 +145,13 @@ def exact_interval(count: float, total: int) -> Interval:
 
 
 def _reach(score: Score, columns: tuple[Names, ...], members: list[Stratum], limits: tuple[float, float]) -> float:
-    """By how much the strata may change the score, as a mean over them, if no record is like those seen."""
+    """How far the score could move, as a mean over strata, if no record were like those seen."""
 
     def room(value: float) -> float:
         return max(value - limits[0], limits[1] - value)
 
     alone = [score(*(column[np.concatenate(own)] for column in columns)) for own in members]
-    # What needs all strata at once, such as an area under the ROC, each of them may change as far as it goes.
+    # A score that needs all strata at once, such as an area under the ROC, may be moved by any of them to its limits.
     return max(room(value) if np.isfinite(value) else len(members) * room(score(*columns)) for value in alone)
 
 

@@ -19,7 +19,7 @@ from physics.bearing import RACES
 
 # Share of simulated healthy records that may be called faulty: that of the rule's threshold.
 FALSE_ALARMS = 0.05
-# Divisions into folds from which held-out probabilities are taken for the alarm: with one it hangs on chance.
+# Divisions into folds that give held-out probabilities for the alarm; with a single one it would depend on chance.
 DIVISIONS = 3
 STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
 IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")

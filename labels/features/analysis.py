@@ -41,7 +41,7 @@ class Analysis:
 
     @property
     def drift_hz(self) -> float:
-        """Half a turn of the shaft in a period: what is slower is drift of a sensor, not motion of the bearing, Hz."""
+        """Half the frequency of the shaft, Hz: anything slower is drift of the sensor, not motion of the bearing."""
         return 0.5 * self.speed.shaft_hz
 
     @property
@@ -60,7 +60,8 @@ class Analysis:
         )
 
     @cached_property
-    def _vibration(self) -> tuple[Lines, Array]:
+    def vibration_with_shaft(self) -> tuple[Lines, Array]:
+        """Lines of the vibration's own spectrum, those of the shaft too, and its power over its local floor (1, F)."""
         top = max(self.top_hz, VIBRATION_ORDERS * self.given.shaft_hz)
         return vibration_lines(self.record, self.given.shaft_hz, min(top, self.record.bandwidth))
 
@@ -68,7 +69,7 @@ class Analysis:
     def speed(self) -> Speed:
         """The refined speed of the shaft; where it changes, the mean that its turning tells exactly."""
         tolerance = SPEED_TOLERANCE if self.record.turning is None else 0.0
-        return refine_speed(self._vibration[0], self.envelopes, self.given, tolerance)
+        return refine_speed(self.vibration_with_shaft[0], self.envelopes, self.given, tolerance)
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -92,7 +93,7 @@ class Analysis:
     @cached_property
     def vibration(self) -> Lines:
         """Lines of the vibration's own spectrum, without those of the shaft."""
-        excess = without_shaft(self._vibration[1], self.record.step, self.speed.shaft_hz)
+        excess = without_shaft(self.vibration_with_shaft[1], self.record.step, self.speed.shaft_hz)
         return lines_in(excess, self.record.step)
 
     def envelope_family(self, order: float, harmonics: int = HARMONICS) -> Family:
@@ -141,8 +142,8 @@ def analyse(
 ) -> Analysis:
     """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal.
 
-    Where the speed changes, `turning` tells how; it goes before the speed of the `kinematics`, and every frequency is
-    an order times the mean speed.
+    Where the speed changes, `turning` tells how; it takes precedence over the speed of the `kinematics`, and every
+    frequency is an order times the mean speed.
     """
     record = condition(signal, rate, bandwidth, turning)
     if record.turning is not None:

@@ -32,18 +32,18 @@ LOOKED_AT = (8, 16, 24)
 FEWEST_LINES = 5
 # Share of the lines looked at that must stand out.
 SHARE_OF_LINES = 0.7
-# A comb counts if lines that lie anywhere make one as good less often than this; one of 1362 spectra of simulated
+# Accept a comb only if random lines would match as well with a probability below this; one of 1362 spectra of simulated
 # machines without another shaft has such a one.
 CHANCE = 1e-5
-# Share of the places where a line is taken to stand out anyhow, at least.
+# Smallest share of places at which a line is assumed to stand out by chance.
 FEWEST_BY_CHANCE = 0.01
 # Places that one line covers, half a component apart.
 COVERED = 6
 # Rates that are tried, at most.
 MOST_PLACES = 60_000
-# Shafts that are told apart, at most.
+# Most foreign shafts that are looked for.
 MOST_COMBS = 3
-# A comb may be found by every eighth of its lines, at most.
+# The rate first found may be a multiple of the true one, up to the eighth.
 MOST_PARTS = 8
 # Share by which a rate must differ from one that the bearing makes.
 OF_BEARING = 0.03
@@ -117,8 +117,8 @@ def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:
 
 
 def _strongest(mean: Array, free: Flags, step: float, known: Kinematics) -> float | None:
-    """The rate (Hz) of the comb that chance makes least, in the bands' `mean` (F,) where it is `free` (F,) of lines
-    of the bearing; None if chance makes one as good."""
+    """The rate (Hz) of the comb that is least likely to be chance, in the bands' `mean` (F,) where it is `free` (F,) of
+    lines of the bearing; None if chance could make one as good."""
     shaft, top = known.shaft_hz, (mean.size - 3) * step
     low, high = max(SLOWEST * shaft, 4.0 * step), min(FASTEST * shaft, top / FEWEST_LINES)
     if high <= low:
@@ -166,9 +166,9 @@ def _standing_elsewhere(lines: Lines, free: Flags, low: float, shaft_hz: float) 
 
 
 def _doubt(stands: Flags, readable: Flags, elsewhere: tuple[int, int]) -> Array:
-    """Logarithm (N,) of the chance that as many of a comb's lines stand out among lines that lie anywhere; 0 if the
-    comb has too few."""
-    # What stands out because it is of the comb itself does not speak against it.
+    """Logarithm (N,) of the probability that random lines make as many lines of a comb stand out; 0 if the comb has too
+    few."""
+    # Lines that stand out because they belong to the comb itself are no evidence against it.
     others = np.maximum(elsewhere[0] - COVERED * stands.sum(axis=0), 0) / max(elsewhere[1], 1)
     chance = np.clip(others, FEWEST_BY_CHANCE, 1.0)
     least = np.zeros(stands.shape[1])
@@ -181,7 +181,7 @@ def _doubt(stands: Flags, readable: Flags, elsewhere: tuple[int, int]) -> Array:
 
 
 def _slowest_part(lines: Lines, free: Flags, comb: float, known: Kinematics) -> float:
-    """The rate of which `comb` is a multiple, if the lines between those of `comb` stand out as well; or `comb`."""
+    """The rate of which `comb` is a multiple, if the lines between those of `comb` stand out as well; else `comb`."""
     off = np.linspace(-1.0, 1.0, 9) * lines.step / (3.0 * comb)
     for part in range(MOST_PARTS, 1, -1):
         rates = comb / part * (1.0 + off)
@@ -202,5 +202,5 @@ def _sharpened(lines: Lines, rate: float, between: float, shaft_hz: float) -> fl
     multiples = int((lines.cumulated.shape[-1] - 4) * lines.step / rates[-1])
     nats = harmonic_evidence(lines, rates, shaft_hz, 0.0, multiples)[:, 0]
     standing = np.minimum(nats, STANDS_OUT).sum(axis=0)
-    # Strong lines stand out some components beside their middle too.
+    # Strong lines stand out in some components beside their middle too.
     return float(rates[np.where(standing > standing.max() - STANDS_OUT, tempered(nats).sum(axis=0), 0.0).argmax()])

@@ -27,14 +27,14 @@ WIDTHS = (0.0, 0.02, 0.06)
 HANN_BINS = 1.5
 MAINS = (50.0, 60.0)
 # Share by which mains (0.4 % in an interconnected grid, EN 50160) and a stated rate may be off together, and the most
-# (Hz) that is granted for it: high multiples are weak, and would cover the axis.
+# (Hz) that is allowed for it: high multiples are weak, and their margins would cover the axis.
 MAINS_SPREAD, MAINS_REACH = 0.006, 0.8
-# The share that every multiple is granted.
+# The share that is allowed for at every multiple.
 STEADY_MAINS = 0.001
 COARSEST_STEP = 1.3
 # Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family.
 SHAFT_MARGIN = 0.025
-# The most orders that components are counted out around each multiple: more would take a large part of the axis.
+# The most orders around each multiple in which components are left out: more would take a large part of the axis.
 WIDEST_MARGIN = 0.12
 
 

@@ -1,4 +1,4 @@
-"""What a row of the feature table says."""
+"""The description of one column of the feature table."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Shocks: blows from outside that ring far above what the machine does turn by turn. They are cut down to its size.
+"""Shocks: blows from outside that ring far above what the machine does in every turn. They are cut down to that level.
 
-One of 200 times the RMS fills every band, and the envelope's spectrum is then its own.
+A single one of 200 times the RMS fills every band, and the spectrum of the envelope would show nothing else.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from physics.arrays import Array
 
 # In fewer turns of the shaft nothing says what is usual.
 FEWEST_TURNS = 8
-# By how many times the usual largest sample of a turn a shock exceeds it.
+# How many times larger a shock is than the usual largest sample of a turn.
 OVER_USUAL = 8.0
 
 

@@ -22,8 +22,8 @@ Spectrum = NDArray[np.complex128]
 
 # Samples, for each component asked for, between which the spline runs.
 OVERSAMPLING = 8
-# The highest speed over the mean one, which a shaft that runs up evenly from rest has at the end: there what becomes
-# the last component asked for lies at this many times its number.
+# Highest speed over the mean speed, reached at the end of an even run-up from rest: there the last component asked for
+# comes from a component of this many times its number.
 REACH = 2
 
 

@@ -24,7 +24,7 @@ from physics.arrays import Array
 Arrays = dict[str, NDArray[Any]]
 # Typical error (logarithm) that is added to what the trees say, so that no interval vanishes.
 SMALLEST_SPREAD = 0.01
-# The columns that each model looks at, by the name under which its arrays are kept.
+# The columns that each model uses, by the name under which its arrays are kept.
 FITTED_ON: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"pair_score": PAIR_COLUMNS, "blind.rank": LEADING_COLUMNS, "with_load.rank": LEADING_COLUMNS_WITH_LOAD}
     | {f"blind.{model}": ROW_COLUMNS for model in ("lag", "arc", "doubt")}
@@ -38,11 +38,11 @@ class MisfitCalibration(ValueError):
 
 @dataclass(frozen=True)
 class Guess:
-    """A logarithmic correction and its typical error, each a sum of trees; `reach`: within so many times the typical
-    one lay 90 % of the errors by which it was set.
+    """A logarithmic correction and its typical error, each a sum of trees; 90 % of the errors on unseen machines were
+    below `reach` times the typical error.
 
-    These are errors of machines that the trees had not seen, in records as stored (neither cut short nor with other
-    noise) of the first corpus of the fit alone, and only where a size was told.
+    These errors are of records of the first corpus of the fit, as stored (neither cut short nor with other noise), to
+    which a size was given.
     """
 
     centre: Trees
@@ -50,10 +50,8 @@ class Guess:
     reach: float
 
     def correction(self, row: Array) -> tuple[float, float]:
-        """Factor that corrects the quantity which one `row` (F,) describes, and the factor of its 90 % interval.
-
-        In 90 % of the cases by which `reach` was set the truth lay between the corrected quantity divided by the second
-        and times it.
+        """Factor that corrects the quantity described by one `row` (F,), and the factor of its 90 % interval: from the
+        corrected quantity divided by the second factor to the corrected quantity times it.
         """
         centre = float(self.centre.predict(row[None])[0])
         spread = max(float(self.spread.predict(row[None])[0]), 0.0) + SMALLEST_SPREAD

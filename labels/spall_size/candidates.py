@@ -18,9 +18,9 @@ Ranked = list[tuple[float, float]]
 SEARCHED = (Channel.ALL, Channel.LOW, Channel.HIGH)
 # Standard deviations of the blurs under which peaks and edges are looked for, samples.
 BLURS = (0.7, 2.0, 5.0)
-# That of one more blur, periods.
+# Standard deviation of one more blur, periods.
 PERIOD_BLUR = 0.006
-# Least value of that one, samples.
+# Its smallest value, samples.
 LEAST_PERIOD_BLUR = 0.5
 # Candidates that are kept at most.
 MOST = 18
@@ -30,13 +30,13 @@ CLOSEST = 1.6
 LEAST_PROMINENCE = 0.08
 # Log energy over twice the blur by which an edge must be steeper than what surrounds it.
 LEAST_STEP = 0.3
-# What lies further below the largest energy (logarithm) does not vary.
+# Log energy this far and further below the largest counts as nearly constant.
 DEPTH = 8.0
 # Prominence beyond which a candidate ranks no higher, log energy.
 MOST_PROMINENT = 4.0
-# What the prominence of an edge counts beside that of a peak.
+# Weight of the prominence of an edge, that of a peak being 1.
 EDGE_SHARE = 0.7
-# What the log energy at a candidate counts beside its prominence.
+# Weight of the log energy at a candidate, that of its prominence being 1.
 LEVEL_SHARE = 0.15
 # Samples from an edge to where the peak of a short event would lie, without blur.
 EDGE_SHIFT = 0.5

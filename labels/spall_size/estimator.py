@@ -15,11 +15,11 @@ from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
 from physics.arrays import Array
 
-# Axis of a signal that is looked at: y, or the only one of a recording.
+# The axis that is used: y, or the only one of a recording.
 LOAD_AXIS = -1
 # Samples from an event to the peak of its prewhitened energy.
 ONSET = 1.8
-# Arc of a spall that is told at most, rad: half the race.
+# Longest spall that is reported, rad: half the race.
 LONGEST_EXTENT = math.pi
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
 

@@ -1,4 +1,4 @@
-"""A size made better by a record of the same machine whose spall was measured."""
+"""Correcting sizes by a record of the same machine whose spall was measured."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ from datagen.records.record import Record, make_record
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.scenario import Scenario
-from labels.classifier.scores import Interval
+from labels.interval import Interval
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable
 from physics.outcome import Outcome, SimulationFailed

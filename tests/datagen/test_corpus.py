@@ -86,7 +86,7 @@ def test_records_of_different_shapes_are_not_stacked(corpus: Corpus) -> None:
 
 def test_an_unknown_record_or_signal_is_refused_with_what_is_known(corpus: Corpus) -> None:
     for nothing in (float("nan"), float("inf"), "three", None, 1.5, True):
-        with pytest.raises(BadInput, match="no index of a record"):
+        with pytest.raises(BadInput, match="not the index of a record"):
             corpus.waveform(nothing)
     with pytest.raises(BadInput, match="record = 14: not in this corpus"):
         corpus.waveform(14)
@@ -154,7 +154,7 @@ def test_info_counts_every_record_and_gives_the_ranges_of_the_labels(corpus: Cor
 
 
 def test_a_folder_that_is_no_corpus_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(BadInput, match="no corpus"):
+    with pytest.raises(BadInput, match="not a corpus"):
         Corpus(tmp_path)
     (tmp_path / "manifest.json").write_text('{"name": 3')
     with pytest.raises(BadInput, match="not a manifest"):

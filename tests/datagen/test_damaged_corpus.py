@@ -71,11 +71,13 @@ def test_a_shard_that_may_not_be_read_is_named(copy: Path, monkeypatch: pytest.M
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr("netCDF4.Dataset", forbidden)
-    with pytest.raises(BadInput, match=r"shard_000000\.nc: you may not read this shard"):
+    with pytest.raises(BadInput, match=r"shard_000000\.nc: this shard cannot be read for lack of permission"):
         Corpus(copy).waveform(0)
     monkeypatch.setattr("datagen.inspection.check.file_hash", forbidden)
     verdict = check_corpus(copy)
-    assert "shards/shard_000000.nc: you may not read it; change its permissions" in verdict.problems
+    assert (
+        "shards/shard_000000.nc: it cannot be read for lack of permission; change its permissions" in verdict.problems
+    )
     assert verdict.remedy == ""
 
 
@@ -102,4 +104,4 @@ def test_going_on_with_a_whole_corpus_says_that_only_sizes_were_compared(copy: P
     flip(shard_path(copy, 2))
     code, _, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
     assert code == 0
-    assert "in files of the right size; `check` reads them" in told
+    assert "in files of the right size; `spallgen check` reads them" in told

@@ -1,4 +1,4 @@
-"""Columns of how the pair that is taken for the events stands among the leading ones."""
+"""Columns that compare the pair taken for the events with the other leading pairs."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 from labels.spall_size.columns.rivals import NEAR, SAME
 from physics.arrays import Array
 
-# Pairs that lead at most.
+# Largest number of leading pairs.
 LEADING = 16
-# Rank that counts at least where lags are weighted by it.
+# Smallest rank that is used as a weight of lags.
 LEAST_RANK = 1e-6
-# Rank that stands where every leading pair says the same.
+# Entered as rank of a rival where all leading pairs agree.
 NO_RIVAL = -1.0
 NAMES = (
     "rank",

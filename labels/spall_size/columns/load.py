@@ -1,4 +1,4 @@
-"""Columns of what load and Hertz factor let expect of a leading pair."""
+"""Columns of what load and Hertz factor lead one to expect of a leading pair."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from labels.spall_size.signal.mean_pass import Channel
 from labels.spall_size.static_release import release_arc, static_compression
 from physics.arrays import Array
 
-# Compression over the ball's radius that counts at least.
+# Smallest values with which the columns are computed, so that every logarithm is finite: compression over the ball's
+# radius.
 LEAST_PRESSED = 1e-9
-# Compression that counts at least, m.
+# Compression, m.
 LEAST_COMPRESSION = 1e-9
-# Release arc that counts at least, rad.
+# Release arc, rad.
 LEAST_ARC = 1e-9
-# Acceleration that counts at least, in the unit of the signal.
+# Acceleration, in the unit of the signal.
 LEAST_VIBRATION = 1e-12
-# Displacement that counts at least, in the unit of the signal times s².
+# Displacement, in the unit of the signal times s².
 LEAST_GIVE = 1e-15
 NAMES = (
     "pressed",

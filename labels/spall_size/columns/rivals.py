@@ -1,4 +1,4 @@
-"""Columns of how the score of a leading pair stands to those of the others."""
+"""Columns that compare the score of a leading pair with those of the others."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from labels.spall_size.leading import LeadingView
 from labels.spall_size.pairs import Pairs
 from physics.arrays import Array
 
-# Logarithm of the ratio of two lags up to which they say the same.
+# Logarithm of the ratio of two lags up to which they count as equal.
 SAME = 0.03
 # Logarithm of the ratio of two lags up to which they may mean the same events.
 NEAR = 0.3
-# How many of the pairs that say something else are told of.
+# How many pairs of other lags have columns.
 RIVALS = 3
 NAMES = (
     "own_score",
@@ -37,7 +37,7 @@ def measure(view: LeadingView) -> dict[str, Array]:
 
 
 def _against(pairs: Pairs, score: Array, best: NDArray[np.int64], own: int) -> dict[str, float]:
-    """What NAMES tells of the pair `own` beside all others, which are in `best` (P,) in the order of their `score`."""
+    """Values by NAMES of the pair `own` against all others, which are in `best` (P,) in the order of their `score`."""
     apart = np.log(pairs.lag / pairs.lag[own])
     rivals = best[np.abs(apart[best]) > SAME][:RIVALS]
     found = {"own_score": float(score[own])}

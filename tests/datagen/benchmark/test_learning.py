@@ -9,8 +9,8 @@ import pytest
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.training import TrainingSet
 from labels.classifier.classes import CLASSES
-from labels.classifier.scores import Interval
 from labels.features.table import FEATURE_NAMES
+from labels.interval import Interval
 
 
 def made_up(bearings, classes=CLASSES):

@@ -1,8 +1,8 @@
 """Reports hold the scores of a model as plain numbers, and only those that apply."""
 
-from datagen.benchmark.model_scores import Bounds, Calibration, ConditionScores, MinusRule, report
+from datagen.benchmark.model_scores import Calibration, ConditionScores, MinusRule, report
 from datagen.files.plain import plain_json
-from labels.classifier.scores import Interval
+from labels.interval import Interval
 
 OF_ALL = [
     "faults_balanced_accuracy",
@@ -30,7 +30,7 @@ def test_parts_of_a_group_stand_beside_the_other_scores(made_scores):
     scores = made_scores(
         detection_auc=HALF,
         minus_rule=MinusRule(HALF, HALF, HALF),
-        calibration=Calibration({"predicted": [0.1]}, 0.0, Bounds(0.0, 0.2)),
+        calibration=Calibration({"predicted": [0.1]}, Interval(0.0, 0.0, 0.2)),
         condition=ConditionScores(HALF, made_scores().confusion),
     )
     found = scores.to_dict()

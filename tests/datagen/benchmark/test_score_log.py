@@ -7,7 +7,7 @@ import pytest
 from datagen.benchmark.score_log import log_run
 from datagen.errors import BadInput
 from datagen.scored_runs import log_path
-from labels.classifier.scores import Interval
+from labels.interval import Interval
 
 SCORES = {"faults_balanced_accuracy": {"value": 0.75, "low": 0.5, "high": 1.0}}
 SCORES |= {"false_alarms": 1, "healthy": 4, "rejected": 0}

@@ -13,7 +13,7 @@ from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
 from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
-from datagen.commands.classify import _line, _tell
+from datagen.commands.classify import score_line, tell_results
 from labels.classifier.alarm import CLEARNESS, Alarm
 from labels.classifier.rule import Rule
 from labels.features.table import FEATURE_NAMES
@@ -78,7 +78,7 @@ def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
     spall = np.where(np.arange(100) < 10, 0.1, 0.9)
     spall[[0, *range(10, 19)]] = 0.9, *[0.1] * 9
     found = summarise(judged(locations, np.column_stack([1 - spall, spall, *np.zeros((3, 100))])), False)
-    assert found["models"]["said"].calibration.calibration_error == pytest.approx(
+    assert found["models"]["said"].calibration.calibration_error.value == pytest.approx(
         0.0, abs=1e-5
     )  # votes keep 1e-6 for every class
 
@@ -91,9 +91,9 @@ def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interv
     said = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
     found = said.calibration
     assert found.reliability["observed"] == [0.0, 1.0]
-    assert found.calibration_error == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
+    assert found.calibration_error.value == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
     # Every draw is the same: what 0 of 20 in either half leaves room for.
-    assert 0.0 < found.calibration_error_interval.low < 0.25 < found.calibration_error_interval.high < 1.0
+    assert 0.0 < found.calibration_error.low < 0.25 < found.calibration_error.high < 1.0
     assert said.condition is None
 
 
@@ -160,7 +160,9 @@ def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_
         assert scores.race_accuracy.value == pytest.approx(0.6)
         assert scores.faults_balanced_accuracy.value == pytest.approx(0.6)
         assert scores.detection_auc.value == 1.0  # all that has a score is told apart
-    assert models["said"].calibration.calibration_error == pytest.approx(0.2, abs=1e-5)  # 0.2 of none and 0.8 of all
+    assert models["said"].calibration.calibration_error.value == pytest.approx(
+        0.2, abs=1e-5
+    )  # 0.2 of none and 0.8 of all
     assert sum(models["said"].calibration.reliability["records"]) == 18
     assert models["said"].minus_rule.detection_auc.value == 0.0
     assert models["said"].minus_rule.race_accuracy.value == 0.0
@@ -228,7 +230,7 @@ def test_unknown_bearings_are_not_counted_as_one(bearings, counts, words):
     found = summarise(tested, False)["models"]["said"]
     names = ("healthy_bearings", "alarming_bearings", "healthy_of_unknown_bearing")
     assert tuple(getattr(found, name) for name in names) == counts
-    assert f"{words}, rejected 0" in _line(found)
+    assert f"{words}, rejected 0" in score_line(found)
 
 
 def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
@@ -244,7 +246,7 @@ def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(ca
     summary = summarise(judged(["none", "unknown", "ball"], [healthy, outer, healthy]))
     facts = {"corpus": "made-up", "rejections": {}, "noise": []}
     none = {"glitches": 0, "shocks": 0, "records": 0}
-    _tell({"tests": [summary | facts | {"despiked": none, "shocks_cut": none}]})
+    tell_results({"tests": [summary | facts | {"despiked": none, "shocks_cut": none}]})
     lines = [line for line in capsys.readouterr().out.splitlines() if "│" in line]
     assert len(lines) == 2
     assert "unknown" in lines[0]

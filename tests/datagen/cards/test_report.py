@@ -15,7 +15,7 @@ import xarray
 from typer.testing import CliRunner
 
 from datagen.cards.croissant import croissant_text
-from datagen.cards.facts import _solved, corpus_facts
+from datagen.cards.facts import corpus_facts, solved
 from datagen.cards.origin_text import origin_text
 from datagen.cards.report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.toml_text import toml_text
@@ -136,7 +136,7 @@ def test_what_nobody_stated_for_the_metadata_is_said(measured: Path, tiny_corpus
         (tiny_corpus, "license, url, creator, datePublished"),
     ):
         done = CliRunner().invoke(app, ["report", str(corpus), "--out", str(tmp_path / corpus.name)])
-        assert f"nobody stated for croissant.json: {missing}; add" in done.stdout
+        assert f"croissant.json lacks: {missing}; add them" in done.stdout
 
 
 def test_labels_in_the_common_vocabulary_have_a_row_a_signal(tiny_corpus: Path) -> None:
@@ -211,7 +211,7 @@ def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured:
     assert {path.name for path in (tmp_path / "card").iterdir()} == set(written.files)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "letter.txt").write_text("keep")
-    with pytest.raises(BadInput, match="this folder holds other things than a report"):
+    with pytest.raises(BadInput, match="this folder holds things other than a report"):
         write_report(measured, tmp_path / "other")
     assert [path.name for path in (tmp_path / "other").iterdir()] == ["letter.txt"]
 
@@ -232,7 +232,7 @@ def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_cor
 def test_the_spread_of_errors_is_told_by_quantiles_and_what_is_unknown_is_counted() -> None:
     errors = np.concatenate([np.arange(101.0), [np.nan] * 3])
     table = pandas.DataFrame({"model": "m", "method": "n", "step": 1e-5, "error_estimate": errors})
-    (found,) = _solved(table)
+    (found,) = solved(table)
     # Quantiles of 0, 1, … 100.
     assert (found.median_error, found.error_95_percent, found.largest_error) == pytest.approx((50.0, 95.0, 100.0))
     assert (found.records, found.errors_unknown) == (104, 3)

@@ -45,7 +45,7 @@ def test_maps_tell_accurate_from_wrong_refused_and_unanswerable(monkeypatch, tmp
 
 def test_a_step_is_refused_on_the_map_where_simulate_refuses_it():
     soft = stability.SWEEPS[0].apply(reference_scene("G1", 0.01), 1e3)
-    limit = stability._limit(soft, "exponential_rk4")
+    limit = stability.longest_step(soft, "exponential_rk4")
     assert 1.0 / 16.0 < limit < 1.0
     for steps in stability.STEPS_A_SAMPLE:
         try:
@@ -53,4 +53,4 @@ def test_a_step_is_refused_on_the_map_where_simulate_refuses_it():
             outcome = None
         except SimulationFailed as failure:
             outcome = failure.outcome
-        assert (outcome is Outcome.UNSTABLE_STEP) == stability._refused(1.0 / steps, limit)
+        assert (outcome is Outcome.UNSTABLE_STEP) == stability.is_refused(1.0 / steps, limit)

@@ -6,7 +6,7 @@ import pytest
 
 from datagen.drawing.scores import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
 from datagen.drawing.style import house_style, with_panels
-from labels.classifier.scores import Interval
+from labels.interval import Interval
 
 HALF = Interval(0.5, 0.4, 0.6)
 

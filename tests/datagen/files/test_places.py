@@ -63,7 +63,9 @@ def test_results_are_not_put_among_the_files_of_a_corpus(command, refused, copy)
 def test_a_file_is_no_folder(command, refused, tmp_path):
     (tmp_path / "file").write_text("mine")
     for place in (tmp_path / "file", tmp_path / "file" / "below"):
-        assert f'--out = "{place}": {tmp_path / "file"} is in the way and no folder' in refused(FOLDERS[command], place)
+        assert f'--out = "{place}": {tmp_path / "file"} is in the way: it is not a folder' in refused(
+            FOLDERS[command], place
+        )
     assert (tmp_path / "file").read_text() == "mine"
 
 
@@ -125,4 +127,6 @@ def test_a_place_that_may_not_even_be_looked_at_ends_with_2(tmp_path, monkeypatc
     command = ["generate", str(tmp_path / "r.toml"), "--out", str(tmp_path / "out")]
     done = CliRunner().invoke(app, command, catch_exceptions=False)
     assert done.exit_code == 2
-    assert done.stderr == f"error: {tmp_path / 'r.toml'}: Permission denied; allowed: what you may read and write\n"
+    assert (
+        done.stderr == f"error: {tmp_path / 'r.toml'}: Permission denied; allowed: a path that you may read and write\n"
+    )

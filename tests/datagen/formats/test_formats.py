@@ -74,7 +74,7 @@ def test_columns_of_text_tables_are_read_however_they_are_laid_out(
         ("a,b\n\n1,2\n\n3\n", PLAIN, "line 5: 1 cells, but the table has 2 columns"),
         ("by hand\n\n1,2\n3\n", CsvLayout(header=False, skip_lines=1), "line 4: 1 cells"),
         ("0 1\n\n  \n2\n", CsvLayout(header=False, delimiter=" "), "line 4: 1 cells"),
-        ("\na,a\n1,2\n", PLAIN, "line 2: a: this column is there twice"),
+        ("\na,a\n1,2\n", PLAIN, "line 2: a: this column occurs twice"),
         ('a,b\n1,2\n3,"4\n5,6\n7,8\n', PLAIN, "line 3: not a row of a CSV table: unexpected end of data"),
         ("a,b\n1," + "2" * 200_000 + "\n", PLAIN, "line 2: not a row of a CSV table: field larger than field limit"),
     ],
@@ -93,7 +93,9 @@ def test_a_file_without_an_ending_is_read_by_the_stated_format(tmp_path: Path) -
     (tmp_path / "2003.10.22.12.14.13").write_text("1\t2\n3\t4\n")
     layout = CsvLayout(delimiter="\t", header=False)
     assert read_arrays(tmp_path / "2003.10.22.12.14.13", "csv", layout)["1"].tolist() == [1.0, 3.0]
-    with pytest.raises(BadInput, match=r'format = "13": the file.s ending says no known format; allowed: mat, npz'):
+    with pytest.raises(
+        BadInput, match=r'format = "13": the file.s name does not end like that of a known format; allowed: mat, npz'
+    ):
         read_arrays(tmp_path / "2003.10.22.12.14.13", None, layout)
 
 

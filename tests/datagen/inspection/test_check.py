@@ -85,7 +85,7 @@ def test_a_missing_shard_and_one_without_sidecar_are_found(copy: Path) -> None:
     sidecar_path(copy, 1).unlink()
     problems = " / ".join(check_corpus(copy).problems)
     assert "shard_000000.nc: missing" in problems
-    assert "shard_000001.nc: unfinished, there is no sidecar that vouches for it" in problems
+    assert "shard_000001.nc: unfinished: the sidecar that vouches for it is missing" in problems
     assert "records asked for are missing" in problems
 
 
@@ -104,7 +104,7 @@ def test_a_label_that_differs_from_the_index_is_found(copy: Path) -> None:
         return dataset
 
     forge(copy, 1, relabel)
-    assert only_problem(copy) == "shards/shard_000001.nc: index.csv says other things of its records"
+    assert only_problem(copy) == "shards/shard_000001.nc: index.csv disagrees about its records"
 
 
 def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
@@ -114,7 +114,7 @@ def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
         return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
 
     forge(copy, 0, rewrite)
-    assert "the recipe gives another scenario for record 0" in only_problem(copy)
+    assert "the recipe gives record 0 another scenario" in only_problem(copy)
 
 
 def test_a_signal_that_its_scenario_does_not_give_is_found(copy: Path) -> None:
@@ -133,25 +133,25 @@ def test_an_index_with_a_lost_row_is_found(copy: Path) -> None:
     lines = (copy / "index.csv").read_text().splitlines()
     (copy / "index.csv").write_text("\n".join(lines[:-1]) + "\n")
     problems = " / ".join(check_corpus(copy).problems)
-    assert "index.csv does not list every record of the shards once" in problems
+    assert "index.csv does not list every record of the shards exactly once" in problems
 
 
 def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
     text = (copy / "manifest.json").read_text()
     write_atomically(copy / "manifest.json", text.replace('"seed": 7', '"seed": 8').encode())
-    assert "its recipe is not the one whose hash it states" in only_problem(copy)
+    assert "its recipe does not have the hash that it states" in only_problem(copy)
 
 
 @pytest.mark.parametrize(
     ("name", "value", "told"),
     [
-        ("name", "other", "name or recipe_records are not those of its recipe"),
-        ("recipe_records", 99, "name or recipe_records are not those of its recipe"),
-        ("asked", [], "records are there that it says nobody asked for"),
-        ("bytes", 5, "bytes is not what the sidecars of the shards add up to"),
-        ("seconds", 1e9, "seconds is not what the sidecars of the shards add up to"),
-        ("refused", {"machine: fill": {"count": 3, "example": "why"}}, "refused is not what the sidecars"),
-        ("failed", [{"record": 3, "reason": "why"}], "failed is not what the sidecars"),
+        ("name", "other", "name or recipe_records disagree with its recipe"),
+        ("recipe_records", 99, "name or recipe_records disagree with its recipe"),
+        ("asked", [], "the corpus holds records that it does not list as asked for"),
+        ("bytes", 5, "bytes disagrees with the sum over the shards' sidecars"),
+        ("seconds", 1e9, "seconds disagrees with the sum over the shards' sidecars"),
+        ("refused", {"machine: fill": {"count": 3, "example": "why"}}, "refused disagrees with the sum"),
+        ("failed", [{"record": 3, "reason": "why"}], "failed disagrees with the sum"),
     ],
 )
 def test_a_manifest_that_says_other_things_than_the_shards_is_found(

@@ -18,13 +18,13 @@ from datagen.inspection.check import check_corpus
 
 PYTHON = re.compile(r"Error|Traceback|\(\)|object|None|NoneType|\['")
 MANIFESTS = {
-    "": "no JSON from line 1, column 1 on",
-    "{\n": "no JSON from line 2, column 1 on",
-    "hello": "no JSON from line 1, column 1 on",
-    "[]": "its entries are not those of this format",
+    "": "not JSON from line 1, column 1 on",
+    "{\n": "not JSON from line 2, column 1 on",
+    "hello": "not JSON from line 1, column 1 on",
+    "[]": "its entries are not those of this version of the format",
     "{}": 'it lacks "name"',
-    '{"name": "a", "identity": {}}': "its entries are not those of this format",
-    "null": "its entries are not those of this format",
+    '{"name": "a", "identity": {}}': "its entries are not those of this version of the format",
+    "null": "its entries are not those of this version of the format",
     "\x00\xff": "no text",
 }
 
@@ -50,7 +50,7 @@ def test_a_manifest_that_lacks_a_key_or_holds_nonsense_says_so(key: str, copy: P
     content = json.loads(manifest_path(copy).read_text())
     for strange in ("x", [7], None):
         manifest_path(copy).write_text(json.dumps(content | {key: strange}))
-        assert "its entries are not those of this format" in told_by("info", copy)
+        assert "its entries are not those of this version of the format" in told_by("info", copy)
     del content[key]
     manifest_path(copy).write_text(json.dumps(content))
     assert f'it lacks "{key}"' in told_by("info", copy)
@@ -102,19 +102,22 @@ INDICES = {
     "no table": (lambda text: "hello\nworld\n", 'it lacks the column "record" and'),
     "a lost column": (lambda text: text.replace("bridged", "bridge", 1), 'it lacks the column "bridged";'),
     "a short row": (lambda text: text + "1,2\n", "index.csv, line 16: not the index of a corpus: 2 cells, but"),
-    "a word for a number": (lambda text: text.replace("420.0", "fast", 1), 'speed_rpm = "fast" is no number'),
-    "a word for a truth": (lambda text: text.replace("False", "no", 1), 'bridged = "no" is no True or False'),
-    "a word for a count": (lambda text: text.replace("\n0,", "\nzero,", 1), 'record = "zero" is no whole number'),
+    "a word for a number": (lambda text: text.replace("420.0", "fast", 1), 'speed_rpm = "fast" is not a number'),
+    "a word for a truth": (
+        lambda text: text.replace("False", "no", 1),
+        'bridged = "no" is not a truth value, True or False',
+    ),
+    "a word for a count": (lambda text: text.replace("\n0,", "\nzero,", 1), 'record = "zero" is not a whole number'),
     "a record twice": (
         lambda text: text + text.splitlines()[1] + "\n",
-        "line 16: not the index of a corpus: record = 0 is",
+        "line 16: not the index of a corpus: record = 0 occurs twice",
     ),
     "a shard elsewhere": (
         lambda text: text.replace("shards/shard_000000.nc", "../x.nc"),
-        "shard = ../x.nc is no place",
+        "shard = ../x.nc is not a place",
     ),
-    "a place before the first": (lambda text: text.replace(".nc,0", ".nc,-1", 1), "position = -1 is no place"),
-    "bytes": (lambda text: text.replace("gearbox", "\xff", 1), "no table of text"),
+    "a place before the first": (lambda text: text.replace(".nc,0", ".nc,-1", 1), "position = -1 is not a place"),
+    "bytes": (lambda text: text.replace("gearbox", "\xff", 1), "not a table of text"),
 }
 
 
@@ -142,7 +145,7 @@ def test_a_place_beyond_its_shard_is_told_of_the_index_and_not_of_the_shard(copy
 def test_records_asked_for_beyond_the_recipe_are_no_manifest(copy: Path) -> None:
     content = json.loads(manifest_path(copy).read_text())
     manifest_path(copy).write_text(json.dumps(content | {"asked": [[0, 10**15]]}))
-    assert "its entries are not those of this format" in told_by("check", copy)
+    assert "its entries are not those of this version of the format" in told_by("check", copy)
 
 
 @pytest.mark.parametrize("command", ["info", "check", "report", "size"])
@@ -151,8 +154,8 @@ def test_what_is_no_corpus_is_told_apart(command: str, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     assert "no such folder" in told_by(command, tmp_path / "nowhere")
     if command != "report":  # whose own folder would lie in it, which is said first
-        assert "this is no folder" in told_by(command, tmp_path / "file")
-    assert "so it is no corpus, or an interrupted one" in told_by(command, tmp_path / "folder")
+        assert "this is not a folder" in told_by(command, tmp_path / "file")
+    assert "so it is not a corpus, or its making was interrupted" in told_by(command, tmp_path / "folder")
 
 
 def test_a_preview_of_neither_corpus_nor_recipe_says_so(tmp_path: Path) -> None:

@@ -170,4 +170,7 @@ def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(
     for table in info_tables(found):
         console.print(table)
     assert f"{14 - entry.records} of 14 asked for" in shown.getvalue()
-    assert f"{entry.file}, with {entry.records} records, which all else here still counts: generate" in shown.getvalue()
+    assert (
+        f"{entry.file}, with {entry.records} records, which all other numbers here still count: generate"
+        in shown.getvalue()
+    )

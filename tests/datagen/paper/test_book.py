@@ -30,7 +30,7 @@ def test_the_command_writes_pictures_tables_page_and_results(tmp_path):
 
 
 def test_the_table_has_the_paper_s_number_ours_difference_and_comment(tmp_path):
-    write_book(tmp_path, ["6"], report=lambda title: None)
+    write_book(tmp_path, ["6"])
     rows = list(csv.DictReader((tmp_path / "figure6.csv").read_text(encoding="utf-8").splitlines()))
     first = rows[0]
     assert (first["quantity"], first["paper"], first["ours"]) == ("period of kxx of one row, healthy", "30", "30")
@@ -59,7 +59,7 @@ def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path):
 def test_a_folder_that_cannot_be_written_into_is_bad_input(tmp_path, monkeypatch):
     monkeypatch.setattr("datagen.files.places._writable", lambda folder: False)
     with pytest.raises(BadInput, match="cannot write into"):
-        write_book(tmp_path, ["6"], report=lambda title: None)
+        write_book(tmp_path, ["6"])
     assert list(tmp_path.iterdir()) == []
 
 

@@ -128,7 +128,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
         ("depth_um = 12", "depth_um = 0", "part[1].defect.depth_um", "neither depth nor roughness"),
         ("depth_um = 12", "depth_um = 0\nroughness_um = 0", "part[1].defect.depth_um", "or a roughness_um above 0"),
         ("extent_deg = 2", "", "part[1].defect.extent_deg", "one of extent_deg, extent_mm, extent_spacing"),
-        ("depth_um = 12", "depth_um = 12\nextent_mm = 1", "part[1].defect.extent_mm", "say the same thing twice"),
+        ("depth_um = 12", "depth_um = 12\nextent_mm = 1", "part[1].defect.extent_mm", "set the same thing twice"),
         (
             "depth_um = 12",
             "depth_um = 12\nentry_taper_deg = 2.5",
@@ -156,7 +156,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
             '"gearbox"',
             '"gearbox"\nmachine.bearing = "drawn"\nmachine.fill = 0.9\nmachine.balls = 8',
             "part[1].machine.fill",
-            "balls and fill say the same thing twice",
+            "balls and fill set the same thing twice",
         ),
         (
             '"gearbox"',

@@ -63,7 +63,7 @@ def test_a_name_that_is_nothing_is_refused_with_the_nearest_and_all_there_are() 
 @pytest.mark.parametrize("find", [find_recipe, find_spec])
 def test_a_pipe_is_not_called_missing(find: Callable[[Path], Path], tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(BadInput, match="pipe: this is a pipe or a device, and a file is needed"):
+    with pytest.raises(BadInput, match="pipe: this is a pipe or a device; a file is needed"):
         find(tmp_path / "pipe")
 
 

@@ -105,11 +105,15 @@ BAD = [
     ),
     ("[part.background]\nsnr_band_hz = [2000, 1000]", "snr_band_hz = [2000, 1000]: the band is empty"),
     ("[part.background]\nsnr_db = 3", "snr_db = 3: there is no layer to scale; allowed: a layer beside it"),
-    ("[part.background]\nwhite_rms_m_s2 = 1\nsnr_db = 3\nsnr_band_db = 4", "say the same thing twice"),
+    ("[part.background]\nwhite_rms_m_s2 = 1\nsnr_db = 3\nsnr_band_db = 4", "set the same thing twice"),
 ]
 BAD_RECORDINGS = [
     ("gone.npy", "rate_hz = 32768", "gone.npy: no such file"),
-    ("x.abc", "", "x.abc: the file's ending says no known format; allowed: mat, npz, npy, csv, wav, nc"),
+    (
+        "x.abc",
+        "",
+        "x.abc: the file's name does not end like that of a known format; allowed: mat, npz, npy, csv, wav, nc",
+    ),
     ("bad.csv", 'rate_hz = 32768\nchannels = ["b"]', "bad.csv: it holds NaN at sample 1 (1 such of 2 samples)"),
     ("cut.npz", "", "cut.npz: cannot be read as an .npz file"),
     ("words.npy", "rate_hz = 32768", "words.npy: no table of numbers"),

@@ -59,8 +59,8 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('condition = "broken"', 'condition = "broken"; allowed: healthy, line, extended, unknown'),
         ('bearing = "skf_6025"', 'bearing: bearing = "skf_6025" is not in the catalogue'),
         ("bearing = {balls = 8, pitch_diameter_mm = 10, ball_diameter_mm = 8}", "8 balls of 8.000 mm do not fit"),
-        ("speed_rpm = 5\nspeed_hz = 2", "speed_rpm and speed_hz say the same thing twice"),
-        ('speed_rpm = 5\ntach = {variable = "sig"}', "speed_rpm and tach say the same thing twice"),
+        ("speed_rpm = 5\nspeed_hz = 2", "speed_rpm and speed_hz set the same thing twice"),
+        ('speed_rpm = 5\ntach = {variable = "sig"}', "speed_rpm and tach set the same thing twice"),
         ('speed_rpm = {variable = "rpm"}', 'a.mat: speed_rpm = "rpm": the file has no such variable'),
         ('scale = {variable = "sig"}\nscall = 3', 'unknown key; did you mean "scale"?'),
         ("scale = 0", "a.mat: scale = 0.0; allowed: any number but 0"),
@@ -68,27 +68,27 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ("envelope_band_hz = [100, 600]", "envelope_band_hz = [100.0, 600.0]; allowed: 0 <= low < high <= 500"),
         (
             "envelope_band_hz = [101, 102]",
-            "envelope_band_hz = [101.0, 102.0]: holds none of the lines in the spectrum of 400 samples of a.mat, "
-            "2.5 Hz apart; allowed: a band at least 2.5 wide",
+            "envelope_band_hz = [101.0, 102.0]: contains no line (2.5 Hz apart) of the spectrum of a.mat (400 samples)"
+            "; allowed: a band at least 2.5 Hz wide",
         ),
         (
             "cut_s = 0.1\nenvelope_band_hz = [101, 105]",
-            "envelope_band_hz = [101.0, 105.0]: holds none of the lines in the spectrum of 100 samples of a.mat",
+            "envelope_band_hz = [101.0, 105.0]: contains no line (10 Hz apart) of the spectrum of a.mat (100 samples)",
         ),
         ('location = "none"\nextent_mm = 1', "a healthy bearing has no defect"),
         ('location = "none"\nspalls = 2', "a healthy bearing has no defect"),
         ('location = "outer"\ncondition = "healthy"', "a healthy bearing has no defect"),
         (
             'location = "outer"\ncondition = "extended"\nextent_mm = 1\nbearing = "skf_6205"',
-            "the defect covers 0.061 ball spacings, which is line",
+            "the defect covers 0.061 ball spacings, which makes it line",
         ),
-        ('bearing = "skf_6205"\nbpfo = 3.6', "bpfo: the bearing's geometry says it already"),
+        ('bearing = "skf_6205"\nbpfo = 3.6', "bpfo: it already follows from the bearing's geometry"),
         ('tach = {variable = "sig", rate_hz = 100, threshold = 9}', "pulses from 0 to 0.4 s"),
         ('channel = [{name = "a"}]\n', "the channel has no variable"),
-        ('csv = {decimal = ","}', "csv.delimiter: decimal sign and delimiter are the same; allowed: another character"),
+        ('csv = {decimal = ","}', "csv.delimiter: decimal sign and delimiter are the same; allowed: a character other"),
         ("notes = {a = {b = 1}}", "line 8: recording[1].notes.a = {b = 1}; allowed: a text in quotes or a number or"),
         ('rig = "{number}"', 'a.mat: rig = "{number}": is empty for this file; allowed: a name'),
-        ("csv = {delimiter = '\"'}", 'csv.delimiter = """: cells may be quoted, and rows are lines'),
+        ("csv = {delimiter = '\"'}", 'csv.delimiter = """: this character is reserved for quotes or line ends'),
     ],
 )  # fmt: skip
 def test_a_label_or_setting_that_cannot_be_is_refused(
@@ -105,8 +105,8 @@ def test_a_label_or_setting_that_cannot_be_is_refused(
         (np.array([0.0, np.nan, np.inf] + [1.0] * 30), "2 of 33 samples are not finite numbers, the first at sample 1"),
         (np.zeros(0), 'y = "sig": holds 0 samples; allowed: at least 16 samples'),
         (np.ones(15), "holds 15 samples"),
-        (np.ones((40, 2)).T.reshape(2, 40, 1), "is no single channel (2x40)"),
-        (np.ones(20) * 1j, "holds complex128 and not real numbers"),
+        (np.ones((40, 2)).T.reshape(2, 40, 1), "is not a single channel (2x40)"),
+        (np.ones(20) * 1j, "holds complex128, not real numbers"),
     ],
     ids=["not finite", "empty", "short", "table", "complex"],
 )
@@ -136,7 +136,7 @@ def test_the_same_samples_twice_are_refused_or_left_out(bring: Bring, mat: Mat, 
 def test_a_name_twice_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     told = refusal(bring, GOOD + GOOD.replace('"all"', '"again"'), tmp_path)
-    assert 'spec.toml: recording[2] (again): recording = "a": the name is taken by a.mat' in told
+    assert 'spec.toml: recording[2] (again): recording = "a": this name is already taken by a.mat' in told
 
 
 def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
@@ -155,10 +155,10 @@ def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Pa
         ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),
         ("file,load_n\na.mat,much\n", 't.csv, line 2: load_n = "much"; allowed: a number from 0 to 1e+07, or'),
-        ("file,speed_rpm\na.mat,5\n", "t.csv, line 2: speed_rpm: two sources for the speed: the SPEC says speed_hz"),
+        ("file,speed_rpm\na.mat,5\n", "t.csv, line 2: speed_rpm: two sources for the speed: the SPEC also states"),
         ("file,location\nz.mat,inner\n", "a.mat is not in the table t.csv"),
         ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
-        ("file,location\n", "t.csv: the table holds no row"),
+        ("file,location\n", "t.csv: the table has no rows"),
         ('file,location\n"a.mat,inner\n', "t.csv, line 2: not a row of a CSV table: unexpected end of data"),
         ('\nfile,recording\n\na.mat,"a\nb"\n\na.mat\n', "t.csv, line 7: 1 cells, but the table has 2 columns"),
     ],
@@ -184,14 +184,14 @@ def test_a_rate_that_contradicts_the_wave_file_is_refused(bring: Bring, tmp_path
         file.setframerate(8000)
         file.writeframes(b"\1\0" * 50)
     told = refusal(bring, GOOD.replace("*.mat", "*.wav").replace('"sig"', '"data"'), tmp_path)
-    assert "a.wav: rate_hz = 1000.0: the file says another rate; allowed: 8000" in told
+    assert "a.wav: rate_hz = 1000.0: the file states another rate; allowed: 8000" in told
 
 
 def test_a_folder_that_is_not_empty_is_refused_and_kept(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     bring(GOOD)
     before = (tmp_path / "corpus" / "manifest.json").read_bytes()
-    with pytest.raises(BadInput, match="this folder is not empty; an import never adds to what is there"):
+    with pytest.raises(BadInput, match="this folder is not empty, and an import never adds to what is there"):
         bring(GOOD)
     assert (tmp_path / "corpus" / "manifest.json").read_bytes() == before
 
@@ -233,7 +233,7 @@ def test_a_file_that_changes_during_the_import_is_noticed(
     mat("a.mat", noise(seed=1))
     manifest = importing._manifest
     monkeypatch.setattr(importing, "_manifest", meddling)
-    with pytest.raises(BadInput, match=r"a\.mat: the file has changed while it was imported"):
+    with pytest.raises(BadInput, match=r"a\.mat: the file changed while it was being imported"):
         bring(GOOD)
     assert not (tmp_path / "corpus").exists()
 

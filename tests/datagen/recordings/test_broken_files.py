@@ -54,7 +54,7 @@ def test_a_file_that_breaks_off_is_refused_with_its_name(name: str, tmp_path: Pa
         with pytest.raises(BadInput) as problem:
             read_arrays(path, None, CsvLayout())
         assert str(problem.value).startswith(f"{path}: ")
-        assert "cannot be read as " in str(problem.value) or "the file breaks off: " in str(problem.value)
+        assert "cannot be read as " in str(problem.value) or "the file is cut off: " in str(problem.value)
 
 
 @pytest.mark.parametrize("name", ["short.wav", "float.wav", "classic.nc", "a.npy", "a.npz", "packed.npz"])

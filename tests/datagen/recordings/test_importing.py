@@ -217,7 +217,7 @@ def test_a_changed_file_of_an_imported_corpus_is_found(bring: Bring, mat: Mat, t
     manifest = tmp_path / "corpus" / "manifest.json"
     manifest.write_text(manifest.read_text().replace('"rate_hz": 6000.0', '"rate_hz": 6001.0'))
     assert check_corpus(tmp_path / "corpus").problems == (
-        "manifest.json: its SPEC and files are not those whose hash it states",
+        "manifest.json: its SPEC and files do not have the hash that it states",
     )
 
 
@@ -268,7 +268,7 @@ def test_a_dead_sensor_comes_in_with_a_warning(mat: Mat, tmp_path: Path) -> None
     assert code == 0
     assert shown.startswith("3 records of 3 files")
     names = ["dead (x, y)", "gone (x, y)", "half (x)"]
-    assert told == f"3 without a signal, as of a sensor that is not connected: {', '.join(names)}\n"
+    assert told == f"3 without a signal, as if the sensor were not connected: {', '.join(names)}\n"
     assert json.loads((tmp_path / "j").read_text())["dead"] == names
     with Corpus(tmp_path / "out") as corpus:
         stored = [json.loads(str(corpus.waveform(record, "provenance"))).get("no_signal") for record in range(3)]

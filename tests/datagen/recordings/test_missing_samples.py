@@ -33,7 +33,7 @@ def test_long_and_many_gaps_are_refused(bring: Bring, mat: Mat, gaps: range) -> 
     signal = np.random.default_rng(1).standard_normal(2000)
     signal[list(gaps)] = np.nan
     mat("a.mat", signal)
-    with pytest.raises(BadInput, match=rf"{len(gaps)} of 2000 samples.*10 in a row and 1% of all at most"):
+    with pytest.raises(BadInput, match=rf"{len(gaps)} of 2000 samples.*at most 10 in a row and 1% of all"):
         bring(GAPS + 'missing_samples = "fill"\n')
 
 

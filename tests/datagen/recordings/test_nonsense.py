@@ -47,7 +47,7 @@ HELD = {
     'speed_rpm = {variable = "minus"}': "speed_rpm = -3.0: from the variable minus; allowed: a number from 0 to 1e+06",
     "scale = 1e308": "scale = 1e+308: the largest sample would be inf m/s²; allowed: samples up to 1e+09 m/s²",
     "scale = 1e12": "scale = 1000000000000.0: the largest sample would be",
-    'tach = {variable = "saw", pulses_per_rev = 0.002}': "tach.pulses_per_rev = 0.002: its pulses say 6e+06",
+    'tach = {variable = "saw", pulses_per_rev = 0.002}': "tach.pulses_per_rev = 0.002: its pulses give 6e+06",
 }
 
 
@@ -87,14 +87,14 @@ def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
 @pytest.mark.parametrize(
     ("orders", "told"),
     [
-        ("bpfo = 107.4\nbpfi = 162.2", "bpfo = 107.4: with bpfi = 162.2 it would be of a bearing with 269.6 balls"),
-        ("bpfo = 5.42\nbpfi = 3.58", "bpfo = 5.42: with bpfi = 3.58 it would be of a bearing with 9 balls"),
+        ("bpfo = 107.4\nbpfi = 162.2", "bpfo = 107.4: with bpfi = 162.2 it would mean a bearing with 269.6 balls"),
+        ("bpfo = 5.42\nbpfi = 3.58", "bpfo = 5.42: with bpfi = 3.58 it would mean a bearing with 9 balls"),
     ],
     ids=["in Hz", "exchanged"],
 )
 def test_orders_that_no_bearing_has_are_refused(orders: str, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
-    allowed = "; allowed: orders of the shaft, bpfo below bpfi, together the number of balls, up to 200"
+    allowed = "; allowed: orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most 200"
     assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {told}{allowed}")
     for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42"):
         assert len(bring(f"{GOOD}{known}\n", known)) == 1
@@ -104,14 +104,14 @@ def test_a_defect_longer_than_its_race_is_refused(bring: Bring, mat: Mat, tmp_pa
     mat("a.mat")
     told = refusal(bring, GOOD + 'bearing = "koyo_1205"\nlocation = "outer"\nextent_mm = 150\n', tmp_path)
     # Pitch and ball diameter of the Koyo 1205, 38.75 mm and 7.12 mm, give a race of pi times 45.87 mm.
-    assert "extent_mm = 150.0; allowed: a number above 0 to 144.1, the way round the outer race" in told
+    assert "extent_mm = 150.0; allowed: a number above 0 up to 144.1, the circumference of the outer race" in told
 
 
 def test_an_override_of_no_file_is_refused_unless_files_may_be_absent(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     override = '[[recording.override]]\nfiles = ["a.mat", "z*.mat"]\nload_n = 3\n'
     told = refusal(bring, GOOD + override, tmp_path)
-    assert 'override[1]: files = "z*.mat": fits none of these recordings; allowed: a.mat' in told
+    assert 'override[1]: files = "z*.mat": matches none of these recordings; allowed: a.mat' in told
     assert bring(GOOD + 'absent_files = "skip"\n' + override).labels["load_n"].tolist() == [3.0]
 
 
@@ -120,7 +120,7 @@ def test_a_column_that_is_there_twice_is_refused_and_one_without_a_name_is_not(b
     spec = GOOD.replace("*.mat", "a.csv")
     (tmp_path / "a.csv").write_text("sig,sig,\n" + cells)
     told = refusal(bring, spec, tmp_path)
-    assert "a.csv, line 1: sig: this column is there twice" in told
+    assert "a.csv, line 1: sig: this column occurs twice" in told
     assert "header = false" in told
     (tmp_path / "a.csv").write_text("sig,,\n" + cells)
     assert len(bring(spec)) == 1

@@ -51,7 +51,9 @@ def test_a_name_with_its_channel_is_one_for_each_channel(bring: Bring) -> None:
 
 @pytest.mark.usefixtures("numbered")
 def test_a_name_that_is_taken_comes_with_a_way_out(bring: Bring) -> None:
-    with pytest.raises(BadInput, match=r'recording = "1": the name is taken by .*1\.csv .*recording = "\{path\} '):
+    with pytest.raises(
+        BadInput, match=r'recording = "1": this name is already taken by .*1\.csv .*recording = "\{path\} '
+    ):
         bring(SPEC)
 
 
@@ -71,5 +73,5 @@ def test_braces_that_mean_nothing_are_refused_with_those_that_do(text: str) -> N
     with pytest.raises(BadInput) as problem:
         filled(text, Path("a/b.mat"), "y")
     assert "cannot be filled in for this file; allowed: {stem}, {number}, {folder}, as in X" in str(problem.value)
-    with pytest.raises(BadInput, match="for this file, whose name holds no number"):
+    with pytest.raises(BadInput, match="for this file, whose name contains no number"):
         filled("X{number:d}", Path("a/b.mat"), "y")

@@ -53,10 +53,10 @@ def test_exact_times_give_every_digit_of_a_rate(rate: float) -> None:
     ("times", "told"),
     [
         (np.concatenate([np.arange(200), np.arange(260, 460)]) * 1e-3, "these times are not evenly spaced"),
-        (np.arange(400)[::-1] * 1e-3, "is no column of rising times; allowed: times or their step, s"),
-        (np.zeros(400), "is no column of rising times"),
-        (np.zeros((200, 2)), "is no column of rising times"),
-        (-0.5, "is no column of rising times"),
+        (np.arange(400)[::-1] * 1e-3, "is not a column of rising times; allowed: times or their step, s"),
+        (np.zeros(400), "is not a column of rising times"),
+        (np.zeros((200, 2)), "is not a column of rising times"),
+        (-0.5, "is not a column of rising times"),
         (1.0, "rate_hz = 1.0: from the variable t; allowed: a number from 100 to 1e+07"),
     ],
     ids=["a gap", "falling", "still", "two columns", "a step back", "too slow"],
@@ -73,5 +73,5 @@ def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat
     mat("a.mat", t=np.arange(400) * 1e-3)
     with pytest.raises(BadInput, match=r'rate_hz = "t": holds 400 numbers from 0 to 0\.399; allowed: .* times = true'):
         bring(SPEC + 'rate_hz = {variable = "t"}\n')
-    with pytest.raises(BadInput, match=r"recording\[1\]\.load_n\.times.*: only a sampling rate follows from times"):
+    with pytest.raises(BadInput, match=r"recording\[1\]\.load_n\.times.*: times can only give a sampling rate"):
         bring(SPEC + 'rate_hz = 1000\nload_n = {variable = "t", times = true}\n')

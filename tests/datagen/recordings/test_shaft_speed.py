@@ -41,9 +41,7 @@ def test_a_piece_has_the_mean_of_its_own_part_of_a_speed_channel(bring: Bring, m
 def test_a_column_whose_first_place_alone_holds_the_number_has_no_mean(bring: Bring, mat: Mat) -> None:
     mat("a.mat", table=np.array([[1750.0, 400.0]] + [[0.0, 0.0]] * 99))
     spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
-    told = (
-        r'a\.mat: speed_rpm = "table\[:,0\]": is 0 in 99 of 100 places, so .*; allowed: one number of it, as in "NAME'
-    )
+    told = r'a\.mat: speed_rpm = "table\[:,0\]": is 0 in 99 of 100 places, so .*a single number of it, as in "NAME'
     with pytest.raises(BadInput, match=told):
         bring(spec + 'speed_rpm = {variable = "table[:,0]"}\n')
     corpus = bring(spec + 'speed_rpm = {variable = "table[0,0]"}\nload_n = {variable = "table[0,1]"}\n')
@@ -53,7 +51,7 @@ def test_a_column_whose_first_place_alone_holds_the_number_has_no_mean(bring: Br
 def test_pulses_of_another_length_need_a_rate_of_their_own(bring: Bring, mat: Mat) -> None:
     mat("a.mat", tacho=np.tile([0.0, 0.0, 0.0, 0.0, 1.0], 20))
     spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
-    told = r'a\.mat: tach\.variable = "tacho": holds 100 samples and the vibration 400; allowed: .* in tach\.rate_hz'
+    told = r'a\.mat: tach\.variable = "tacho": holds 100 samples, the vibration 400; allowed: .* in tach\.rate_hz'
     with pytest.raises(BadInput, match=told):
         bring(spec + 'tach = {variable = "tacho"}\n')
     corpus = bring(spec + 'tach = {variable = "tacho", rate_hz = 250}\n')
@@ -94,7 +92,7 @@ def test_a_tach_is_refused_that_is_a_fifth_of_the_nominal_speed_off(
     if agrees:
         assert bring(spec).labels["speed_rpm"].tolist() == pytest.approx([1500.0] * 2)
         return
-    told = rf"a\.mat: tach\.pulses_per_rev = 1\.0: its pulses say 1500 .*, but nominal_speed_rpm = {nominal}; allowed"
+    told = rf"a\.mat: tach\.pulses_per_rev = 1\.0: its pulses give 1500 .*, but nominal_speed_rpm = {nominal}; allowed"
     with pytest.raises(BadInput, match=told):
         bring(spec)
 
@@ -198,7 +196,7 @@ def test_a_channel_of_a_changing_speed_is_summed_up_to_the_angle(bring: Bring, m
 def test_a_vibration_is_not_taken_for_a_tach(bring: Bring, mat: Mat) -> None:
     vibration = np.random.default_rng(2).standard_normal(4000)
     mat("a.mat", vibration, tacho=vibration)
-    with pytest.raises(BadInput, match="pulses of its tach are lost or double") as refused:
+    with pytest.raises(BadInput, match="pulses of its tach are missing or double") as refused:
         bring(TACH.replace("1000", "2500"))
     assert refused.value.field == "tach.variable"
 

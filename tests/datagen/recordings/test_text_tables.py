@@ -24,7 +24,7 @@ ROWS = [f"{first!r},{second!r}" for first, second in CELLS]
 @pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
 def test_a_table_in_another_encoding_is_read_once_it_is_stated(encoding: str, bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("\n".join(["a,T (°C)", *ROWS]), encoding=encoding)
-    told = r'a\.csv: csv\.encoding = "utf-8": is no text in this encoding; allowed: that of the file, such as "latin-1"'
+    told = r'a\.csv: csv\.encoding = "utf-8": is not text in this encoding; allowed: the encoding of the file'
     with pytest.raises(BadInput, match=told):
         bring(SPEC)
     assert len(bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')) == 1
@@ -154,7 +154,7 @@ def test_a_last_column_that_is_not_empty_everywhere_is_kept(tmp_path: Path) -> N
     [
         ('rate_hz = {variable = "Zeit", times = true}',
          r'a\.csv, line 4: rate_hz = "Zeit": 2 of 50 cells are not finite numbers, the first is "0,002"'),
-        ('rate_hz = 1000\nload_n = {variable = "Zeit[3]"}', r'a\.csv: load_n = "Zeit\[3\]": is no finite number'),
+        ('rate_hz = 1000\nload_n = {variable = "Zeit[3]"}', r'a\.csv: load_n = "Zeit\[3\]": is not a finite number'),
     ],
 )  # fmt: skip
 def test_a_number_that_a_table_does_not_hold_is_told_with_line_and_cell(
@@ -187,7 +187,7 @@ def test_a_table_is_refused_whose_decimal_commas_part_it(case: str, bring: Bring
         bring(spec)
     line = 2 if header else 1
     assert str(refused.value) == (
-        f'{tmp_path / "a.csv"}, line {line}: csv.delimiter = ",": these commas seem to be those of decimals'
+        f'{tmp_path / "a.csv"}, line {line}: csv.delimiter = ",": these commas seem to be decimal signs'
         f"; did you mean csv = {meant}?"
     )
 
@@ -217,5 +217,5 @@ def test_lines_above_the_header_come_with_a_way_out(bring: Bring, tmp_path: Path
 @pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
 def test_a_compressed_table_is_called_so(encoding: str, bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(gzip.compress("\n".join(["a,b", *ROWS]).encode()))
-    with pytest.raises(BadInput, match=r"a\.csv: is compressed or packed, and no text; allowed: the file as text"):
+    with pytest.raises(BadInput, match=r"a\.csv: is compressed or packed, not text; allowed: the file as text"):
         bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')

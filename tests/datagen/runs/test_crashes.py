@@ -144,7 +144,7 @@ def ends_well(stop: Callable[[Process], None], code: int, recipe: Path, out: Pat
     stop(process)
     found, printed = process.finish()
     assert found == code, printed
-    assert "interrupted; finished records are kept, and the same command goes on from there\n" in printed
+    assert "interrupted; finished records are kept, and the same command continues from there\n" in printed
     assert "Traceback" not in printed
     assert "a worker was lost" not in printed
     assert wait_until(lambda: not process.alive(), 3.0)

@@ -28,6 +28,7 @@ from datagen.runs.plan import plan_shards
 from datagen.runs.progress import Lines
 from datagen.runs.task import ShardRow, make_shard
 from datagen.runs.workers import Engine
+from datagen.telling import Listener
 
 ALONE = Engine(workers=1)
 Contents = Callable[[Path], dict[int, str]]
@@ -229,7 +230,7 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
     monkeypatch.setattr(datagen.corpora.shard, "write_atomically", filling)
     run = generate(tiny, tmp_path / "out", engine=ALONE)
     assert not run.complete
-    assert run.problem.startswith(f"the disk is full: {14 - run.made} records are not made")
+    assert run.problem.startswith(f"the disk is full: {14 - run.made} records have not been made")
     assert list(read_index(tmp_path / "out")["record"]) == sorted(
         record for sidecar in finished_shards(tmp_path / "out") for record in sidecar.records
     )
@@ -317,8 +318,8 @@ def test_progress_lines_tell_rate_and_remaining_time(capsys: pytest.CaptureFixtu
 def test_a_run_says_beforehand_what_disk_it_needs(
     tiny: Recipe, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    generate(tiny, tmp_path / "out", limit=1, engine=ALONE, reporter=Lines())
-    assert "1 records in 1 shards to make; they need about" in capsys.readouterr().err
+    generate(tiny, tmp_path / "out", limit=1, engine=ALONE, listener=Listener(say=Lines().say))
+    assert "1 records in 1 shards to make; they will need about" in capsys.readouterr().err
 
 
 def test_a_dask_scheduler_that_does_not_answer_is_refused_before_anything_is_written(

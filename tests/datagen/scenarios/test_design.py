@@ -79,7 +79,7 @@ def test_a_sobol_design_fills_the_joint_space_more_evenly_than_random_draws() ->
 
 
 def test_all_pairs_of_dimensions_are_more_even_than_random_ones() -> None:
-    points = design._sobol_block(3, 0, 0)[:256]
+    points = design.sobol_block(3, 0, 0)[:256]
     generator = np.random.default_rng(0)
     pairs = [generator.choice(TOTAL, 2, replace=False) for _ in range(60)]
     found = np.array([qmc.discrepancy(points[:, pair]) for pair in pairs])
@@ -96,7 +96,7 @@ def test_the_first_records_of_a_sobol_design_are_already_spread() -> None:
 @pytest.mark.parametrize("kind", DESIGNS)
 def test_a_designed_record_is_remade_alone_and_in_any_order(kind: str) -> None:
     forward = draw_all(recipe_of(kind, 12, records_per_machine=3))
-    design._sobol_block.cache_clear()
+    design.sobol_block.cache_clear()
     design._latin_cells.cache_clear()
     machine._first_possible.cache_clear()
     assert draw_scenario(recipe_of(kind, 12, records_per_machine=3), 7) == forward[7]
@@ -109,7 +109,7 @@ def test_a_sobol_design_goes_on_unchanged_when_records_are_added() -> None:
 
 def test_a_point_beyond_the_first_block_is_that_of_the_whole_sequence() -> None:
     sobol = Design("sobol", 5, 2)
-    whole = np.vstack([design._sobol_block(5, 2, 0), design._sobol_block(5, 2, 1)])
+    whole = np.vstack([design.sobol_block(5, 2, 0), design.sobol_block(5, 2, 1)])
     assert sobol.refine(7, BLOCK + 3, 10_000, 0.0) == whole[BLOCK + 3, 7]
     for column in whole.T:
         assert np.array_equal(np.bincount(np.floor(column * 2048).astype(int), minlength=2048), np.ones(2048))

@@ -53,7 +53,7 @@ def test_more_channels_than_two_are_told_that_fewer_will_do(tmp_path: Path) -> N
 
 def test_a_table_where_a_word_belongs_says_where_its_keys_belong(tmp_path: Path) -> None:
     said = refusal(GOOD + "machine.bearing = {balls = -9}\n", tmp_path)
-    assert "part[1].machine.bearing = {balls = -9}: balls: a setting of its own, written beside it" in said
+    assert "part[1].machine.bearing = {balls = -9}: balls: this is a separate setting; write it beside this one" in said
     assert "as part[1].machine.balls; allowed: koyo_1205" in said
     said = refusal(GOOD.replace('"gearbox"', "{colour = 3}"), tmp_path)
     assert "the keys colour are no distribution: give one of uniform, " in said

@@ -102,7 +102,7 @@ def test_a_machine_at_rest_or_of_unknown_speed_gets_no_estimate_and_the_others_d
     corpus = imported(tmp_path, TABLE, rest=noise(1), runs=noise(2), unsaid=noise(3))
     code, said, _ = size(corpus, "--json", tmp_path / "s.json", "--out", tmp_path / "out")
     assert code == 0
-    assert "3 records, 0 with an estimate, 2 could not be asked for one" in said
+    assert "3 records, 0 with an estimate, 2 could not be given to the estimator" in said
     rows = {row["recording"]: row for row in json.loads((tmp_path / "s.json").read_text())["records"]}
     assert rows["rest"]["outcome"] == rows["unsaid"]["outcome"] == "not_asked"
     assert rows["rest"]["reason"] == "the machine stood still: speed_rpm = 0"
@@ -216,7 +216,7 @@ def test_recordings_of_which_nothing_is_stated_are_neither_scored_nor_logged(tmp
 
 
 def test_without_a_hertz_factor_the_command_says_that_it_is_blind(stated: Path) -> None:
-    assert "blind: no load or no Hertz factor is known" in size(stated)[1]
+    assert "blind: the load or the Hertz factor of these records is unknown" in size(stated)[1]
     assert "blind: no load" not in size(stated, "--blind")[1]  # as was asked
 
 

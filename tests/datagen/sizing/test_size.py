@@ -6,7 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,9 +24,10 @@ from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records
-from datagen.sizing.stated_situation import SPEED_ERROR, wrong_speed
+from datagen.sizing.stated_situation import wrong_speed
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
 from datagen.sizing.tables import known_size_sentence
+from datagen.stated_speed import SPEED_ERROR
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation
@@ -208,7 +209,7 @@ def test_an_unknown_split_is_bad_input_and_writes_nothing(sized_corpus: Path, tm
 
 
 def figure(summary: SizeSummary, name: str) -> float:
-    return next(one.value for one in summary.figures if one.name == name)
+    return next(one.mean.value for one in summary.figures if one.name == name)
 
 
 def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) -> None:
@@ -232,9 +233,9 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
     assert figure(summary, "abstention where there is no event") == pytest.approx(0.5)
     assert figure(summary, "90 % interval of the arc holds the truth") == pytest.approx(0.5)
     # One bearing alone has no interval.
-    none = dict.fromkeys(("error_of_nearest_candidate_low", "error_of_nearest_candidate_high"), math.nan)
-    long = {"records": 1, "told": 1, "median": 0.0, "error_of_nearest_candidate": 0.0} | none
-    assert asdict(summary.long) == pytest.approx(long, nan_ok=True)
+    nearest = summary.long.error_of_nearest_candidate
+    assert astuple(nearest) == pytest.approx((0.0, math.nan, math.nan), nan_ok=True)
+    assert (summary.long.records, summary.long.told, summary.long.median) == (1, 1, 0.0)
 
 
 def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Callable[..., ScoredRecord]) -> None:
@@ -253,11 +254,11 @@ def test_intervals_are_of_a_bootstrap_over_virtual_bearings(scored: Callable[...
     wrong = [scored({"bearing_id": "bad"}, {"lag": 0.0044}) for _ in range(40)]  # 10 % wrong, all of one bearing
     rows = [*wrong, *(scored({"bearing_id": f"good {k // 4}"}) for k in range(40))]  # ten bearings told exactly
     (lag,) = (one for one in summarise(rows, True).figures if one.name == "lag error, 10 dB")
-    assert lag.value == pytest.approx(0.05)
+    assert lag.mean.value == pytest.approx(0.05)
     # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad bearing makes 0, 50, 69 or 79 % of the
     # records; over records drawn singly the interval would be within 0.04 and 0.06.
-    assert lag.low == 0.0
-    assert lag.high == pytest.approx(0.1 * 120 / 152)
+    assert lag.mean.low == 0.0
+    assert lag.mean.high == pytest.approx(0.1 * 120 / 152)
 
 
 def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the_recipe() -> None:

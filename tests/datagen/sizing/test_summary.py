@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ from datagen.sizing.size_summary import StatedSizes
 from datagen.sizing.summary import summarise
 from datagen.sizing.tables import stated_sentence
 from labels.event_scores import EventScores
+from labels.interval import Interval
 
 BAD, GOOD = EventScores(0, 10, 10), EventScores(10, 10, 10)
 
@@ -32,40 +33,36 @@ def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., S
     for table in summary.by.values():
         (row,) = table
         # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad one makes 0, 50, 69 or 79 % of all.
-        assert (row.lag_error, row.lag_error_low) == (pytest.approx(0.05), 0.0)
-        assert row.lag_error_high == pytest.approx(0.1 * 120 / 152)
-        assert row.arc_error_high == pytest.approx(0.5 * 120 / 152)
-        assert row.no_estimate_low == row.no_estimate == row.no_estimate_high == 0.0
+        assert (row.lag_error.value, row.lag_error.low) == (pytest.approx(0.05), 0.0)
+        assert row.lag_error.high == pytest.approx(0.1 * 120 / 152)
+        assert row.arc_error.high == pytest.approx(0.5 * 120 / 152)
+        assert row.no_estimate == Interval(0.0, 0.0, 0.0)
 
 
 def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
     for events in summarise(two_kinds(scored), True).events.values():
-        for name in ("precision", "recall", "f1"):  # all are the share of the events of good bearings
-            assert getattr(events, name) == pytest.approx(0.5)
-            assert (getattr(events, f"{name}_low"), getattr(events, f"{name}_high")) == (pytest.approx(32 / 152), 1.0)
+        for share in (events.precision, events.recall, events.f1):  # all are that of the events of good bearings
+            assert astuple(share) == pytest.approx((0.5, 32 / 152, 1.0))
 
 
 def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
     summary = summarise([scored(told={"lag": math.nan, "extent": math.nan, "candidates": ()})], True)
     (row,) = summary.by["race"]
-    assert row.no_estimate == 1.0
-    assert math.isnan(row.lag_error)
-    assert math.isnan(row.lag_error_low)
-    assert math.isnan(summary.events["within_100_us, told records"].f1_low)
-    assert math.isnan(summary.events["within_100_us"].recall_high)
-    assert math.isnan(summary.long.error_of_nearest_candidate_high)
+    assert row.no_estimate.value == 1.0
+    assert all(map(math.isnan, astuple(row.lag_error)))
+    assert math.isnan(summary.events["within_100_us, told records"].f1.low)
+    assert math.isnan(summary.events["within_100_us"].recall.high)
+    assert math.isnan(summary.long.error_of_nearest_candidate.high)
 
 
 def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., ScoredRecord]) -> None:
     values = np.random.default_rng(0).standard_normal(400)
-    found = mean_with_interval(
-        "error", values.tolist(), [scored({"bearing_id": "unknown", "record": k}) for k in range(400)]
-    )
+    found = mean_with_interval(values.tolist(), [scored({"bearing_id": "unknown", "record": k}) for k in range(400)])
     reach = 1.645 * values.std() / math.sqrt(400)  # of a normal distribution; 2000 draws tell quantiles to 4 %
-    assert found["error_high"] - found["error"] == pytest.approx(reach, rel=0.1)
+    assert found.high - found.value == pytest.approx(reach, rel=0.1)
     # Of two records one is drawn twice in a quarter of the draws each.
-    pair = mean_with_interval("error", [0.0, 1.0], [scored({"bearing_id": "unknown", "record": k}) for k in range(2)])
-    assert (pair["error_low"], pair["error"], pair["error_high"]) == (0.0, 0.5, 1.0)
+    pair = mean_with_interval([0.0, 1.0], [scored({"bearing_id": "unknown", "record": k}) for k in range(2)])
+    assert pair == Interval(0.5, 0.0, 1.0)
 
 
 @pytest.mark.parametrize(("bearing", "count"), [("b", 9), ("unknown", 1)])
@@ -73,21 +70,22 @@ def test_one_bearing_alone_gives_a_mean_no_interval(
     scored: Callable[..., ScoredRecord], bearing: str, count: int
 ) -> None:
     records = [scored({"bearing_id": bearing, "record": k}) for k in range(count)]
-    found = mean_with_interval("error", np.linspace(0.0, 1.0, count + 1)[1:].tolist(), records)
-    assert math.isfinite(found["error"])
-    assert math.isnan(found["error_low"])
-    assert math.isnan(found["error_high"])
+    found = mean_with_interval(np.linspace(0.0, 1.0, count + 1)[1:].tolist(), records)
+    assert math.isfinite(found.value)
+    assert math.isnan(found.low)
+    assert math.isnan(found.high)
     events = summarise(records, True).events["within_100_us"]
-    assert math.isnan(events.recall_low)
+    assert math.isnan(events.recall.low)
 
 
 def test_no_interval_is_printed_where_there_is_none() -> None:
     stated = StatedSizes(
         records=3, told=2, told_on_the_stated_race=2, healthy=0, healthy_told=0,
-        arc_error=0.303, arc_error_low=math.nan, arc_error_high=math.nan,
+        arc_error=Interval(0.303, math.nan, math.nan),
     )  # fmt: skip
     assert "mean error of their arc 0.303 of it" in stated_sentence(stated)
-    assert "0.303 [0.100, 0.500] of it" in stated_sentence(replace(stated, arc_error_low=0.1, arc_error_high=0.5))
+    bounded = replace(stated, arc_error=Interval(0.303, 0.1, 0.5))
+    assert "0.303 [0.100, 0.500] of it" in stated_sentence(bounded)
 
 
 def test_one_record_of_an_unknown_bearing_tells_nothing_of_another(scored: Callable[..., ScoredRecord]) -> None:
@@ -118,7 +116,7 @@ def test_silence_where_there_is_no_event_is_met_from_95_per_cent_up(
     unsized = {"outcome": "no_passes", "lag": math.nan, "extent": math.nan, "candidates": ()}
     records = [scored(nothing, unsized if k < silent else {}) for k in range(40)]
     (figure,) = [one for one in summarise(records, True).figures if one.name.startswith("abstention")]
-    assert (figure.value, figure.count, figure.met) == (pytest.approx(silent / 40), 40, met)
+    assert (figure.mean.value, figure.count, figure.met) == (pytest.approx(silent / 40), 40, met)
 
 
 @pytest.mark.parametrize(("error", "met"), [(0.0, True), (0.04, True), (0.06, False)])
@@ -127,12 +125,12 @@ def test_the_lag_of_clean_records_is_met_up_to_5_per_cent_of_error(
 ) -> None:
     records = [scored({"snr_db": math.inf}, {"lag": 0.004 * (1.0 + error)})]
     (figure,) = [one for one in summarise(records, True).figures if one.name == "lag error, clean"]
-    assert (figure.value, figure.met) == (pytest.approx(error), met)
+    assert (figure.mean.value, figure.met) == (pytest.approx(error), met)
 
 
 def test_the_interval_of_a_mean_leaves_a_twentieth_out_at_either_end(scored: Callable[..., ScoredRecord]) -> None:
     values = np.random.default_rng(0).standard_normal(400)
-    found = mean_with_interval("error", values.tolist(), [scored({"bearing_id": str(k)}) for k in range(400)])
+    found = mean_with_interval(values.tolist(), [scored({"bearing_id": str(k)}) for k in range(400)])
     reach = 1.645 * values.std() / math.sqrt(400)  # of a normal distribution; 2000 draws tell quantiles to 4 %
-    assert found["error_high"] - found["error"] == pytest.approx(reach, rel=0.1)
-    assert found["error"] - found["error_low"] == pytest.approx(reach, rel=0.1)
+    assert found.high - found.value == pytest.approx(reach, rel=0.1)
+    assert found.value - found.low == pytest.approx(reach, rel=0.1)

@@ -1,0 +1,17 @@
+"""How the programs of this package end: their exit codes, and the line that tells what went wrong."""
+
+from __future__ import annotations
+
+import sys
+
+FAILED = 1  # a check failed, or records could not be made
+BAD_INPUT = 2
+INTERRUPTED = 130
+# What shells say of a program that SIGPIPE ended, which Python ignores: 128 + 13.
+OUTPUT_CLOSED = 141
+TERMINATED = 143
+
+
+def print_error(problem: object) -> None:
+    """Say on standard error, in one line, what went wrong."""
+    print(f"error: {problem}", file=sys.stderr, flush=True)

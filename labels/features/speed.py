@@ -10,7 +10,7 @@ from labels.features.conditioning import FEWEST_BINS, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
 from labels.features.families import STANDS_OUT, Lines, find_family, harmonic_evidence, lines_in, tempered
 from labels.features.kinematics import Kinematics
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 
 # The share by which the shaft may turn faster or slower than stated.
 SPEED_TOLERANCE = 0.022
@@ -27,10 +27,15 @@ PLACES = (45, 800)
 BINS_BETWEEN = 0.5
 # How far a family usually lies from its place at the speed stated, as a share: by slip and a wrong speed.
 FAMILY_PRIOR = 0.015
-# Nats that a family needs to tell of the speed.
+# Evidence (nats) that a family needs before it says anything about the speed.
 DECISIVE = 12.0
-# By how many lines that stand out a speed must lead to be taken for a better one.
+# A speed is preferred to another only if this many more lines stand out at it.
 MORE_LINES = 4
+# Another speed than the one stated has to be better by so many nats.
+WORTH_LEAVING = 3.0
+# A harmonic of the shaft within this share of a race's order may be a line of the race: so far a wrong speed (2.2 %)
+# and slip (2.7 %) may move the two together.
+OF_A_RACE = 0.049
 
 
 @dataclass(frozen=True)
@@ -57,31 +62,44 @@ def refine_speed(
     """The most likely shaft speed within the `tolerance` (a share) of the one given, 0 if that is exact.
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
-    slip comes to the strongest outer or inner family. Without evidence the speed given is kept. Where the shaft shows,
-    all harmonics that the spectra hold then tell it to a component of the highest: harmonics 40 to 50 of a shaft that
-    knocks lie where those of the races are looked for.
+    slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie tell nothing: a spall
+    at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Without evidence the speed given is kept.
+    Where the shaft shows, all its harmonics in the spectra then refine it, to one component at the highest of them: of
+    a shaft that knocks, harmonics 40 to 50 lie where those of the races are looked for.
     """
     turning = lines_in(envelopes.excess[:1], envelopes.step)
     count = int(np.ceil(2.0 * tolerance * known.shaft_hz * SHAFT_HARMONICS / (BINS_BETWEEN * spectrum.step))) + 1
     places = max(PLACES[0], min(count, PLACES[1])) // 2 * 2 + 1 if tolerance > 0.0 else 1
     factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
     speeds = known.shaft_hz * factors
-    shaft = tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
-    modulation = tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
+    telling = telling_harmonics(known)[:, None]
+    shaft = telling * tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
+    modulation = telling[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
     comb = shaft.sum(axis=0) + modulation.sum(axis=0)
-    joint = comb + _families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
-    place = int(joint.argmax())
+    joint = comb + families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
+    stated, place = places // 2, int(joint.argmax())
+    if joint[place] < joint[stated] + WORTH_LEAVING:
+        place = stated
     factor, nats = float(factors[place]), float(comb[place])
     if places > 1 and nats > 0.0:
-        factor = _sharpened(spectrum, turning, known, factor, float(factors[1] - factors[0]))
+        factor = sharpened(spectrum, turning, known, factor, float(factors[1] - factors[0]))
     return Speed(known.shaft_hz * factor, nats)
 
 
-def _sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float, between: float) -> float:
-    """The share of the stated speed within `between` of `factor` that all harmonics held by the spectra tell.
+def telling_harmonics(known: Kinematics) -> Flags:
+    """Which of the shaft's harmonics 1 to SHAFT_HARMONICS (H,) no line of a race can be taken for."""
+    harmonic = np.arange(1.0, SHAFT_HARMONICS + 1.0)[:, None]
+    orders = np.array([known.bpfo, known.bpfi])
+    line = np.maximum(np.round(harmonic / orders), 1.0) * orders
+    return np.asarray((np.abs(harmonic / line - 1.0) > OF_A_RACE).all(axis=1))
 
-    A line counts with STANDS_OUT at most, and `factor` stays unless another share has MORE_LINES such lines more: one
-    line of a race near a multiple of the shaft tells nothing of its speed.
+
+def sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float, between: float) -> float:
+    """The ratio of the shaft's speed to the stated one, within `between` of `factor`, that fits all harmonics in the
+    spectra best.
+
+    A line counts with STANDS_OUT at most, and `factor` is kept unless MORE_LINES more such lines stand out at another
+    ratio: one line of a race near a multiple of the shaft says nothing about its speed.
     """
     found = []
     for lines in (spectrum, turning):
@@ -97,12 +115,13 @@ def _sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float
         height += tempered(nats).sum(axis=0)
     if standing.max() < standing[steps] + MORE_LINES * STANDS_OUT:
         return factor
-    # Strong lines stand out some components beside their middle too.
+    # Strong lines stand out in some components beside their middle too.
     return float(factors[np.where(standing > standing.max() - STANDS_OUT, height, 0.0).argmax()])
 
 
-def _families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array) -> Array:
-    """Log prior of the slip that each speed would ask of the strongest family, where there is a decisive one."""
+def families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array) -> Array:
+    """Log prior (N,) of the slip that each of the `factors` (N,) on the speed would imply for the strongest family; 0
+    where no family is decisive."""
     lines = lines_in(envelopes.excess, envelopes.step)
     best, term = DECISIVE, np.zeros(factors.size)
     for order in (known.bpfo, known.bpfi):

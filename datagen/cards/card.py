@@ -30,16 +30,23 @@ def _head(facts: Facts) -> Iterable[str]:
     kind = "recordings of real machines" if facts.origin == IMPORTED else "simulated records with exact labels"
     shortest, longest = facts.durations_s
     length = f"{shortest:g} s" if shortest == longest else f"{shortest:g} to {longest:g} s"
-    missing = f", {info.failed} could not be made" if info.failed else ""
     rows = {
         "name": f"`{info.name}`",
         "kind": kind,
-        "records": f"{info.records} of {info.asked} asked for{missing}; the {_source(facts)} has {info.recipe_records}",
+        "records": _records(facts),
         "bearings": f"{info.bearings} (label `bearing_id`; never divided between splits)",
         "sampling": f"{', '.join(f'{rate:g} Hz' for rate in facts.rates_hz)}; {length} a record",
         "size": f"{info.signal_seconds:.1f} s of signal in {info.shards} shards, {for_people(info.bytes)}",
     }
     yield from _table(("", ""), rows.items())
+
+
+def _records(facts: Facts) -> str:
+    info = facts.info
+    if facts.origin == IMPORTED:
+        return str(info.records)
+    missing = f", {info.failed} could not be made" if info.failed else ""
+    return f"{info.records} of {info.asked} asked for{missing}; the recipe has {info.recipe_records}"
 
 
 def _source(facts: Facts) -> str:

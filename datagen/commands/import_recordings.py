@@ -42,10 +42,13 @@ def _tell(done: Imported) -> None:
         ("not found", done.absent),
         ("left out as repeats", done.skipped),
         ("without a signal, as if the sensor were not connected", done.dead),
+        *done.doubts.items(),
     ):
         if names:
             shown = ", ".join(names[:6]) + (" …" if len(names) > 6 else "")
             complain(f"{len(names)} {problem}: {shown}")
+    if done.few_turns:
+        complain(done.few_turns)
     print(
         f"{done.records} records of {done.files} files are in {done.folder} "
         f"({done.shards} shards, {for_people(done.bytes)}, {done.seconds:.1f} s)"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rich.markup import escape
 from rich.table import Table
 
+from datagen.corpora.format import IMPORTED
 from datagen.corpora.reading import AGAIN
 from datagen.runs.progress import for_people
 
@@ -23,23 +24,42 @@ def info_tables(info: Info) -> list[Table]:
 def _summary(info: Info) -> Table:
     table = Table(title=f"{info.name}: {info.title}" if info.title else info.name, show_header=False)
     present = info.records - sum(info.missing_files.values()) - sum(info.damaged_files.values())
+    recorded = info.origin == IMPORTED
+    of_recipe = f" of {info.asked} asked for; the recipe has {info.recipe_records}"
+    of_recordings = f" of {info.records} recordings" if present < info.records else " recordings"
     rows = {
-        "records": f"{present} of {info.asked} asked for; the recipe has {info.recipe_records}",
+        "records": f"{present}{of_recordings if recorded else of_recipe}",
         **({"missing": f"{_lost(info.missing_files)}: {AGAIN}"} if info.missing_files else {}),
         **({"damaged": _lost(info.damaged_files)} if info.damaged_files else {}),
-        "could not be made": str(info.failed),
-        "virtual bearings": _bearings(info),
-        "outside the model's range": f"{info.outside_validity} records",
+        **({"bearings, by split": _bearings(info)} if recorded else _simulated(info)),
         "shards": f"{info.shards}, together {for_people(info.bytes)}, {info.record_bytes / 1e6:.2f} MB a record",
         "length": f"{info.signal_seconds:.1f} s of signal",
-        "cost": f"{info.worker_seconds:.1f} s of one worker, {info.record_seconds:.2f} s a record, "
-        f"{info.made_per_second:.1f} times real time",
-        "recipe, model, format, program": ", ".join(value or "(none)" for value in info.identity.values()),
+        **_making(info, recorded),
         "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),
     }
     for name, text in rows.items():
         table.add_row(name, text)
     return table
+
+
+def _simulated(info: Info) -> dict[str, str]:
+    return {
+        "could not be made": str(info.failed),
+        "virtual bearings": _bearings(info),
+        "outside the model's range": f"{info.outside_validity} records",
+    }
+
+
+def _making(info: Info, recorded: bool) -> dict[str, str]:
+    """What the records cost, and the hashes of what they came from; recordings were solved by no model."""
+    if recorded:
+        hashes = ("recipe_hash", "format_hash", "program_hash")
+        return {"SPEC and files, format, program": ", ".join(info.identity[name] for name in hashes)}
+    cost = f"{info.worker_seconds:.1f} s of one worker, {info.record_seconds:.2f} s a record, "
+    return {
+        "cost": f"{cost}{info.made_per_second:.1f} times real time",
+        "recipe, model, format, program": ", ".join(value or "(none)" for value in info.identity.values()),
+    }
 
 
 def _lost(files: dict[str, int]) -> str:
@@ -87,7 +107,8 @@ def _refused(info: Info) -> Table:
 
 def _ranges(info: Info) -> Table:
     table = Table("label", "unit", title="ranges")
-    for heading in ("smallest", "median", "largest", "not applicable"):
+    missing = "unknown" if info.origin == IMPORTED else "not applicable"
+    for heading in ("smallest", "median", "largest", missing):
         table.add_column(heading, justify="right")
     for name, found in info.ranges.items():
         numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
@@ -96,10 +117,12 @@ def _ranges(info: Info) -> Table:
 
 
 def verdict_table(predictions: list[dict[str, Any]], models: list[str]) -> Table:
-    """What every model says of the records, with the probability that it gives it, or why a record was rejected."""
+    """What every model says of the records, with its probability of a spall beside the alarm for it, or why a record
+    was rejected."""
     table = Table(
         title="records not scored: their true class is unknown or not one of ours",
-        caption="In brackets: the probability of the answer, if the model gives one.",
+        caption="In brackets, if the model gives one: the probability of a spall, and the alarm above which one is "
+        "called (≈: so near that single windows decide).",
     )
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")
@@ -110,8 +133,19 @@ def verdict_table(predictions: list[dict[str, Any]], models: list[str]) -> Table
 
 
 def _verdict(said: dict[str, Any]) -> str:
-    probability = said.get("location_probability", {}).get(said["location"])
-    return said["location"] if probability is None else f"{said['location']} ({probability:.2f})"
+    where = said["location"]
+    if where not in said.get("location_probability", {}):  # the rule, which gives none, and rejected records
+        return str(where)
+    return f"{where} ({said['score']:.2f} {_beside_alarm(said)} {said['alarm']:.2f})"
+
+
+def _beside_alarm(said: dict[str, Any]) -> str:
+    """How the probability of a spall lies to the alarm, or ≈ where that of the whole record contradicts what was called
+    by the mean margin of its windows."""
+    above = said["score"] > said["alarm"]
+    if above != (said["location"] != "none"):
+        return "≈"
+    return ">" if above else "≤"
 
 
 def catalog_tables() -> list[Table]:

@@ -25,19 +25,25 @@ def open_text(path: Path, encoding: str = UTF_8) -> IO[str]:
 
 
 def read_csv_rows(
-    path: Path, delimiter: str = ",", skip_lines: int = 0, encoding: str = UTF_8, most: int | None = None
+    path: Path,
+    delimiter: str = ",",
+    skip_lines: int = 0,
+    encoding: str = UTF_8,
+    most: int | None = None,
+    *,
+    blank: bool = False,
 ) -> list[Row]:
     """Each row, or the first `most`, of a file that is not blank: the number of its first line, from 1, and its cells.
 
-    A `delimiter` of one space stands for any run of blanks, between which nothing is quoted; the first `skip_lines`
-    are left out. Raises NotText, BadInput with the line where a quoted cell does not end as one should, and OSError if
-    the file cannot be read.
+    Rows that are `blank` come too, without cells, if that is asked for. A `delimiter` of one space stands for any run
+    of blanks, between which nothing is quoted; the first `skip_lines` are left out. Raises NotText, BadInput with the
+    line where a quoted cell does not end as one should, and OSError if the file cannot be read.
     """
     with open_text(path, encoding) as file:
         try:
             lines = islice(file, skip_lines, None)
             rows = _split(lines) if delimiter == BLANKS else _parsed(lines, delimiter, path, skip_lines)
-            return list(islice(((skip_lines + line, cells) for line, cells in rows if cells), most))
+            return list(islice(((skip_lines + line, cells) for line, cells in rows if cells or blank), most))
         except UnicodeError:
             raise NotText(f"not a text file in {encoding}", str(path)) from None
 

@@ -42,7 +42,8 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
         clean = _clean_table(path, layout)
         if clean is not None:
             return clean
-        return _columns(path, layout, read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding))
+        rows = read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding, blank=True)
+        return _columns(path, layout, _without_blanks(rows, layout))
     except NotText:
         raise BadInput(
             "is not text in this encoding", str(path), "csv.encoding", layout.encoding,
@@ -78,11 +79,30 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
             )  # fmt: skip
     except (ValueError, TypeError):
         return None
+    if table.shape[1] == 1 and _has_gaps(path, layout, line):
+        return None
     names = _names(path, rows[0], layout, table.shape[1])
     if len(names) != table.shape[1] or not np.isfinite(table[:, :last] if converters else table).all():
         return None
     odd = {names[last]: (line, cells[last])} if converters else {}
     return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, _headless_hint(names, layout))
+
+
+def _has_gaps(path: Path, layout: CsvLayout, first: int) -> bool:
+    """Whether a line is blank after line number `first`, from 1, and before the last that is not."""
+    with open_text(path, layout.encoding) as file:
+        full = [number for number, text in enumerate(file, start=1) if number >= first and text.strip()]
+    return full[-1] - first >= len(full)
+
+
+def _without_blanks(rows: list[Row], layout: CsvLayout) -> list[Row]:
+    """The rows that are not blank; a blank one between the numbers of a table of one column is an empty cell."""
+    full = [row for row in rows if row[1]]
+    head = int(layout.header)
+    if len(full) <= head or len(full[0][1]) > 1:
+        return full
+    first, last = full[head][0], full[-1][0]
+    return full[:head] + [(line, cells or [""]) for line, cells in rows if first <= line <= last]
 
 
 def _nothing(cell: str) -> float:

@@ -4,18 +4,28 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.formats.arrays import ONLY_NAME, Arrays
+from datagen.formats.arrays import ONLY_NAME
 
 RATE_NAME = "rate_hz"
 # What scipy warns of a file that is shorter than its header says; other warnings are of chunks that hold no samples.
 EARLY_END = "EOF prematurely"
 
 
-def read_wav(path: Path) -> Arrays:
+class WaveArrays(dict[str, NDArray[Any]]):
+    """The arrays of a wave file by name; `shares` says whether its samples are shares of full scale."""
+
+    def __init__(self, samples: NDArray[Any], rate: float) -> None:
+        super().__init__({ONLY_NAME: _full_scale(samples), RATE_NAME: np.array(rate)})
+        self.shares = samples.dtype.kind != "f"
+
+
+def read_wav(path: Path) -> WaveArrays:
     """The samples of a wave file as "data" (T,) or (T, C), whole numbers as -1 to 1, and "rate_hz"; raises BadInput."""
     from scipy.io import wavfile
 
@@ -30,7 +40,7 @@ def read_wav(path: Path) -> Arrays:
     early = next((str(one.message) for one in told if EARLY_END in str(one.message)), "")
     if early:
         raise BadInput(f"the file is cut off: {early}", str(path))
-    return {ONLY_NAME: _full_scale(np.asarray(samples)), RATE_NAME: np.array(float(rate))}
+    return WaveArrays(np.asarray(samples), float(rate))
 
 
 def _full_scale(samples: np.ndarray) -> np.ndarray:

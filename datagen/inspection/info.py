@@ -40,7 +40,8 @@ class Info:
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
     records by two labels at once, `bearings_in_split` virtual bearings; `refused` are the impossible draws.
     `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
-    overwritten or not to be read; all else is told as if they were there.
+    overwritten or not to be read; all else is told as if they were there. `origin` is simulated or imported: of
+    recordings nothing was asked for, drawn or solved.
     """
 
     name: str
@@ -67,6 +68,7 @@ class Info:
     ranges: dict[str, Range]
     identity: dict[str, str]
     made_with: dict[str, str]
+    origin: str
 
     @property
     def readable(self) -> int:
@@ -104,6 +106,7 @@ def corpus_info(folder: Path) -> Info:
         ranges=_ranges(table),
         identity=manifest.identity.to_dict(),
         made_with=manifest.made_with,
+        origin=manifest.origin,
     )
 
 

@@ -20,6 +20,8 @@ HEALTHY: dict[str, Any] = dict.fromkeys(
     ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness"), 0.0
 ) | {"spalls": 0, "bridged": False, "profile": "none"}
 ORDERS = ("bpfo", "bpfi", "bsf", "ftf")
+# By how much BPFO + BPFI may miss a whole number, and BPFO the balls times the cage's order: orders are rounded.
+WHOLE_WITHIN, CAGE_WITHIN = 0.05, 0.01
 
 
 def recording_labels(source: Source) -> dict[str, Any]:
@@ -92,13 +94,33 @@ def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
 
 
 def _check_orders(source: Source, stated: dict[str, float]) -> None:
-    """Refuse orders that no bearing has, such as frequencies in Hz: of any, BPFO and BPFI make the number of balls."""
+    """Refuse orders that no bearing has, such as frequencies in Hz: of any, BPFO and BPFI make the number of balls, and
+    BPFO is that number times the order of the cage."""
     outer, inner = stated.get("bpfo", 0.0), stated.get("bpfi", math.inf)
     balls = outer + inner
     if outer >= inner or MOST_BALLS < balls < math.inf:
         raise BadInput(
             f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
             f"orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most {MOST_BALLS}",
+        )  # fmt: skip
+    if {"bpfo", "bpfi"} <= stated.keys() and abs(balls - round(balls)) > WHOLE_WITHIN:
+        raise BadInput(
+            f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
+            f"orders whose sum is the number of balls, within {WHOLE_WITHIN:g} of a whole number",
+        )  # fmt: skip
+    _check_cage(source, stated)
+
+
+def _check_cage(source: Source, stated: dict[str, float]) -> None:
+    """Refuse an order of the cage with which no whole number of balls gives the BPFO that is stated."""
+    if not {"bpfo", "ftf"} <= stated.keys():
+        return
+    outer, cage = stated["bpfo"], stated["ftf"]
+    balls = max(1, round(outer + stated["bpfi"] if "bpfi" in stated else outer / cage))
+    if abs(outer - balls * cage) > CAGE_WITHIN * outer:
+        raise BadInput(
+            f"with bpfo = {outer:g} and {balls} balls it should be {outer / balls:.4g}", source.request.place, "ftf",
+            cage, f"bpfo over the number of balls, within {CAGE_WITHIN:.0%}",
         )  # fmt: skip
 
 

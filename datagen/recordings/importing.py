@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
@@ -22,6 +23,7 @@ from datagen.errors import BadInput
 from datagen.files.atomic import TEMPORARY_SUFFIX
 from datagen.files.places import require_folder
 from datagen.recordings.dataset import imported_dataset
+from datagen.recordings.doubts import turns_doubt
 from datagen.recordings.listing import Listing, Request, list_requests
 from datagen.recordings.recorded import Key, Recorded, read_recording
 from datagen.recordings.source import remembered_files, source_hash
@@ -42,7 +44,8 @@ SECONDS_UNTOLD = 2.0
 @dataclass(frozen=True)
 class Imported:
     """How an import ended: `absent` are listed files that were not there, `skipped` recordings left out as repeats,
-    `dead` those with axes without a signal, as if the sensor were not connected."""
+    `dead` those with axes without a signal, as if the sensor were not connected; `doubts` are those that are odd in
+    another way, by which, and `few_turns` a sentence on the shortest record if the shaft hardly turns in it."""
 
     folder: str
     records: int
@@ -53,6 +56,8 @@ class Imported:
     absent: tuple[str, ...]
     skipped: tuple[str, ...]
     dead: tuple[str, ...]
+    doubts: dict[str, tuple[str, ...]]
+    few_turns: str
 
 
 @dataclass(frozen=True)
@@ -115,6 +120,7 @@ def _import(spec: Spec, folder: Path, root: Path, tell: Say) -> Imported:
     return Imported(
         str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
         len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped), tuple(plan.dead),
+        {doubt: tuple(names) for doubt, names in plan.doubts.items()}, plan.few_turns,
     )  # fmt: skip
 
 
@@ -135,6 +141,8 @@ class _Plan:
         self.records: list[_Planned] = []
         self.skipped: list[str] = []
         self.dead: list[str] = []
+        self.doubts: dict[str, list[str]] = {}
+        self.fewest_turns, self.few_turns = math.inf, ""
         self.names: dict[str, str] = {}
         self.contents: dict[str, str] = {}
         self.splits: dict[str, str] = {}
@@ -144,11 +152,21 @@ class _Plan:
         for piece, record in enumerate(read_recording(request)):
             if self._is_new(record, request):
                 self._check_split(record, request)
-                if record.dead:
-                    self.dead.append(f"{record.labels['recording']} ({', '.join(record.dead)})")
+                self._doubt(record, request)
                 self.records.append(
                     _Planned(len(self.records), request, piece, record.key, record.bytes, record.content)
                 )
+
+    def _doubt(self, record: Recorded, request: Request) -> None:
+        """Keep what is odd about a record."""
+        name = record.labels["recording"]
+        if record.dead:
+            self.dead.append(f"{name} ({', '.join(record.dead)})")
+        for doubt, figures in record.doubts.items():
+            self.doubts.setdefault(doubt, []).append(f"{name} ({figures})" if figures else name)
+        if record.turns < self.fewest_turns:
+            self.fewest_turns = record.turns
+            self.few_turns = turns_doubt(record.turns, record.labels, request.settings)
 
     def _is_new(self, record: Recorded, request: Request) -> bool:
         name, where = record.labels["recording"], f"{request.name} ({request.place})"

@@ -17,6 +17,7 @@ from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
 from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
+from datagen.recordings.doubts import level_doubts, scale_doubts
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
@@ -36,7 +37,7 @@ class Recorded:
     """One record before it has an index: `acceleration` (T, axes) m/s², `labels` as far as they are known.
 
     `content` is equal for equal samples at an equal rate; `shaft_angle` (T,), rad, is told where the speed changes.
-    `dead` are the axes without a signal, as if the sensor were not connected.
+    `dead` are the axes without a signal, as if the sensor were not connected; `doubts` what else is odd, with figures.
     """
 
     acceleration: NDArray[np.float32]
@@ -47,6 +48,7 @@ class Recorded:
     content: str
     shaft_angle: NDArray[np.float64] | None
     dead: tuple[str, ...]
+    doubts: dict[str, str]
 
     @property
     def key(self) -> Key:
@@ -54,6 +56,12 @@ class Recorded:
         the angle of the shaft is."""
         names = tuple(sorted(self.labels))
         return (self.rate, self.acceleration.shape[0], self.axes, names, self.shaft_angle is not None)
+
+    @property
+    def turns(self) -> float:
+        """Turns of the shaft in it; infinite where the speed is not known or 0."""
+        turns = float(self.labels["speed_rpm"]) / 60.0 * float(self.labels["duration_s"])
+        return turns if turns > 0.0 else math.inf
 
     @property
     def bytes(self) -> int:
@@ -93,6 +101,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,
             dead=dead,
+            doubts=scale_doubts(source) | level_doubts(acceleration, axes, dead),
         )
 
 

@@ -9,8 +9,11 @@ from rich.table import Table
 
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord, Truth
-from datagen.sizing.size_summary import SizeSummary, StatedSizes
+from datagen.sizing.size_summary import Figure, SizeSummary, StatedSizes
 from labels.interval import Interval
+
+# Records from which on a figure is held against its target: of fewer one alone moves a share by more than 5 %.
+FEWEST_TO_JUDGE = 20
 
 
 def summary_table(summary: SizeSummary) -> Table:
@@ -20,13 +23,21 @@ def summary_table(summary: SizeSummary) -> Table:
         table.add_column(name, justify="left" if name == "figure" else "right")
     for figure in summary.figures:
         if figure.count:
-            met = "" if figure.met is None else "yes" if figure.met else "NO"
             mean, count = figure.mean, str(figure.count)
-            table.add_row(figure.name, f"{mean.value:.3f}", _reach(mean), count, figure.target, met)
+            table.add_row(figure.name, f"{mean.value:.3f}", _reach(mean), count, figure.target, _met(figure))
     for name, events in summary.events.items():
         interval = _reach(events.f1) if events.true else ""
         table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1.value:.3f}", interval, str(events.true))
     return table
+
+
+def _met(figure: Figure) -> str:
+    """Whether a figure meets its target, if it has one and enough records tell."""
+    if figure.met is None:
+        return ""
+    if figure.count < FEWEST_TO_JUDGE:
+        return "too few to judge"
+    return "yes" if figure.met else "NO"
 
 
 def _reach(mean: Interval) -> str:

@@ -15,6 +15,8 @@ from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.inspection.info import corpus_info
 from datagen.recipes.recipe import Recipe
+from datagen.recordings.importing import import_recordings
+from datagen.recordings.spec import load_spec
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.scenario import Scenario
@@ -161,9 +163,22 @@ def test_a_folder_that_is_no_corpus_is_refused(tmp_path: Path) -> None:
         Corpus(tmp_path)
 
 
+def imported_corpus(folder: Path) -> Corpus:
+    """A corpus of two recordings of other lengths, so two shards, without tables of ball passes and defects."""
+    for name, size in (("a", 400), ("b", 500)):
+        np.save(folder / f"{name}.npy", np.random.default_rng(size).standard_normal(size))
+    settings = 'files = "*.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\n'
+    (folder / "spec.toml").write_text(f'name = "mine"\n[[recording]]\nname = "all"\n{settings}')
+    import_recordings(load_spec(folder / "spec.toml"), folder / "imported")
+    return Corpus(folder / "imported")
+
+
+@pytest.mark.parametrize("kind", ["simulated", "imported"])
 def test_all_shards_open_as_one_lazy_dataset_as_the_readme_says(
-    corpus: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    kind: str, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    corpus, record = (Corpus(tiny_corpus), 3) if kind == "simulated" else (imported_corpus(tmp_path), 1)
+    assert len(list((corpus.folder / "shards").glob("*.nc"))) > 1
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     code = next(block for block in re.findall(r"```python\n(.*?)```", readme, re.DOTALL) if "open_mfdataset" in block)
     (tmp_path / "quickstart-corpus").symlink_to(corpus.folder.absolute(), target_is_directory=True)
@@ -171,9 +186,9 @@ def test_all_shards_open_as_one_lazy_dataset_as_the_readme_says(
     names = {"xarray": xarray}
     exec(code, names)
     with names["whole"] as whole:
-        assert sorted(whole["record"].values) == list(range(14))
-        opened = whole["acceleration"].sel(record=3).dropna("time").values
-    assert np.array_equal(opened, corpus.waveform(3))
+        assert sorted(whole["record"].values) == list(range(len(corpus)))
+        opened = whole["acceleration"].sel(record=record).dropna("time").values
+    assert np.array_equal(opened, corpus.waveform(record))
 
 
 @pytest.mark.parametrize("variable", ["entry_time", "pass_record", "time", "axis"])

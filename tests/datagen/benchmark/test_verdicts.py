@@ -14,6 +14,7 @@ from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
 from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
 from datagen.commands.classify import score_line, tell_results
+from datagen.commands.tables import verdict_table
 from labels.classifier.alarm import CLEARNESS, Alarm
 from labels.classifier.rule import Rule
 from labels.features.table import FEATURE_NAMES
@@ -250,11 +251,31 @@ def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(ca
     lines = [line for line in capsys.readouterr().out.splitlines() if "│" in line]
     assert len(lines) == 2
     assert "unknown" in lines[0]
-    assert "outer (0.95)" in lines[0]
+    assert "outer (0.95 > 0.50)" in lines[0]
     assert "ball" in lines[1]
-    assert "none (0.90)" in lines[1]
+    assert "none (0.10 ≤ 0.50)" in lines[1]
 
 
 def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
     probability = [[0.02, 0.49, 0.49, 0.0, 0.0], [0.02, 0.51, 0.47, 0.0, 0.0]]
     assert judged(["outer"] * 2, probability, 0.5).verdicts[1].location.tolist() == [REJECTED, "outer"]
+
+
+@pytest.mark.parametrize(
+    ("location", "score", "told"),
+    [
+        ("none", 0.71, "none (0.71 ≤ 0.73)"),
+        ("outer", 0.8, "outer (0.80 > 0.73)"),
+        ("outer", 0.7299, "outer (0.73 ≈ 0.73)"),
+        ("rejected", 0.5, "rejected"),
+    ],
+)
+def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, told):
+    where = {"none": 1.0 - score, "outer": score, "inner": 0.0}
+    model = {"location": location, "score": score, "alarm": 0.73, "location_probability": where}
+    rule = {"location": "inner", "score": 30.0, "alarm": 9.0}
+    entry = {"record": 0, "recording": "a", "truth": "unknown", "rejected": "", "forest": model, "rule": rule}
+    table = verdict_table([entry], ["forest", "rule"])
+    columns = {str(column.header): list(column.cells) for column in table.columns}
+    assert (columns["forest"], columns["rule"]) == ([told], ["inner"])
+    assert "a spall, and the alarm above which one is called" in str(table.caption)

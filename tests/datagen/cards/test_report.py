@@ -155,8 +155,16 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
     assert Path(written.folder) == measured / "report"
     text = (measured / "report" / CARD).read_text()
     kinds = ("| healthy | none | 1 |", "| unknown | outer | 1 |")
-    for told in ("recordings of real machines", "CC BY 4.0", "A. Nybody, 2020", 'files = "*.mat"', *kinds):
+    for told in (
+        "recordings of real machines",
+        "CC BY 4.0",
+        "A. Nybody, 2020",
+        'files = "*.mat"',
+        *kinds,
+        "| records | 2 |",
+    ):
         assert told in text
+    assert "asked for" not in text
     document = json.loads((measured / "report" / METADATA).read_text())
     assert (document["license"], document["citeAs"]) == ("CC BY 4.0", "A. Nybody, 2020")
     rows = list(csv.DictReader((measured / "report" / VOCABULARY).read_text().splitlines()))

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command_line import run
 from rich.console import Console
@@ -174,3 +175,18 @@ def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(
         f"{entry.file}, with {entry.records} records, which all other numbers here still count: generate"
         in shown.getvalue()
     )
+
+
+def test_words_of_simulations_are_not_said_of_recordings(tmp_path: Path) -> None:
+    for name, size in (("a", 400), ("b", 500)):
+        np.save(tmp_path / f"{name}.npy", np.random.default_rng(size).standard_normal(size))
+    settings = 'files = "*.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\nspeed_rpm = 1800\n'
+    (tmp_path / "spec.toml").write_text(f'name = "mine"\n[[recording]]\nname = "all"\n{settings}')
+    out = tmp_path / "out"
+    assert run("import", tmp_path / "spec.toml", "--out", out)[0] == 0
+    shown = " ".join(run("info", out)[1].replace("│", " ").split())
+    assert "records 2 recordings bearings, by split 1 (unknown 1) shards 2," in shown
+    for words in ("asked for", "recipe", "real time", "virtual", "model", "not applicable", "could not be made"):
+        assert words not in shown
+    Path(out / read_manifest(out).shards[0].file).unlink()
+    assert "1 of 2 recordings" in " ".join(run("info", out)[1].replace("│", " ").split())

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import xarray
 from command_line import run
+from scipy.io import wavfile
 
 from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
@@ -274,6 +275,75 @@ def test_a_dead_sensor_comes_in_with_a_warning(mat: Mat, tmp_path: Path) -> None
         stored = [json.loads(str(corpus.waveform(record, "provenance"))).get("no_signal") for record in range(3)]
     assert stored == [["x", "y"], ["x", "y"], ["x"]]
     assert run("check", tmp_path / "out")[0] == 0
+
+
+DOUBTED = 'name = "mine"\n[[recording]]\nname = "all"\nunit = "g"\n'
+
+
+def told_of(settings: str, tmp_path: Path) -> str:
+    """What the import of recordings with these settings says on standard error."""
+    (tmp_path / "spec.toml").write_text(DOUBTED + settings)
+    code, _, told = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out")
+    assert code == 0
+    assert run("check", tmp_path / "out")[0] == 0
+    return told
+
+
+@pytest.mark.parametrize(
+    ("level", "mean", "told"),
+    [
+        (659.0, 0.0, "1 louder than machines are, as if `scale` or `unit` were wrong: a (y 659 g RMS)\n"),
+        (99.0, 0.0, ""),
+        (0.5, 5.5, "1 with a mean above 10 times the vibration around it, as of gravity or a sensor's bias: "
+                   "a (y 5.5 g beside 0.5 g RMS)\n"),
+        (0.5, -4.5, ""),
+    ],
+)  # fmt: skip
+def test_a_level_that_hardly_any_machine_has_comes_in_with_a_warning(
+    level: float, mean: float, told: str, mat: Mat, tmp_path: Path
+) -> None:
+    signal = noise()
+    mat("a.mat", mean + level * (signal - signal.mean()) / signal.std())
+    assert told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path) == told
+
+
+@pytest.mark.parametrize(
+    ("kind", "scale", "told"),
+    [
+        (np.int16, "", "1 in whole numbers of .wav without `scale`, taken as ±1 g at full scale: a\n"),
+        (np.int16, "scale = 1.0\n", ""),
+        (np.float32, "", ""),
+    ],
+)
+def test_a_wave_file_whose_full_scale_is_not_stated_comes_in_with_a_warning(
+    kind: type, scale: str, told: str, tmp_path: Path
+) -> None:
+    counts = (1000.0 * noise()).astype(kind) if kind is np.int16 else noise().astype(kind)
+    wavfile.write(tmp_path / "a.wav", 1000, counts)
+    assert told_of(f'files = "*.wav"\ny = "data"\n{scale}', tmp_path) == told
+
+
+TURNS = "the shortest record, a, holds {} turns of the shaft{}\n"
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"),
+    [
+        ("speed_rpm = 24.5", TURNS.format("0.16", ": is speed_rpm in Hz?")),
+        ("nominal_speed_rpm = 24.5", TURNS.format("0.16", ": is nominal_speed_rpm in Hz?")),
+        ("speed_rpm = 1400", TURNS.format("9.3", "")),
+        ("speed_hz = 4", TURNS.format("1.6", "")),
+        ("speed_rpm = 1600", ""),
+        ("speed_rpm = 0", ""),
+        ("", ""),
+    ],
+)
+def test_a_record_in_which_the_shaft_hardly_turns_comes_in_with_a_warning(
+    speed: str, told: str, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat", noise(400))
+    mat("b.mat", noise(500, seed=1))
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{speed}\n', tmp_path) == told
 
 
 def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: Bring, mat: Mat, tmp_path: Path) -> None:

@@ -121,6 +121,11 @@ def test_a_layout_of_the_page_comes_in_with_its_names_rate_and_speed(part: str, 
     assert found["speed_rpm"].tolist() == pytest.approx(speeds, rel=1e-3)
 
 
+def test_a_set_point_of_the_speed_is_not_called_measured(labels: pd.DataFrame) -> None:
+    for part in ("numbered", "clocked", "dated", "stepped"):
+        assert set(labels.loc[[part], "speed_basis"]) == {"nominal"}
+
+
 def test_the_page_shows_as_many_layouts_as_are_tried(labels: pd.DataFrame) -> None:
     assert set(labels.index) == set(EXPECTED) == set(re.findall(r'^name = "(\w+)"$', SPEC, re.MULTILINE)) - {"layouts"}
 

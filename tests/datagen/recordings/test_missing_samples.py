@@ -46,3 +46,27 @@ def test_text_in_a_table_is_no_gap(bring: Bring, tmp_path: Path) -> None:
     rows = [f"{cell},1" for cell in [*cells[:50], "NaN", *cells[50:]]]
     (tmp_path / "a.csv").write_text("\n".join(["sig,b", *rows]))
     assert bring(spec, "filled").waveform(0).shape == (2001, 1)
+
+
+BLANK = 'y = "sig": 3 of 2003 cells are not finite numbers, the first is ""; allowed: finite numbers, or missing'
+
+
+@pytest.mark.parametrize("end", ["", "\n", "\n\n\n"])
+def test_blank_lines_within_a_single_column_are_missing_samples(end: str, bring: Bring, tmp_path: Path) -> None:
+    cells = [f"{value:.3f}" for value in np.random.default_rng(1).standard_normal(2000)]
+    spec = GAPS.replace("*.mat", "a.csv")
+    (tmp_path / "a.csv").write_text("\n".join(["sig", *cells[:50], "", "", "", *cells[50:]]) + end)
+    with pytest.raises(BadInput, match=f"a\\.csv, line 52: {BLANK}"):
+        bring(spec)
+    corpus = bring(spec + 'missing_samples = "fill"\n', "filled")
+    assert corpus.waveform(0).shape == (2003, 1)
+    assert json.loads(corpus.waveform(0, "provenance"))["mended_samples"] == 3
+
+
+@pytest.mark.parametrize("layout", ["", "csv = {header = false}\n"])
+def test_blank_lines_around_a_single_column_are_no_samples(layout: str, bring: Bring, tmp_path: Path) -> None:
+    cells = [f"{value:.3f}" for value in np.random.default_rng(1).standard_normal(2000)]
+    head = ["", ""] if layout else ["", "sig", ""]
+    (tmp_path / "a.csv").write_text("\n".join([*head, *cells, "", "", ""]))
+    spec = GAPS.replace("*.mat", "a.csv")
+    assert bring((spec.replace('"sig"', '"1"') if layout else spec) + layout).waveform(0).shape == (2000, 1)

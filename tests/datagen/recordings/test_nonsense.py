@@ -100,6 +100,34 @@ def test_orders_that_no_bearing_has_are_refused(orders: str, told: str, bring: B
         assert len(bring(f"{GOOD}{known}\n", known)) == 1
 
 
+NOT_WHOLE = "; allowed: orders whose sum is the number of balls, within 0.05 of a whole number"
+NOT_CAGE = "; allowed: bpfo over the number of balls, within 1%"
+
+
+@pytest.mark.parametrize(
+    ("orders", "told"),
+    [
+        (
+            "bpfo = 3.585\nbpfi = 5.2",
+            f"bpfo = 3.585: with bpfi = 5.2 it would mean a bearing with 8.785 balls{NOT_WHOLE}",
+        ),
+        (
+            "bpfo = 3.585\nbpfi = 5.415\nftf = 0.45",
+            f"ftf = 0.45: with bpfo = 3.585 and 9 balls it should be 0.3983{NOT_CAGE}",
+        ),
+        ("bpfo = 3.585\nftf = 0.38", f"ftf = 0.38: with bpfo = 3.585 and 9 balls it should be 0.3983{NOT_CAGE}"),
+    ],
+    ids=["sum", "cage", "cage without bpfi"],
+)
+def test_orders_that_do_not_fit_each_other_are_refused(
+    orders: str, told: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {told}")
+    for rounded in ("bpfo = 3.6\nbpfi = 5.4\nftf = 0.398", "bpfo = 3.61\nbpfi = 5.42", "bpfo = 3.585\nftf = 0.4"):
+        assert len(bring(f"{GOOD}{rounded}\n", rounded)) == 1
+
+
 def test_a_defect_longer_than_its_race_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     told = refusal(bring, GOOD + 'bearing = "koyo_1205"\nlocation = "outer"\nextent_mm = 150\n', tmp_path)

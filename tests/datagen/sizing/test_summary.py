@@ -13,7 +13,7 @@ from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes
 from datagen.sizing.summary import summarise
-from datagen.sizing.tables import stated_sentence
+from datagen.sizing.tables import stated_sentence, summary_table
 from labels.event_scores import EventScores
 from labels.interval import Interval
 
@@ -37,6 +37,17 @@ def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., S
         assert row.lag_error.high == pytest.approx(0.1 * 120 / 152)
         assert row.arc_error.high == pytest.approx(0.5 * 120 / 152)
         assert row.no_estimate == Interval(0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(("count", "judged"), [(19, {"too few to judge"}), (20, {"yes", "NO"})])
+def test_targets_are_judged_from_twenty_records_on(
+    count: int, judged: set[str], scored: Callable[..., ScoredRecord]
+) -> None:
+    table = summary_table(summarise([scored({"record": k}) for k in range(count)], True))
+    columns = {str(column.header): list(column.cells) for column in table.columns}
+    said = [met for target, met in zip(columns["target"], columns["met"], strict=True) if target]
+    assert set(said) == judged
+    assert all(columns["value"])
 
 
 def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:

@@ -1,0 +1,66 @@
+"""What is odd about a record that is brought in all the same: levels that hardly any machine has, and few turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.formats.wav_file import WaveArrays
+from datagen.recordings.settings import UNITS
+from datagen.recordings.source import Source
+
+# RMS above which a level is doubted, m/s²: 100 g.
+LOUDEST_RMS = 100.0 * UNITS["g"]
+# Largest mean over the RMS around it that is not doubted.
+LARGEST_OFFSET = 10.0
+# Turns of the shaft below which a speed is doubted: a spectrum then hardly parts the orders of a bearing.
+FEWEST_TURNS = 10.0
+# Speed, rpm, below which a stated one may be meant in Hz: few shafts turn faster than 300 times a second.
+SLOWEST_RPM = 300.0
+LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
+OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
+FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
+
+
+def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: Iterable[str]) -> dict[str, str]:
+    """What is odd about the level of samples (T, axes), m/s², and by which figures; axes that are `dead` are not
+    looked at."""
+    levels = {axis: _level(signal) for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
+    loud, offset = [], []
+    for axis, (mean, rms) in levels.items():
+        if math.hypot(mean, rms) > LOUDEST_RMS:
+            loud.append(f"{axis} {_g(math.hypot(mean, rms))} RMS")
+        if abs(mean) > LARGEST_OFFSET * rms:
+            offset.append(f"{axis} {_g(mean)} beside {_g(rms)} RMS")
+    return {doubt: ", ".join(found) for doubt, found in ((LOUD, loud), (OFFSET, offset)) if found}
+
+
+def _level(signal: NDArray[np.float32]) -> tuple[float, float]:
+    """Mean of a signal (T,) and its RMS around that, m/s²."""
+    return float(signal.mean(dtype=np.float64)), float(signal.std(dtype=np.float64))
+
+
+def _g(acceleration: float) -> str:
+    return f"{acceleration / UNITS['g']:.3g} g"
+
+
+def scale_doubts(source: Source) -> dict[str, str]:
+    """Whether the samples are shares of a full scale that nobody stated."""
+    if source.setting("scale") is not None or not (isinstance(source.arrays, WaveArrays) and source.arrays.shares):
+        return {}
+    return {FULL_SCALE.format(unit=source.setting("unit")): ""}
+
+
+def turns_doubt(turns: float, labels: Mapping[str, Any], settings: Container[str]) -> str:
+    """A sentence on the `turns` of the shaft in the shortest record, of which these are the labels and the SPEC's
+    settings; empty if they are enough."""
+    if not turns < FEWEST_TURNS:
+        return ""
+    stated = "nominal_speed_rpm" if labels["speed_basis"] == "nominal" else "speed_rpm"
+    slow = labels["speed_basis"] != "tach" and stated in settings and labels["speed_rpm"] < SLOWEST_RPM
+    hint = f": is {stated} in Hz?" if slow else ""
+    return f"the shortest record, {labels['recording']}, holds {turns:.2g} turns of the shaft{hint}"

@@ -35,6 +35,7 @@ class Spall:
                  (m) are a measured surface, over which the ball is rolled.
     `roughness` is the standard deviation (m) of the surface inside the spall, `roughness_values` its samples at equal
     steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth).
+    Beside tapers the path follows them to 1e-10 m if they vary as smoothly as drawn ones, else to some 1e-8 m.
     """
 
     race: str

@@ -94,6 +94,21 @@ def count_dips(balls: Array, noted: Array, step: float) -> int:
     return dips
 
 
+@njit_inline
+def count_brushes(balls: Array, noted: Array) -> int:
+    """Number of free balls that were not compressed when `noted`, are now, and are not pressed.
+
+    Without tension they have touched meanwhile and were let go of: where a ball meets the race its compression grows,
+    which presses it.
+    """
+    brushes = 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            came = (noted[cage, 0, j] < 0.0) & (balls[cage, COMPRESSION, j] > 0.0)
+            brushes += came & (balls[cage, ACTIVE, j] < 0.5) & (balls[cage, LAW, j] <= 0.0)
+    return brushes
+
+
 @njit_inner
 def reset_contact(contacts: Contacts) -> None:
     """Make the contact set what the compressions left by `press` say."""

@@ -7,16 +7,28 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from physics._jit import njit_lean
+from physics._jit import njit_inner, njit_lean
 from physics.arrays import Array
 from physics.contact.forces import ACTIVE, of_ball
 
+ANY_BALL = -1
+
 
 class Stops(NamedTuple):
-    """Known kinks in time order: `time` (S,) s and the `ball` (S,), numbered as in the contact model, that crosses."""
+    """Known kinks in time order: `time` (S,) s and the `ball` (S,), numbered as in the contact model, that crosses, or
+    ANY_BALL where a step ends whether it touches or not."""
 
     time: Array
     ball: NDArray[np.int64]
+
+
+@njit_inner
+def has_ridges(stops: Stops) -> bool:
+    """Whether some ball passes from one spall to another within a step."""
+    lowest = 0
+    for kink in range(stops.ball.size):
+        lowest = min(lowest, stops.ball[kink])
+    return lowest == ANY_BALL
 
 
 @njit_lean
@@ -29,13 +41,15 @@ def passed_kinks(stops: Stops, place: int, time: float) -> int:
 
 @njit_lean
 def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
-    """Time (s) of the first kink from `place` on that a ball in contact crosses before `finish`, or `finish`.
+    """Time (s) of the first kink from `place` on that a ball in contact, or ANY_BALL, crosses before `finish`, or
+    `finish`.
 
     A ball out of contact feels a kink only where it makes contact there, which is located like any other change; as it
     may make contact before a later one, none is dropped here.
     """
     while place < stops.time.size and stops.time[place] < finish:
-        if of_ball(balls, ACTIVE, stops.ball[place]) > 0.5:
+        ball = stops.ball[place]
+        if ball == ANY_BALL or of_ball(balls, ACTIVE, ball) > 0.5:
             return stops.time[place]
         place += 1
     return finish

@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
 from physics.integrators.methods import MODAL
 from physics.integrators.output import STEPS, Grid, Output
 from physics.response.attempts import confirm_doubtful, to_accuracy
@@ -35,6 +37,8 @@ GUESSED_SHARE = 1e-2
 # are apart tells. So is one whose errors may grow and that is farther from a coarse one than this many times the error
 # allowed, or than this share of its size, if that is more than what is allowed.
 DOUBTFUL, NEAR, FAR = 4.0, 3.0, 0.03
+# A stretch of a response is louder than its beginning if its RMS is more than this many times that.
+LOUDER = 30.0
 
 
 def respond_accurately(
@@ -79,17 +83,28 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
         # One that is to be made again anyway need not be as exact as its sensitivity asks for.
         output, grid = to_accuracy(goal, march, begun.square, sensitivity if sensitivity <= DOUBTFUL else 0.0)
     size = rms(output.acceleration)
-    if not growing and fewest_touching(output) <= goal.case.scene.rig.bearing.rows:
-        # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
+    # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
+    loose = not growing and fewest_touching(output) <= goal.case.scene.rig.bearing.rows
+    whole = growing or loose or _louder_later(output, pilot)
+    if whole and not growing:
         coarse = goal.coarse(size)
         sensitivity = max(sensitivity, observed_sensitivity(goal.case, coarse, output))
-        distance, growing = rms_distance(coarse, output), True
+        distance, growing = rms_distance(coarse, output), loose
     allowed = goal.allowed(size)
     if sensitivity > DOUBTFUL or (growing and distance > min(NEAR * allowed, max(FAR * size, allowed))):
         return confirm_doubtful(goal, output, grid, sensitivity)
-    if growing and goal.error(output, sensitivity) > allowed:
+    if whole and goal.error(output, sensitivity) > allowed:
         output, _ = to_accuracy(goal, goal.begin(), size**2, sensitivity)
     return output, goal.error(output, sensitivity), sensitivity
+
+
+def _louder_later(output: Output, pilot: int) -> bool:
+    """Whether the signal of some later stretch as long as the `pilot` is LOUDER than what that saw: of such a response
+    it does not know what errors do."""
+    sums = np.add.reduceat(
+        np.square(output.acceleration).sum(axis=1), np.arange(0, output.acceleration.shape[0], pilot)
+    )
+    return bool(sums.max() > LOUDER**2 * sums[0])
 
 
 class Beginning(NamedTuple):

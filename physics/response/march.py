@@ -43,7 +43,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
     become too many.
     """
     contacts, motion = assemble(scene), motion_model(scene)
-    series, stops = power_series(motion, grid.step), known_kinks(scene, contacts)
+    series, stops = power_series(motion, grid.step), known_kinks(scene, contacts, grid.step)
     capacity = FIRST_CHANGE_LOG
     largest = min(LARGEST_CHANGE_LOG, max(FIRST_CHANGE_LOG, LOGGED_CHANGES_PER_STEP * grid.samples * grid.substeps))
     status = LOG_FULL

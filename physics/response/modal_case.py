@@ -13,7 +13,7 @@ from physics.assembly import assemble
 from physics.contact.forces import Contacts
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
 from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
-from physics.integrators.modal.memory import RETUNE, SHORTEST, UNITS, Memory, Stride, memory_for
+from physics.integrators.modal.memory import RETUNE, SHORTEST, STRIDES, UNITS, Memory, Stride, memory_for
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
@@ -79,7 +79,8 @@ def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
     motion, contacts = motion_model(scene), assemble(scene)
     flow, start = mean_flow(motion, rest), starting_state(motion, rest.displacement[0])
     memory = memory_of_errors(flow, rest.stiffness[:, :2].std(axis=0))
-    return Case(scene, flow, memory, contacts, known_kinks(scene, contacts), start, rate)
+    stops = known_kinks(scene, contacts, STRIDES[-1] / rate)
+    return Case(scene, flow, memory, contacts, stops, start, rate)
 
 
 def resting(scene: Scene) -> Equilibrium:

@@ -153,7 +153,7 @@ def test_a_low_rate_gives_the_states_and_forces_of_its_own_instants(reference_sc
         assert np.all(error <= 5e-3 * np.abs(there).reshape(here.shape[0], -1).max(axis=0))  # two errors of one step
 
 
-def test_without_a_number_of_steps_they_are_doubled_until_the_pilot_meets_the_accuracy(reference_scene):
+def test_without_a_number_of_steps_they_are_doubled_until_the_response_meets_the_accuracy(reference_scene):
     scene = reference_scene("F1", 0.1)
     fixed = simulate(scene, RATE, substeps=1)
     free = simulate(scene, RATE, method="exponential_rk4", accuracy=1e-5)

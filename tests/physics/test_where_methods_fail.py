@@ -125,6 +125,49 @@ def test_a_free_ball_that_touches_the_lip_of_a_measured_spall_within_a_step_is_n
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
 
 
+def test_a_ball_that_is_pressed_and_let_go_of_within_a_step_is_not_missed(reference_scene):
+    """Without tension: a free ball meets the end of the exit taper, and the film lets go of it at once."""
+    spall = Spall("inner", 1, 0.0, 0.040385, 19e-6, 0.004038, 0.003444)
+    scene = reference_scene("F0", 0.1, speed_factor=5.5, slip_seed=1)
+    scene = changed(scene, operation={"load": 60.5}, spalls=(spall,), contact_law="no_tension")
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=64, estimate_error=False)
+    trace = simulate(scene, RATE)
+    assert trace.changes.time.size == exact.changes.time.size > 100
+    # The fixed steps are right to 1e-5; the estimate is told to be kept.
+    assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
+
+
+RIDGES = {
+    "between a wall and a taper": (
+        ("G0", 4.2, 0, 16.2),
+        Spall("outer", 1, 4.712, 0.053031, 6e-6, 0.010606, 0.0),
+        Spall("outer", 1, 4.7422265, 0.007422, 7e-6, 0.001484, 0.001484),
+    ),
+    "between a rolled path and a taper": (
+        ("F0", 7.0, 3, 11.4),
+        Spall("inner", 1, 0.0, 0.147828, 5e-6, 0.007391, 0.029566, profile="ball_path"),
+        Spall("inner", 1, 0.1037335, 0.059639, 18e-6, 0.011928, 0.0),
+    ),
+    "between two walls": (
+        ("F0", 7.5, 3, 45.2),
+        Spall("inner", 1, 0.0, 0.041728, 20e-6),
+        Spall("inner", 1, 0.0460535, 0.049379, 11e-6),
+    ),
+}
+
+
+@pytest.mark.parametrize("place", RIDGES)
+def test_a_free_ball_that_touches_a_ridge_between_two_spalls_within_a_step_is_not_missed(place, reference_scene):
+    (name, speed, seed, load), *spalls = RIDGES[place]
+    scene = reference_scene(name, 0.1, speed_factor=speed, slip_seed=seed)
+    scene = changed(scene, operation={"load": load}, spalls=tuple(spalls))
+    exact = simulate(scene, RATE, method="exponential_rk4", substeps=64, estimate_error=False)
+    trace = simulate(scene, RATE)
+    assert trace.changes.time.size == exact.changes.time.size > 100
+    # The fixed steps are right to 1e-5; the estimate is told to be kept.
+    assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
+
+
 @pytest.mark.parametrize("race", ["outer", "inner"])
 def test_a_ball_that_rolls_slowly_over_a_taper_meets_no_jump_of_its_path(race, reference_scene):
     speed, scene = 90.0 * math.pi / 30.0, reference_scene("G0", 0.12)

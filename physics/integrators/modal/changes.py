@@ -9,6 +9,7 @@ from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
 from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.approach import meet_change
 from physics.integrators.modal.flow import LinearFlow
+from physics.integrators.modal.judgement import may_shrink
 from physics.integrators.modal.location import locate
 from physics.integrators.modal.memory import (
     BALL,
@@ -18,6 +19,7 @@ from physics.integrators.modal.memory import (
     CELL,
     LEFT,
     NO_BALL,
+    PACE,
     TIME,
     TRIED,
     UNITS,
@@ -36,6 +38,22 @@ def change_sides(balls: Array, memory: Memory, output: Output) -> None:
     """Let the ball of the contact change ahead change sides now."""
     toggle(balls, memory.marks[BALL], memory.clock[TIME], output)
     memory.marks[BALL], memory.clock[BEFORE] = NO_BALL, 0.0
+
+
+@njit_inner
+def land_on_ridge(contacts: Contacts, memory: Memory, output: Output) -> bool:
+    """Whether free balls are pressed just behind a wall that were not before it, as `noted`; they begin to touch there.
+
+    Behind a wall a ridge may end within the next step, so that nothing is seen of it at the end.
+    """
+    balls, noted, landed = contacts.balls, memory.noted, False
+    for cage in range(balls.shape[0]):
+        for place in range(balls.shape[2]):
+            free = balls[cage, ACTIVE, place] < 0.5 and noted[cage, 0, place] < 0.0
+            if free and touches(contacts, cage, place):
+                toggle(balls, cage * balls.shape[2] + place, memory.clock[TIME], output)
+                landed = True
+    return landed
 
 
 @njit_inner
@@ -76,6 +94,10 @@ def look(
             change_unlocated(contacts, trial.time + trial.step, output)
         return TAKE
     share, ball, speed = locate(contacts, flow, memory, trial, grazing)
+    if ball < 0 and not contradicted and may_shrink(grid, trial.step):
+        # The cubic by which a ball was seen to graze and the quintic that has it pass agree in a shorter step.
+        clock[PACE] = 0.5 * trial.step
+        return AGAIN
     if ball < 0:
         set_time(contacts, trial.time + trial.step)
         return TAKE

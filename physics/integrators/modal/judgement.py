@@ -6,7 +6,7 @@ import math
 
 from physics._jit import njit_inline, njit_pasted
 from physics.arrays import Array
-from physics.contact.contact_set import count_dips
+from physics.contact.contact_set import count_brushes, count_dips
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
 from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
 from physics.integrators.modal.memory import (
@@ -56,9 +56,17 @@ def may_shrink(grid: Stride, step: float) -> bool:
 
 
 @njit_pasted
-def dipped(balls: Array, grid: Stride, memory: Memory, step: float) -> bool:
-    """Whether some ball seems to change sides and back within the step, which is then to be halved."""
-    if not may_shrink(grid, step) or count_dips(balls, memory.noted, step) == 0:
+def dipped(contacts: Contacts, grid: Stride, memory: Memory, step: float, contradicted: bool) -> bool:
+    """Whether some ball changes sides and back within the step, which is then to be halved.
+
+    If `contradicted`, another one changes sides, and those that only seem to are left until it has.
+    """
+    if not may_shrink(grid, step):
+        return False
+    dips = 0 if contradicted else count_dips(contacts.balls, memory.noted, step)
+    if contacts.law.no_tension:
+        dips += count_brushes(contacts.balls, memory.noted)
+    if dips == 0:
         return False
     memory.clock[PACE] = 0.5 * step
     return True

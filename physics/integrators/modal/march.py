@@ -18,7 +18,7 @@ from physics.integrators.modal.approach import leads_astray
 from physics.integrators.modal.between import set_between
 from physics.integrators.modal.bumps import is_bumpy
 from physics.integrators.modal.carried import step_carried
-from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, look
+from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, land_on_ridge, look
 from physics.integrators.modal.choice import Choice, next_step
 from physics.integrators.modal.flow import LinearFlow, set_rest
 from physics.integrators.modal.grazing import has_bumps, mark_grazing
@@ -64,7 +64,7 @@ from physics.integrators.output import (
     STEPS,
     Output,
 )
-from physics.integrators.stops import Stops, passed_kinks
+from physics.integrators.stops import Stops, has_ridges, passed_kinks
 from physics.integrators.trial import Trial
 
 # No scene takes this many steps on average: what does, asks for more accuracy than it has.
@@ -137,12 +137,16 @@ def write_sample(
 
 
 @njit_pasted
-def arrive(contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, step: float, output: Output) -> bool:
+def arrive(
+    contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, step: float, ridges: bool, output: Output
+) -> bool:
     """What follows a `step` (s) that was taken as the `choice` says; True if it changes the contact force.
 
     A ball changes sides if this was the instant; behind a kink or a wall, the force is that of its far side.
     """
     clock, marks = memory.clock, memory.marks
+    if ridges:
+        note_motion(contacts.balls, memory.noted)
     if marks[BALL] != NO_BALL:
         clock[LEFT] -= step
         if clock[LEFT] > SMALLEST_STEP_SHARE * grid.interval:
@@ -161,6 +165,17 @@ def arrive(contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, ste
         return False
     set_time(contacts, beyond)
     return True
+
+
+@njit_pasted
+def force_behind(
+    contacts: Contacts, flow: LinearFlow, memory: Memory, now: Array, ridges: bool, output: Output
+) -> tuple[float, float]:
+    """Remaining contact force (N) behind a contact change, a kink or a wall, where free balls may land on a ridge."""
+    force = remaining_force(contacts, flow, now, memory.rest)
+    if ridges and land_on_ridge(contacts, memory, output):
+        force = remaining_force(contacts, flow, now, memory.rest)
+    return force
 
 
 @njit_pasted
@@ -199,7 +214,7 @@ def consider(
     """What to do about the `trial` of `units`: TAKE it, AGAIN or CHANGED; and the remaining contact force (N) at its
     end."""
     contradicted = trial.halfway + count_changes(contacts) > 0
-    if not contradicted and dipped(contacts.balls, grid, memory, trial.step):
+    if dipped(contacts, grid, memory, trial.step, contradicted):
         return AGAIN, trial.after
     grazing = bumps and mark_grazing(contacts, memory.noted, trial.time, trial.step, memory.suspects) > 0
     after = trial.after
@@ -238,7 +253,7 @@ def march_modal(
     force = remaining_force(contacts, flow, now, rest)
     most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
     room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
-    bumps = has_bumps(contacts.track)
+    bumps, ridges = has_bumps(contacts.track), has_ridges(stops)
     while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
         if output.tally[STEPS] > most:
             return OUT_OF_STEPS
@@ -265,8 +280,8 @@ def march_modal(
         now, then = then, now
         force = after
         land(grid, memory, choice.units, choice.beyond)
-        if arrive(contacts, grid, memory, choice, step, output):
-            force = remaining_force(contacts, flow, now, rest)
+        if arrive(contacts, grid, memory, choice, step, ridges, output):
+            force = force_behind(contacts, flow, memory, now, ridges, output)
         if not write_sample(contacts.balls, flow, grid, memory, now, force, choice.units, output):
             return NOT_FINITE
     for part in range(now.size):

@@ -50,6 +50,8 @@ def found_scene(name):
         ("lip_grazed_within_a_step", 51200.0, 6.56e-2),
         # The pilot sees a quiet beginning; nearly all of the signal, and of its error, comes a tenth of a second later.
         ("loud_behind_the_pilot", 65536.0, 1.48e-3),
+        # Errors grow a hundredfold within two ball passes and fade again; a coarse response was twice the error apart.
+        ("errors_that_grow_for_a_while", 32768.0, 1.95e-3),
     ],
 )
 def test_what_was_wrong_once_keeps_its_accuracy_now(name, rate, once):

@@ -6,8 +6,6 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
-import numpy as np
-
 from physics.integrators.methods import MODAL
 from physics.integrators.output import STEPS, Grid, Output
 from physics.response.attempts import confirm_doubtful, to_accuracy
@@ -101,10 +99,9 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
 def _louder_later(output: Output, pilot: int) -> bool:
     """Whether the signal of some later stretch as long as the `pilot` is LOUDER than what that saw: of such a response
     it does not know what errors do."""
-    sums = np.add.reduceat(
-        np.square(output.acceleration).sum(axis=1), np.arange(0, output.acceleration.shape[0], pilot)
-    )
-    return bool(sums.max() > LOUDER**2 * sums[0])
+    stretches = range(0, output.acceleration.shape[0], pilot)
+    beginning, *later = (rms(output.acceleration[first : first + pilot]) for first in stretches)
+    return max(later, default=0.0) > LOUDER * beginning
 
 
 class Beginning(NamedTuple):

@@ -40,11 +40,13 @@ def test_features_do_not_see_the_scale(impulse_train):
 @pytest.mark.parametrize(("race", "other"), [("outer", "inner"), ("inner", "outer")])
 @pytest.mark.parametrize(("rate", "duration"), [(10_000.0, 4.0), (20_000.0, 0.4), (97_656.0, 1.0)])
 def test_the_race_shows_at_any_rate_and_length(impulse_train, race, other, rate, duration):
-    order = KNOWN.bpfo if race == "outer" else KNOWN.bpfi
-    found = named(features(impulse_train(order, rate, duration), rate, KNOWN))
-    # Three BPFO are 0.7 % less than two BPFI: at the right speed some outer lines count for the inner race too.
-    assert found[f"{race}_evidence"] > found[f"{other}_evidence"] + 0.25
-    assert found[f"{race}_strength"] > found[f"{other}_strength"]
+    # Three BPFO of KNOWN are 0.7 % less than two BPFI, which lends the inner race lines of the outer one; not so here.
+    apart = bearing_kinematics(9, 39.04e-3, 11.0e-3, 0.0, 25.0)
+    for known, lead in ((apart, 0.5), (KNOWN, 0.25)):
+        order = known.bpfo if race == "outer" else known.bpfi
+        found = named(features(impulse_train(order, rate, duration), rate, known))
+        assert found[f"{race}_evidence"] > found[f"{other}_evidence"] + lead
+        assert found[f"{race}_strength"] > found[f"{other}_strength"]
 
 
 def test_the_race_shows_with_a_speed_that_is_two_percent_off_and_two_percent_slip(impulse_train):
@@ -108,7 +110,8 @@ def test_a_line_of_the_bearing_is_no_decoy():
     # Eight balls of 0.2825 of the pitch diameter pass the outer race at 2.87 orders, which other bearings have not.
     own = bearing_kinematics(8, 1.0, 0.2825, 0.0, 25.0)
     turn = 2.0 * np.pi * 25.0 * np.arange(100_000) / 20_000.0
-    signal = np.sqrt(1.0 + 0.6 * np.cos(2.87 * turn)) * np.random.default_rng(1).standard_normal(100_000)
-    # Noise alone makes up to 2.7 here.
-    others = named(features(signal, 20_000.0, KNOWN))["largest_decoy"]
-    assert named(features(signal, 20_000.0, own))["largest_decoy"] < 3.0 < others - 4.0
+    noises = [np.random.default_rng(seed).standard_normal(100_000) for seed in range(8)]
+    signals = [np.sqrt(1.0 + 0.6 * np.cos(2.87 * turn)) * noise for noise in noises]
+    # One draw of noise alone may make up to 2.7.
+    assert np.median([named(features(signal, 20_000.0, own))["largest_decoy"] for signal in signals]) < 2.0
+    assert min(named(features(signal, 20_000.0, KNOWN))["largest_decoy"] for signal in signals) > 3.0

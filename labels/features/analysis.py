@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from labels.features.combs import without_combs
+from labels.features.combs import foreign_combs, without_combs
 from labels.features.conditioning import COMMON_BANDWIDTH, Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
-from labels.features.families import HARMONICS, Family, Lines, find_family, lines_in, without_mains, without_shaft
+from labels.features.families import (
+    HARMONICS,
+    Family,
+    Lines,
+    find_family,
+    lines_in,
+    mains_components,
+    shaft_components,
+    without_shaft,
+)
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.speed import SPEED_TOLERANCE, Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
@@ -24,6 +33,8 @@ OUTER_WINDOW = (-0.027, 0.013)
 INNER_WINDOW = (-0.012, 0.020)
 # The same where no harmonics of the shaft tell its speed.
 UNCERTAIN_WINDOW = (-0.025, 0.025)
+# A refined speed within this share of the one stated is the stated one.
+AS_STATED = 0.003
 # Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records.
 CERTAIN_SPEED = 15.0
 VIBRATION_ORDERS = 12.0
@@ -67,9 +78,26 @@ class Analysis:
 
     @cached_property
     def speed(self) -> Speed:
-        """The refined speed of the shaft; where it changes, the mean that its turning tells exactly."""
-        tolerance = SPEED_TOLERANCE if self.record.turning is None else 0.0
-        return refine_speed(self.vibration_with_shaft[0], self.envelopes, self.given, tolerance)
+        """The refined speed of the shaft; where it changes, the mean that its turning tells exactly.
+
+        Knocks of another shaft can lie near multiples of this one, and near a race's line, at a wrong speed. So where
+        the speed found is not the one stated, it is looked for again without the lines of such combs.
+        """
+        spectrum, power = self.vibration_with_shaft
+        if self.record.turning is not None:
+            return refine_speed(spectrum, self.envelopes, self.given, 0.0)
+        speed = refine_speed(spectrum, self.envelopes, self.given)
+        if abs(speed.shaft_hz / self.given.shaft_hz - 1.0) < AS_STATED:
+            return speed
+        excess, step, stated = self.envelopes.excess, self.envelopes.step, self.given.shaft_hz
+        mains = mains_components(excess.shape[-1], step)
+        combs = foreign_combs(np.where(mains, 1.0, excess), step, self.given, ~mains, SPEED_TOLERANCE)
+        if not combs:
+            return speed
+        lines = lines_in(without_combs(power, self.record.step, combs, stated), self.record.step)
+        return refine_speed(
+            lines, replace(self.envelopes, excess=without_combs(excess, step, combs, stated)), self.given
+        )
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -79,11 +107,13 @@ class Analysis:
     @cached_property
     def envelope_lines(self) -> Lines:
         """Lines of the envelope spectra, without those of the shaft, of the mains and of other shafts that knock."""
-        excess = self.envelopes.excess
+        excess, step, shaft_hz = self.envelopes.excess, self.envelopes.step, self.speed.shaft_hz
+        taken_out = shaft_components(excess.shape[-1], step, shaft_hz)
         if self.record.turning is None:
-            excess = without_mains(excess, self.envelopes.step)
-        excess = without_shaft(excess, self.envelopes.step, self.speed.shaft_hz)
-        return lines_in(without_combs(excess, self.envelopes.step, self.kinematics), self.envelopes.step)
+            taken_out |= mains_components(excess.shape[-1], step)
+        excess = np.where(taken_out, 1.0, excess)
+        combs = foreign_combs(excess, step, self.kinematics, ~taken_out)
+        return lines_in(without_combs(excess, step, combs, shaft_hz), step)
 
     @cached_property
     def all_envelope_lines(self) -> Lines:

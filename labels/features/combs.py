@@ -11,6 +11,7 @@ import numpy as np
 from scipy.stats import binom
 
 from labels.features.families import (
+    SHAFT_MARGIN,
     STANDS_OUT,
     WIDEST_MARGIN,
     Lines,
@@ -55,35 +56,37 @@ SIDEBANDS = ((2, 2), (5, 1), (1, 3))
 SIDEBAND_WIDTH, SIDEBAND_SPREAD = 0.01, 0.001
 # Share of a comb's rate that is taken out on each side of its lines, at most: more would take most of the spectrum.
 WIDEST_OF_COMB = 0.2
+# Components to each side of a line that it fills, of a Hann window, and strong lines of the vibration nearly so.
+LINE_REACHES = 2.01
 # Lines between those of a comb that must be readable to tell that it is a multiple.
 FEWEST_BETWEEN = 3
 
 
-def without_combs(excess: Array, step: float, known: Kinematics) -> Array:
-    """The spectra (B, F) over their floor with components near lines of foreign combs set to the floor, 1.
-
-    `known` is the bearing at the refined speed; components lie `step` (Hz) apart.
-    """
-    margin = multiple_margin(step, known.shaft_hz)
-    for comb in foreign_combs(excess, step, known):
+def without_combs(excess: Array, step: float, combs: list[float], shaft_hz: float) -> Array:
+    """The spectra (B, F) over their floor, components `step` (Hz) apart, with those near lines of `combs` (Hz) set to
+    the floor, 1."""
+    margin = max(SHAFT_MARGIN * shaft_hz, LINE_REACHES * step)
+    for comb in combs:
         if margin < WIDEST_OF_COMB * comb:
             excess = np.where(near_multiples(excess.shape[-1], step, comb, margin), 1.0, excess)
     return excess
 
 
-def foreign_combs(excess: Array, step: float, known: Kinematics) -> list[float]:
-    """Rates (Hz) of impulse trains that no part of the bearing makes, in spectra (B, F) as `without_combs` takes them.
+def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags, doubt: float = 0.0) -> list[float]:
+    """Rates (Hz) of impulse trains that no part of the bearing makes, in spectra (B, F) over their floor.
 
-    None is told in a record of so few turns that lines of the shaft cannot be told from others.
+    Components lie `step` (Hz) apart; those from which nothing has been taken out are `readable` (F,). The speed of
+    `known` may be wrong by the share `doubt`, and a rate so near to one of the bearing's is left out. A record of so
+    few turns that lines of the shaft cannot be told from others has none.
     """
     margin = multiple_margin(step, known.shaft_hz)
     if margin > WIDEST_MARGIN * known.shaft_hz:
         return []
     mean = excess.mean(axis=0)
-    free = ~_of_bearing(lines_in(excess, step), mean.size, known)
+    free = readable & ~_of_bearing(lines_in(excess, step), mean.size, known)
     found: list[float] = []
     while len(found) < MOST_COMBS:
-        comb = _strongest(np.where(free, mean, 1.0), free, step, known)
+        comb = _strongest(np.where(free, mean, 1.0), free, step, known, doubt)
         if comb is None:
             break
         found.append(comb)
@@ -116,7 +119,7 @@ def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:
     return explained
 
 
-def _strongest(mean: Array, free: Flags, step: float, known: Kinematics) -> float | None:
+def _strongest(mean: Array, free: Flags, step: float, known: Kinematics, doubt: float) -> float | None:
     """The rate (Hz) of the comb that is least likely to be chance, in the bands' `mean` (F,) where it is `free` (F,) of
     lines of the bearing; None if chance could make one as good."""
     shaft, top = known.shaft_hz, (mean.size - 3) * step
@@ -126,26 +129,27 @@ def _strongest(mean: Array, free: Flags, step: float, known: Kinematics) -> floa
     lines = lines_in(mean[None], step)
     places = min(int(np.ceil((high - low) * LOOKED_AT[-1] / (0.5 * step))) + 1, MOST_PLACES)
     every = np.linspace(low, high, places)
-    rates = every[~_made_by_bearing(every / shaft, known)]
+    rates = every[~_made_by_bearing(every / shaft, known, doubt)]
     if rates.size == 0:
         return None
     stands, readable = _standing(lines, free, rates, shaft)
-    doubt = _doubt(stands, readable, _standing_elsewhere(lines, free, low, shaft)) + np.log(rates.size)
-    best = int(doubt.argmin())
-    if doubt[best] > np.log(CHANCE):
+    chance = _log_chance(stands, readable, _standing_elsewhere(lines, free, low, shaft)) + np.log(rates.size)
+    best = int(chance.argmin())
+    if chance[best] > np.log(CHANCE):
         return None
     rate = _slowest_part(lines, free, float(rates[best]), known)
     return _sharpened(lines, rate, float(every[1] - every[0]), shaft)
 
 
-def _made_by_bearing(orders: Array, known: Kinematics) -> Flags:
-    """Which `orders` (N,) of the shaft are of the bearing or of the shaft itself, halves and thirds of them too."""
-    made = np.abs(2.0 * orders - np.round(2.0 * orders)) < 2.0 * OF_BEARING * np.minimum(orders, 1.0)
+def _made_by_bearing(orders: Array, known: Kinematics, doubt: float) -> Flags:
+    """Which `orders` (N,) of the shaft, a share of `doubt` wrong, are of the bearing or of the shaft itself, halves and
+    thirds of them too."""
+    made = np.abs(2.0 * orders - np.round(2.0 * orders)) < 2.0 * (OF_BEARING * np.minimum(orders, 1.0) + doubt * orders)
     parts = [part * share for part in (known.bpfo, known.bpfi, 2.0 * known.ball_spin) for share in (0.5, 1.0, 2.0)]
     # Balls that differ mark the cage's turns over the outer race, and those over the inner one.
     cages = (known.ftf, 1.0 - known.ftf)
     parts += [cage * share for cage in cages for share in (1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 2.0, 3.0, 4.0)]
-    return np.asarray(made | (np.abs(orders[:, None] / np.array(parts) - 1.0) < OF_BEARING).any(axis=1))
+    return np.asarray(made | (np.abs(orders[:, None] / np.array(parts) - 1.0) < OF_BEARING + doubt).any(axis=1))
 
 
 def _standing(lines: Lines, free: Flags, rates: Array, shaft_hz: float) -> tuple[Flags, Flags]:
@@ -165,7 +169,7 @@ def _standing_elsewhere(lines: Lines, free: Flags, low: float, shaft_hz: float) 
     return int(np.count_nonzero(unmarked & (nats > STANDS_OUT))), int(np.count_nonzero(unmarked))
 
 
-def _doubt(stands: Flags, readable: Flags, elsewhere: tuple[int, int]) -> Array:
+def _log_chance(stands: Flags, readable: Flags, elsewhere: tuple[int, int]) -> Array:
     """Logarithm (N,) of the probability that random lines make as many lines of a comb stand out; 0 if the comb has too
     few."""
     # Lines that stand out because they belong to the comb itself are no evidence against it.

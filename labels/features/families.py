@@ -90,14 +90,19 @@ def lines_in(excess: Array, step: float) -> Lines:
 
 
 def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
-    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1.
+    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1."""
+    return np.where(shaft_components(excess.shape[-1], step, shaft_hz), 1.0, excess)
 
-    In a record of so few turns that the margin would cover a large part of the axis nothing is left out.
+
+def shaft_components(count: int, step: float, shaft_hz: float) -> NDArray[np.bool_]:
+    """Which of `count` components, `step` (Hz) apart from 0, count as the shaft's.
+
+    None in a record of so few turns that the margin would cover a large part of the axis.
     """
     margin = multiple_margin(step, shaft_hz)
     if margin > WIDEST_MARGIN * shaft_hz:
-        return excess
-    return np.where(near_multiples(excess.shape[-1], step, shaft_hz, margin), 1.0, excess)
+        return np.zeros(count, dtype=bool)
+    return near_multiples(count, step, shaft_hz, margin)
 
 
 def multiple_margin(step: float, shaft_hz: float) -> float:
@@ -111,17 +116,11 @@ def near_multiples(count: int, step: float, rate: float, margin: float) -> NDArr
     return np.asarray((np.abs(order - np.round(order)) * rate <= margin) & (order > 0.5))
 
 
-def without_mains(excess: Array, step: float) -> Array:
-    """The spectra (B, F) with components near multiples of 50 and 60 Hz set to the floor, 1.
-
-    Motors and their supplies modulate at twice the mains frequency, often near a ball-pass frequency. In a record too
-    short to tell mains from anything else nothing is left out.
-    """
-    return np.where(mains_components(excess.shape[-1], step), 1.0, excess)
-
-
 def mains_components(count: int, step: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, count as mains: none if they lie too far apart."""
+    """Which of `count` components, `step` (Hz) apart from 0, count as mains of 50 or 60 Hz: none if too far apart.
+
+    Motors and their supplies modulate at twice the mains frequency, often near a ball-pass frequency.
+    """
     if step > COARSEST_STEP:
         return np.zeros(count, dtype=bool)
     frequency = np.arange(count) * step

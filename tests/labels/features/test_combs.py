@@ -21,6 +21,15 @@ def spectrum(*lines, height=40.0, seed=0):
     return excess
 
 
+def combs(excess, step=STEP, doubt=0.0):
+    """Rates (Hz) of the combs in a spectrum of which everything is readable."""
+    return foreign_combs(excess, step, BEARING, np.ones(excess.shape[-1], dtype=bool), doubt)
+
+
+def without(excess, step=STEP):
+    return without_combs(excess, step, combs(excess, step), SHAFT)
+
+
 def multiples(rate, count):
     return [k * rate for k in range(1, count + 1)]
 
@@ -30,8 +39,8 @@ def multiples(rate, count):
 def test_a_comb_is_found_at_its_rate_and_its_lines_are_set_to_the_floor(order, seed):
     rate = order * SHAFT
     excess = spectrum(*multiples(rate, 200), seed=seed)
-    assert foreign_combs(excess, STEP, BEARING) == pytest.approx([rate], abs=STEP / 10)
-    left = without_combs(excess, STEP, BEARING)
+    assert combs(excess) == pytest.approx([rate], abs=STEP / 10)
+    left = without(excess)
     at = np.round(np.array([k * rate for k in range(1, 24)]) / STEP).astype(int)
     assert np.all(left[:, at[at < COUNT]] == 1.0)
     away = np.abs(np.arange(COUNT) * STEP / rate % 1.0 - 0.5) < 0.3
@@ -43,17 +52,37 @@ def test_a_comb_whose_every_other_line_is_strong_is_told_by_all():
     excess = spectrum(*multiples(rate, 200), height=15.0)
     strong = np.round(np.array(multiples(2.0 * rate, 100)) / STEP).astype(int)
     excess[:, strong[strong < COUNT]] += 200.0
-    assert foreign_combs(excess, STEP, BEARING)[0] == pytest.approx(rate, abs=STEP / 10)
+    assert combs(excess)[0] == pytest.approx(rate, abs=STEP / 10)
 
 
 def test_two_shafts_are_both_found():
     excess = spectrum(*multiples(0.31 * SHAFT, 200), *multiples(1.37 * SHAFT, 60))
-    assert sorted(foreign_combs(excess, STEP, BEARING)) == pytest.approx([0.31 * SHAFT, 1.37 * SHAFT], abs=STEP / 10)
+    assert sorted(combs(excess)) == pytest.approx([0.31 * SHAFT, 1.37 * SHAFT], abs=STEP / 10)
+
+
+def test_lines_that_were_taken_out_do_not_speak_against_a_comb():
+    """Thirteen lines of a comb stand out of a spectrum that holds 19; the others lie where something was taken out."""
+    rate = 1.37 * SHAFT
+    excess = spectrum(*multiples(rate, 19))
+    at = np.arange(COUNT) * STEP
+    taken_out = np.zeros(COUNT, dtype=bool)
+    for k in (1, 2, 3, 5, 6, 7):
+        taken_out |= np.abs(at - k * rate) < 5.0 * STEP
+    excess[:, taken_out] = 1.0
+    assert foreign_combs(excess, STEP, BEARING, ~taken_out) == pytest.approx([rate], abs=STEP / 10)
+    assert combs(excess) == []
+
+
+def test_what_a_bearing_makes_at_another_speed_is_no_comb_where_the_speed_is_in_doubt():
+    """The second harmonic of a shaft that turns 2 % faster than stated."""
+    excess = spectrum(*multiples(2.04 * SHAFT, 12))
+    assert combs(excess, doubt=0.022) == []
+    assert combs(excess) == pytest.approx([2.04 * SHAFT], abs=STEP / 10)
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_has_none(seed):
-    assert foreign_combs(spectrum(seed=seed), STEP, BEARING) == []
+    assert combs(spectrum(seed=seed)) == []
 
 
 def faulty(carrier, turns, cages):
@@ -76,29 +105,29 @@ def faulty(carrier, turns, cages):
     ids=["outer race", "inner race", "ball", "cage over outer", "cage over inner", "shaft", "half the shaft"],
 )
 def test_what_a_bearing_makes_is_no_comb_of_another_shaft(lines):
-    assert foreign_combs(spectrum(*lines), STEP, BEARING) == []
+    assert combs(spectrum(*lines)) == []
 
 
 def test_a_comb_beside_a_fault_leaves_the_faults_lines():
     fault = faulty(BEARING.bpfo, 1, 0)
     excess = spectrum(*fault, *multiples(0.31 * SHAFT, 200))
-    assert foreign_combs(excess, STEP, BEARING) == pytest.approx([0.31 * SHAFT], abs=STEP / 10)
+    assert combs(excess) == pytest.approx([0.31 * SHAFT], abs=STEP / 10)
     carriers = np.round(np.array(multiples(BEARING.bpfo * SHAFT, 6)) / STEP).astype(int)
-    assert np.count_nonzero(without_combs(excess, STEP, BEARING)[0, carriers] > 20.0) >= 4
+    assert np.count_nonzero(without(excess)[0, carriers] > 20.0) >= 4
 
 
 def test_a_record_of_few_turns_tells_none():
     coarse = 0.15 * SHAFT
     excess = np.random.default_rng(0).exponential(size=(BANDS, 200))
     excess[:, ::3] += 40.0
-    assert foreign_combs(excess, coarse, BEARING) == []
-    assert np.array_equal(without_combs(excess, coarse, BEARING), excess)
+    assert combs(excess, coarse) == []
+    assert np.array_equal(without(excess, coarse), excess)
 
 
 def test_a_spectrum_that_holds_only_rates_of_the_bearing_tells_none():
     """Between four components and a fifth of the spectrum lie 0.39 to 0.41 orders, which are of the cage."""
     excess = np.random.default_rng(0).exponential(size=(BANDS, 24))
-    assert foreign_combs(excess, 0.0975 * SHAFT, BEARING) == []
+    assert combs(excess, 0.0975 * SHAFT) == []
 
 
 def test_families_are_looked_for_without_the_combs_of_other_shafts(impulse_train):

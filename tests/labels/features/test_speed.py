@@ -38,6 +38,16 @@ def test_many_harmonics_move_the_speed_and_one_family_of_lines_does_not(impulse_
     assert factor == (pytest.approx(1.001, abs=2e-4) if moves else 1.0)
 
 
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("knocks_hz", [41.0, 27.0])
+def test_knocks_of_another_shaft_do_not_move_the_speed(impulse_train, knocks_hz, seed):
+    """Five times 41 Hz is six turns, six times 41 Hz BPFO without slip, of a shaft 2 to 4 % faster than stated."""
+    known = bearing_kinematics(16, 71.5e-3, 8.407e-3, np.radians(15.17), 2000.0 / 60.0)
+    order = knocks_hz / known.shaft_hz
+    signal = impulse_train(order, duration=1.0, shaft_hz=known.shaft_hz, snr_db=0.0, seed=seed)
+    assert analyse(signal, 20_000.0, known).speed.shaft_hz == pytest.approx(known.shaft_hz, rel=3e-3)
+
+
 # 6203: BPFO 3.05 and BPFI 4.95; UER204: BPFI 4.93; ZA-2115: BPFO 7.09 orders of the shaft.
 NEAR_WHOLE_ORDERS = {
     "bpfo of a 6203": (bearing_kinematics(8, 28.499e-3, 6.746e-3, 0.0, 29.95), "bpfo"),

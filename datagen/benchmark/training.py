@@ -22,7 +22,7 @@ from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS
 from labels.classifier.rule import Rule, fit_rule
 from labels.classifier.spall_classifier import SpallClassifier
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 
 if TYPE_CHECKING:
     import pandas
@@ -78,6 +78,10 @@ class Model:
     def alarms(self, table: Array) -> Array:
         """Probability (N,) of a spall at which each row is called."""
         return self.alarm.at(table) if isinstance(self.alarm, Alarm) else np.full(len(table), self.alarm)
+
+    def plain(self, table: Array) -> Flags:
+        """Whether (N,) each row is called for its lines alone."""
+        return self.alarm.plain(table) if isinstance(self.alarm, Alarm) else np.zeros(len(table), dtype=bool)
 
     def probability(self, table: Array) -> Array:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""

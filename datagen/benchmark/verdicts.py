@@ -129,7 +129,8 @@ def vote(
     model: Model, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
 ) -> tuple[Array, NDArray[np.str_], Array]:
     """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
-    is called, and the alarm that its rows agree on; `owner` (N,) are the records of the rows.
+    is called, and the alarm that its rows agree on, 0 where its lines alone call it; `owner` (N,) are the records of
+    the rows.
 
     A record without rows is called healthy, with NaN for probabilities and alarm.
     """
@@ -137,7 +138,8 @@ def vote(
     votes = joined(own, owner, records)
     levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
     margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
-    return votes, called(votes, margin > 0.0), probability_of(alarm)
+    plain = model.plain(averaged(table, owner, records))
+    return votes, called(votes, (margin > 0.0) | plain), np.where(plain, 0.0, probability_of(alarm))
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

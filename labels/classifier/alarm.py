@@ -5,6 +5,9 @@ half of that share of those that look like noise. In a clear record a healthy be
 varies as balls pass, so the lines of BPFO stand in its envelopes. Under noise they do not, so a probability that means
 little in a clear record means much there. The alarm therefore rises with how far a record's bands differ from noise,
 which their median spectral kurtosis tells.
+
+Whatever the probability, a record is called faulty too where a race's lines stand higher over the floor than in nearly
+all healthy records. Learners want impulsiveness beside lines, and a spall heard through a narrow band has little.
 """
 
 from __future__ import annotations
@@ -15,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.classifier.log_odds import EDGE, logit, probability_of
+from labels.classifier.rule import strengths
 from labels.features.table import FEATURE_NAMES
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 
 CLEARNESS = "median_band_kurtosis"
 # Values of that feature below which a record cannot be told from noise, and above which it is taken as clear.
@@ -26,6 +30,9 @@ SHARE_IN_NOISE = 0.5
 # Kurtosis and mean clearness below this count as this, so that a logarithm and a quotient of them are finite.
 SMALLEST = 1e-4
 FEWEST_ROWS = 20
+# Quantile of the healthy records' highest line family above which lines alone are an alarm: a rule that answers less
+# often than the yardstick's, at 0.95.
+PLAIN_QUANTILE = 0.98
 
 
 def clearness(table: Array) -> Array:
@@ -36,10 +43,13 @@ def clearness(table: Array) -> Array:
 
 @dataclass(frozen=True)
 class Alarm:
-    """Probabilities of a spall at which a record like noise and a clear one are called; their logits between."""
+    """Probabilities of a spall at which a record like noise and a clear one are called, their logits between; and the
+    height over the floor (infinite: none) of a race's line family above which a record is called whatever its
+    probability."""
 
     in_noise: float
     in_clear: float
+    height: float = np.inf
 
     def at(self, table: Array) -> Array:
         """Probability (N,) of a spall at which each row of the feature table is called."""
@@ -47,9 +57,14 @@ class Alarm:
         low, high = logit(np.array([self.in_noise, self.in_clear]))
         return probability_of(low * (1.0 - clear) + high * clear)
 
+    def plain(self, table: Array) -> Flags:
+        """Whether (N,) the lines of each row of the feature table are an alarm by themselves; not in a row of NaN."""
+        return np.asarray(strengths(table).max(axis=1) > self.height)
+
 
 def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDArray[np.bool_], share: float) -> Alarm:
-    """The alarm that at most a `share` of healthy records pass, and SHARE_IN_NOISE times that of the rows like noise.
+    """The alarm that at most a `share` of healthy records pass by their probability, SHARE_IN_NOISE times that of the
+    rows like noise, and 1 − PLAIN_QUANTILE of the records by their lines.
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise
@@ -68,4 +83,5 @@ def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDA
     needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
     high = np.sort(needed)[::-1][min(int(share * own.size), own.size - 1)]
     in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
-    return Alarm(float(in_noise), float(in_clear))
+    heights = [np.bincount(place, column) / rows for column in np.log(strengths(table[~noisy])).T]
+    return Alarm(float(in_noise), float(in_clear), float(np.exp(np.quantile(np.max(heights, axis=0), PLAIN_QUANTILE))))

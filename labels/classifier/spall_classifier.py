@@ -10,7 +10,7 @@ from sklearn.base import BaseEstimator, ClassifierMixin
 from threadpoolctl import threadpool_limits
 
 from labels.classifier.alarm import fit_alarm
-from labels.classifier.classes import CLASSES, HEALTHY, decide
+from labels.classifier.classes import CLASSES, HEALTHY, called
 from labels.classifier.learners import SEED, learner
 from labels.classifier.stage import Stage
 from labels.features.table import FEATURE_NAMES
@@ -41,7 +41,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
     Spall or none, from the two races' line families in the envelopes, from impulsiveness, and from how long was looked;
     outer or inner race, from the families alone; line or extended, from all features. What belongs to the machine as
     much as to a spall (lines of the shaft, lines of the vibration itself) tells neither of the first two.
-    `alarm_` (an `Alarm`) is what at most `false_alarms` of the healthy records pass, of bearings not learned from.
+    `alarm_` (an `Alarm`) is what at most `false_alarms` of the healthy records pass by their probability, of bearings
+    not learned from, and few by their lines alone.
     """
 
     def __init__(self, kind: str = "forest", seed: int = SEED, false_alarms: float = FALSE_ALARMS) -> None:
@@ -102,8 +103,10 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         return np.column_stack([1.0 - spall, *(spall * part for part in parts)])
 
     def predict(self, X: Array) -> NDArray[np.str_]:
-        """The likeliest class (N,) of the rows whose probability of a spall passes the alarm; "healthy" for others."""
-        return decide(self.predict_proba(X), self.alarm_.at(X))
+        """The likeliest class (N,) of the rows whose probability of a spall, or whose lines, pass the alarm; "healthy"
+        for others."""
+        probability = self.predict_proba(X)
+        return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | self.alarm_.plain(X))
 
     def _stage(self, signs: tuple[int, ...] | None = None, divisions: int = 1) -> Stage:
         return Stage(learner(self.kind, self.seed, signs), self.seed, divisions)

@@ -14,8 +14,14 @@ DYER = "Dyer & Stewart 1978, J. Mech. Design 100"
 SHAPES = "Lei et al. 2008, Expert Syst. Appl. 35, table of dimensionless parameters"
 KURTOGRAM = "Antoni 2007, Mech. Syst. Signal Process. 21 (fast kurtogram)"
 
+# What knocks, crackles or cavitates without any order is more impulsive than spalls are: beyond this, impulsiveness
+# says no more of a spall.
+MOST_KURTOSIS = 20.0
+
 ROWS = (
-    Feature("kurtosis", "ln", "ln of the kurtosis of the waveform above half a turn; ln 3 for noise.", DYER),
+    Feature(
+        "kurtosis", "ln", "ln of the kurtosis of the waveform above half a turn, 20 at most; ln 3 for noise.", DYER
+    ),
     Feature("skewness", "1", "Size of the waveform's skewness, cut at 5.", SHAPES),
     Feature("crest_factor", "ln", "ln of the 99.99 % quantile of the size over the RMS.", DYER),
     Feature("shape_factor", "ln", "ln of the RMS over the mean size.", SHAPES),
@@ -35,7 +41,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
     high, higher = np.quantile(size, (0.999, 0.9999))
     kurtosis = np.maximum(analysis.envelopes.kurtosis, 0.0)
     return {
-        "kurtosis": _log_kurtosis(wave),
+        "kurtosis": min(_log_kurtosis(wave), float(np.log(MOST_KURTOSIS))),
         "skewness": min(abs(float(np.mean(wave * wave * wave))), 5.0),
         "crest_factor": float(np.log(higher)),
         "shape_factor": float(-np.log(mean)),

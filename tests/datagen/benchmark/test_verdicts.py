@@ -196,6 +196,17 @@ def test_the_rows_of_a_record_agree_on_its_alarm():
     assert alarm[0] == pytest.approx(0.5)  # the logits of 0.2 and 0.8 cancel
 
 
+def test_a_record_is_called_for_its_lines_alone_whatever_its_probability():
+    model = Model("said", Said([[0.9, 0.04, 0.06, 0.0, 0.0]] * 4), Alarm(0.5, 0.5, 4.0))
+    table = np.zeros((4, len(FEATURE_NAMES)))
+    # Two rows a record: their mean height is 5 (2.5 and 10) in the first, 3.9 in the second.
+    table[:, FEATURE_NAMES.index("inner_strength")] = np.log([2.5, 10.0, 3.9, 3.9])
+    _, called, alarm = vote(model, table, np.array([0, 0, 1, 1]), np.arange(3))
+    assert called.tolist() == ["line inner", "healthy", "healthy"]  # the last has no rows
+    assert alarm[:2].tolist() == [0.0, pytest.approx(0.5)]
+    assert np.isnan(alarm[2])
+
+
 def test_the_race_named_is_the_likelier_one_even_where_no_spall_is_called():
     sure = [[0.2, 0.8, 0.0, 0.0, 0.0], [0.2, 0.0, 0.8, 0.0, 0.0]]
     unsure = [[0.9, 0.06, 0.04, 0.0, 0.0], [0.9, 0.04, 0.06, 0.0, 0.0]]

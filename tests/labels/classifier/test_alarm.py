@@ -86,3 +86,18 @@ def test_of_few_clear_records_exactly_the_share_passes():
     probability = 1.0 / (1.0 + np.exp(-level))
     alarm = fit_alarm(probability, rows(np.where(noisy, 0.0, 1.0)), np.arange(80) % 40, noisy, 0.1)
     assert np.sum(level > logit(np.array([alarm.in_clear]))[0] + 1e-9) == 4  # up to rounding
+
+
+def test_lines_as_high_as_few_healthy_records_have_are_an_alarm_by_themselves():
+    """A record's height is its rows' mean of the logarithm: of rows that stand 1 and 9 high it is 3."""
+    probability, table, owner, noisy = healthy(1000, 6)
+    height = np.random.default_rng(7).exponential(size=1000)
+    column = FEATURE_NAMES.index("inner_strength")
+    table[:, column] = height[owner] + np.tile([-1.0, 1.0], len(owner) // 2)
+    table[noisy, column] += 100.0  # what noise was added to says nothing of it
+    alarm = fit_alarm(probability, table, owner, noisy, 0.05)
+    assert np.mean(height > np.log(alarm.height)) == pytest.approx(0.02, abs=1e-3)  # one record is a step of 1e-3
+    found = np.zeros((3, len(FEATURE_NAMES)))
+    found[:, FEATURE_NAMES.index("outer_strength")] = np.log(alarm.height) + np.array([-0.01, 0.01, np.nan])
+    assert alarm.plain(found).tolist() == [False, True, False]
+    assert not Alarm(0.5, 0.9).plain(found).any()

@@ -35,6 +35,14 @@ def test_probabilities_sum_to_one_and_their_marginals_agree(fitted):
     np.testing.assert_allclose(location_probability(probability).sum(axis=1), 1.0, rtol=1e-12)
 
 
+def test_a_row_with_lines_higher_than_those_of_healthy_records_is_called_whatever_its_probability(fitted):
+    table = np.full((1, len(FEATURE_NAMES)), -3.0)
+    assert fitted.predict(table).tolist() == ["healthy"]
+    table[0, FEATURE_NAMES.index("outer_strength")] = np.log(1.01 * fitted.alarm_.height)
+    assert fitted.predict_proba(table)[0, 0] > 1.0 - fitted.alarm_.at(table)[0]
+    assert fitted.predict(table)[0] in CLASSES[1:]
+
+
 @pytest.mark.parametrize("kind", LEARNERS)
 def test_every_learner_learns_what_is_there(kind):
     table, classes, groups = made_up(150, 1)

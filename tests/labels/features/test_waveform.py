@@ -33,6 +33,14 @@ def test_a_sensor_that_drifts_hides_no_impulse():
         assert drifting[name] == pytest.approx(steady[name], abs=0.01)
 
 
+def test_shocks_count_up_to_a_kurtosis_of_twenty():
+    """Impulses of height h at a share p of the samples have a kurtosis near 1 / p where they rule the signal."""
+    known = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
+    crackle = np.random.default_rng(3).standard_normal(100_000)
+    crackle[np.random.default_rng(4).choice(100_000, 300, replace=False)] += 60.0
+    assert measure(analyse(crackle, 20_000.0, known))["kurtosis"] == pytest.approx(math.log(20.0), rel=1e-12)
+
+
 def test_the_kurtosis_of_the_most_impulsive_band_is_told_whatever_the_others_are():
     # Bursts for a fifth of the time, in one of 15 bands: the kurtosis of its complex signal is 2 / 0.2 - 2.
     size = 100_000

@@ -22,6 +22,12 @@ WHOLE_NUMBER = re.compile(r"[-+]?\d+")
 # How compressed and packed files begin: gzip, zip (spreadsheets too), 7z, rar.
 PACKED = (b"\x1f\x8b", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
 
+# What is allowed where a row has more or fewer cells than there are columns.
+ROWS_ALIKE = (
+    "as many in every row; csv.skip_lines leaves out what is above the table, and with csv.header = false too a "
+    "header that names more columns than there are"
+)
+
 
 class Columns(dict[str, Array]):
     """The columns of a table by name, NaN where a cell is no number: one is refused for them only where it is used.
@@ -141,7 +147,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         if len(row) != len(names):
             hint = _hint(layout.delimiter.join(row), layout) if len(names) == 1 else ""
             problem = f"{len(row)} cells, but the table has {len(names)} columns{hint}"
-            allowed = "" if hint else "as many in every row; csv.skip_lines leaves out what is above the table"
+            allowed = "" if hint else ROWS_ALIKE
             raise BadInput(problem, f"{path}, line {line}", allowed=allowed)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
     first = {name: int(np.argmin(np.isfinite(numbers))) for name, numbers in columns.items() if numbers.size}

@@ -30,9 +30,8 @@ def file_format(path: Path, stated: str | None) -> str:
     ending = path.suffix.lower().removeprefix(".")
     kind = stated or ENDINGS.get(ending, ending)
     if kind not in FORMATS:
-        raise BadInput(
-            "the file's name does not end like that of a known format", str(path), "format", ending, ", ".join(FORMATS)
-        )
+        problem, allowed = "the file's name does not end like that of a known format", ", ".join(FORMATS)
+        raise BadInput(problem, str(path), "format", ending, f"{allowed}; csv is any table of text")
     return kind
 
 

@@ -1,4 +1,4 @@
-"""What is odd about a record that is brought in all the same: levels that hardly any machine has, and few turns."""
+"""What is odd about a record that is brought in all the same: levels and speeds that few machines have, few turns."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ LARGEST_OFFSET = 10.0
 FEWEST_TURNS = 10.0
 # Speed, rpm, below which a stated one may be meant in Hz: few shafts turn faster than 300 times a second.
 SLOWEST_RPM = 300.0
+# Speed, rpm, above which a stated one may be meant in another unit: few shafts turn faster than 1000 times a second.
+FASTEST_RPM = 60_000.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
 OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
 FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
@@ -53,6 +55,14 @@ def scale_doubts(source: Source) -> dict[str, str]:
     if source.setting("scale") is not None or not (isinstance(source.arrays, WaveArrays) and source.arrays.shares):
         return {}
     return {FULL_SCALE.format(unit=source.setting("unit")): ""}
+
+
+def speed_doubts(rpm: float, settings: Container[str]) -> dict[str, str]:
+    """Whether a shaft turns faster than machines do, and the figure; `settings` are those that the SPEC has."""
+    if not rpm > FASTEST_RPM:
+        return {}
+    hint = ", as if `speed_hz` were in rpm" if "speed_hz" in settings else ""
+    return {f"with a shaft faster than {FASTEST_RPM:g} rpm{hint}": f"{rpm:g} rpm"}
 
 
 def turns_doubt(turns: float, labels: Mapping[str, Any], settings: Container[str]) -> str:

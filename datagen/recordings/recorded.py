@@ -17,7 +17,7 @@ from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
 from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
-from datagen.recordings.doubts import level_doubts, scale_doubts
+from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
@@ -101,7 +101,9 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,
             dead=dead,
-            doubts=scale_doubts(source) | level_doubts(acceleration, axes, dead),
+            doubts=scale_doubts(source)
+            | level_doubts(acceleration, axes, dead)
+            | speed_doubts(speed.rpm, request.settings),
         )
 
 

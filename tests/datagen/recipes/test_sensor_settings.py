@@ -112,7 +112,8 @@ BAD_RECORDINGS = [
     (
         "x.abc",
         "",
-        "x.abc: the file's name does not end like that of a known format; allowed: mat, npz, npy, csv, wav, nc",
+        "x.abc: the file's name does not end like that of a known format; "
+        "allowed: mat, npz, npy, csv, wav, nc; csv is any table of text",
     ),
     ("bad.csv", 'rate_hz = 32768\nchannels = ["b"]', "bad.csv: it holds NaN at sample 1 (1 such of 2 samples)"),
     ("cut.npz", "", "cut.npz: cannot be read as an .npz file"),

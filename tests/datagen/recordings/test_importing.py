@@ -308,6 +308,21 @@ def test_a_level_that_hardly_any_machine_has_comes_in_with_a_warning(
 
 
 @pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ("speed_hz = 1797", "1 with a shaft faster than 60000 rpm, as if `speed_hz` were in rpm: a (107820 rpm)\n"),
+        ("speed_rpm = 107820", "1 with a shaft faster than 60000 rpm: a (107820 rpm)\n"),
+        ("speed_hz = 29.95", ""),
+    ],
+)
+def test_a_speed_that_hardly_any_machine_has_comes_in_with_a_warning(
+    setting: str, told: str, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat", noise())
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{setting}\n', tmp_path) == told
+
+
+@pytest.mark.parametrize(
     ("kind", "scale", "told"),
     [
         (np.int16, "", "1 in whole numbers of .wav without `scale`, taken as ±1 g at full scale: a\n"),

@@ -102,7 +102,11 @@ def labels(corpus: Corpus) -> pd.DataFrame:
 
 EXPECTED: dict[str, tuple[list[str], float, list[float]]] = {
     "structures": (["KA01/N09_M07_F10_KA01_1"], 64000.0, [900.0]),
-    "numbered": (["35Hz12kN/Bearing1_1/1", "35Hz12kN/Bearing1_2/1"], 25600.0, [2100.0] * 2),
+    "numbered": (
+        [f"35Hz12kN/Bearing1_{bearing}/1 {axis}" for bearing in (1, 2) for axis in ("horizontal", "vertical")],
+        25600.0,
+        [2100.0] * 4,
+    ),
     "clocked": ([f"Learning_set/{name}/acc_00001" for name in ("Bearing1_1", "Bearing1_4")], 25600.0, [1800.0] * 2),
     "dated": ([f"2nd_test/2004.02.12.10.32.39 B{k}" for k in (1, 2, 3, 4)], 20480.0, [2000.0] * 4),
     "encoder": (["H-A-1"], 200000.0, [1050.0]),

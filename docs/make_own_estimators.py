@@ -28,7 +28,7 @@ OF_SITUATION = {
 }
 OF_ESTIMATE = {
     "outcome": "how it ended: one of the table below",
-    "method": "what the size was told from, in your words",
+    "method": "what the size follows from, in your words",
     "race": "outer or inner",
     "lag": "time between the events at both ends of the spall, s",
     "lag_interval": "its 90 % interval, s",

@@ -35,14 +35,14 @@ def cell(figure: dict[str, Any] | None) -> str:
 
 def by_noise(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
     """Errors by noise, load known and blind, beside the rules."""
-    told, untold = figures(known), figures(blind)
+    given, blindly = figures(known), figures(blind)
     rows = [
-        ("lag error", told, "lag error"),
-        ("arc error, load and Hertz factor given", told, "arc error"),
-        ("arc error, blind", untold, "arc error"),
-        *((f"arc error, {rule}", told, f"arc error by rule: {rule}") for rule in RULES),
-        ("no estimate, load given", told, "no estimate"),
-        ("no estimate, blind", untold, "no estimate"),
+        ("lag error", given, "lag error"),
+        ("arc error, load and Hertz factor given", given, "arc error"),
+        ("arc error, blind", blindly, "arc error"),
+        *((f"arc error, {rule}", given, f"arc error by rule: {rule}") for rule in RULES),
+        ("no estimate, load given", given, "no estimate"),
+        ("no estimate, blind", blindly, "no estimate"),
     ]
     lines = [f"| | {' | '.join(LEVELS)} |", "|---|" + "---|" * len(LEVELS)]
     for title, source, name in rows:
@@ -90,10 +90,10 @@ def dependences(known: dict[str, Any]) -> list[str]:
 
 
 def sentences(known: dict[str, Any]) -> list[str]:
-    """What is told in words."""
+    """What the tables do not hold, in words."""
     long, size, events = known["long"], known["known_size_of_another_record"], known["events"]
     lines = [
-        f"- Beyond 0.9 ball spacings {long['told']} of {long['records']} records were told a size; the nearest "
+        f"- Beyond 0.9 ball spacings {long['told']} of {long['records']} records were given a size; the nearest "
         f"candidate was off by {percent(long['error_of_nearest_candidate'])} on average, "
         f"{percent(long['median'])} in the median.",
         f"- With the known size of one other record of the same machine the arc error of {size['records']} records "
@@ -114,7 +114,7 @@ def sentences(known: dict[str, Any]) -> list[str]:
 def extent(summary: dict[str, Any]) -> str:
     """How many records were scored, and for what."""
     return (
-        f"{summary['records']} records, {summary['scorable']} of them to be told a size, "
+        f"{summary['records']} records, {summary['scorable']} of them with a size to be found, "
         f"{summary['without_event']} with no event or a lag below two samples"
     )
 
@@ -129,7 +129,8 @@ def main(folders: list[Path]) -> None:
     summaries = [json.loads((folder / "size_report.json").read_text())["summary"] for folder in folders]
     test, test_blind, fresh, fresh_blind = summaries
     text = [
-        "Errors are |error| / true where told, in per cent with 90 % intervals (bootstrap over virtual bearings).", "",
+        "Errors are |error| / true where a size is given, in per cent; 90 % intervals (bootstrap over bearings).",
+        "",
         *targets(summaries), "",
         f"Test split: {extent(test)}.", "", *by_noise(test, test_blind), "",
         f"Fresh ladder: {extent(fresh)}.", "", *by_noise(fresh, fresh_blind), "", *sentences(fresh), "",

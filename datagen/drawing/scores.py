@@ -1,4 +1,4 @@
-"""The sheet of a benchmark: scores with intervals, confusion, calibration, what accuracy hangs on, importances."""
+"""The sheet of a benchmark: scores with intervals, confusion, calibration, what accuracy depends on, importances."""
 
 from __future__ import annotations
 

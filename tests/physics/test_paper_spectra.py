@@ -57,7 +57,7 @@ def test_the_line_spalls_envelope_line_is_thousands_of_times_that_of_a_smooth_ex
 def test_the_line_spalls_envelope_line_is_about_ten_times_that_of_a_rough_extended_spall(record):
     """Measured: 6.8 to 12 for five seeds. Ours are others: the middle of ten seeds has to be about ten, none below 1.
 
-    It hangs on what a low-pass "at the contact width" w is: over forty seeds a Gaussian with half amplitude at the
+    It depends on what a low-pass "at the contact width" w is: over forty seeds a Gaussian with half amplitude at the
     wavelength w gives 1.3, at 1.5 w 8, at 1.75 w 10 and at 2 w 16, each with quartiles a factor 1.5 to 1.8 away.
     """
     ratios = [envelope_line(record("G1", seed)) / envelope_line(record("G2r", seed)) for seed in SEEDS]

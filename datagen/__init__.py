@@ -2,7 +2,8 @@
 
 - what a person writes: `settings/` (TOML and its mistakes), `distributions/`, `recipes/`
 - what comes of it: `scenarios/` (every number fixed), `records/` (simulated and labelled)
-- on the disk: `files/` (of any kind), `corpora/` (shards, index, manifest), `runs/` (workers), `corpus` (read again)
+- on the disk: `files/` (of any kind), `corpus_files/` (shards, index, manifest), `corpus` (reads these),
+  `runs/` (workers)
 - real machines: `formats/` (files by format), `recordings/` (brought into the same schema)
 - judged: `inspection/` (is a corpus sound?), `benchmark/` (classifiers), `sizing/` (spall sizes), `charts/` (speed
   against accuracy)

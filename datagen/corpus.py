@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.index import read_index
-from datagen.corpora.manifest import Manifest, read_manifest
-from datagen.corpora.open_shards import OpenShards
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import Manifest, read_manifest
+from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:

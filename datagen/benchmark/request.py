@@ -11,8 +11,8 @@ from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import NAME, ingredients_of
 from datagen.benchmark.options import FEATURES, WINDOWS, Asked, Learning, Scoring
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
-from datagen.corpora.manifest import manifest_path, no_corpus
 from datagen.corpus import Corpus
+from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
 from datagen.own_code import load_own

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from rich.markup import escape
 from rich.table import Table
 
-from datagen.corpora.format import IMPORTED
-from datagen.corpora.reading import AGAIN
+from datagen.corpus_files.format import IMPORTED
+from datagen.corpus_files.reading import AGAIN
 from datagen.runs.progress import for_people
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 
-from datagen.corpora.index import read_index
+from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
 from datagen.scored_runs import write_line
 from datagen.sizing.estimators import find_estimator

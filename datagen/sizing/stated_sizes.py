@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from datagen.corpora.index import read_index
-from datagen.corpora.manifest import read_manifest
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import read_manifest
 from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes

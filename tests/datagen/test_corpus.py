@@ -106,7 +106,7 @@ def test_a_corpus_is_a_sequence_of_signals_and_labels_that_can_be_pickled(corpus
 
 
 def test_few_files_stay_open_however_many_are_read(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("datagen.corpora.open_shards.OPEN_FILES", 2)
+    monkeypatch.setattr("datagen.corpus_files.open_shards.OPEN_FILES", 2)
     corpus = Corpus(tiny_corpus)
     for record in range(14):
         corpus.waveform(record)

@@ -51,7 +51,7 @@ FLOORS = (
     ("recipes",),
     ("scenarios",),
     ("records",),
-    ("corpora",),
+    ("corpus_files",),
     ("corpus",),
     ("recordings",),
     ("runs",),

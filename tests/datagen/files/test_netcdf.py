@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora.format import content_hash, to_dataset
+from datagen.corpus_files.format import content_hash, to_dataset
 from datagen.files import netcdf
 from datagen.files.chunk import checksum, chunk_bytes, deflated, shuffled
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes

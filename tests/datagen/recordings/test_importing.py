@@ -17,8 +17,8 @@ import xarray
 from command_line import run
 from scipy.io import wavfile
 
-from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
+from datagen.corpus_files.shard import file_hash
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
@@ -376,7 +376,7 @@ def test_a_full_disk_is_told_of_the_folder_that_is_written(
         raise OSError(errno.ENOSPC, "No space left on device")
 
     mat("a.mat")
-    monkeypatch.setattr("datagen.corpora.shard.write_atomically", full)
+    monkeypatch.setattr("datagen.corpus_files.shard.write_atomically", full)
     with pytest.raises(BadInput) as problem:
         bring(SPEC)
     assert str(problem.value) == f"{tmp_path / 'corpus'}: --out: cannot write here: No space left on device"

@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from xarray.backends import NetCDF4DataStore
 
-from datagen.corpora.open_shards import OpenShards, _open_files
 from datagen.corpus import Corpus
+from datagen.corpus_files.open_shards import OpenShards, _open_files
 from datagen.errors import BadInput
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
@@ -67,7 +67,7 @@ def test_recordings_and_sized_records_are_read_by_one_thread_at_a_time_too(tiny_
 def test_threads_that_share_a_corpus_read_what_one_thread_reads(
     tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("datagen.corpora.open_shards.OPEN_FILES", 1)  # nearly every reading closes a file
+    monkeypatch.setattr("datagen.corpus_files.open_shards.OPEN_FILES", 1)  # nearly every reading closes a file
     with Corpus(tiny_corpus) as corpus, ThreadPoolExecutor(8) as pool:
         alone = [corpus.waveform(record) for record in range(14)]
         together = list(pool.map(corpus.waveform, [*range(14)] * 20))

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+from marked_tables import write_marked
 from typer.testing import CliRunner
 
 from datagen.cli import app
-from datagen.marked_tables import write_marked
 from labels.classifier.classes import CLASSES
 
 DOCS = Path(__file__).parents[2] / "docs"

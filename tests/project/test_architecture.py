@@ -35,7 +35,6 @@ FLOORS = (
     (
         "errors",
         "exits",
-        "marked_tables",
         "optional",
         "own_code",
         "scored_runs",

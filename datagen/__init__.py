@@ -10,6 +10,5 @@
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
 - what all of them use: `errors` and `spelling` (what a person wrote, refused), `telling` (how far a command has got),
-  `exits` (how programs end), `own_code` (of users), `optional` (what may be absent), `versions`, `stated_speed`
-  (how wrong it may be), `scored_runs` (their log)
+  `exits` (how programs end), `own_code` (of users), `versions`, `scored_runs` (their log)
 """

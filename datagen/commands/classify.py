@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from datagen.benchmark.options import SPEED_ERROR
 from datagen.commands.program import JsonFile, command, show_tables, write_json
-from datagen.stated_speed import SPEED_ERROR
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:

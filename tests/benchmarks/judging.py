@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from datagen.benchmark.options import SPEED_ERROR
 from datagen.benchmark.rows import Reading, read_rows
 from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, train_models, train_rule, training_set
 from datagen.benchmark.verdicts import judge
@@ -25,7 +26,6 @@ from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.sizing.estimators import default_estimator
 from datagen.sizing.sized_records import sized_records
-from datagen.stated_speed import SPEED_ERROR
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
 

@@ -35,11 +35,9 @@ FLOORS = (
     (
         "errors",
         "exits",
-        "optional",
         "own_code",
         "scored_runs",
         "spelling",
-        "stated_speed",
         "telling",
         "versions",
     ),

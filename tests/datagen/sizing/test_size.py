@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from command_line import run
 
+from datagen.benchmark.options import SPEED_ERROR
 from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
@@ -27,7 +28,6 @@ from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import wrong_speed
 from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
 from datagen.sizing.tables import known_size_sentence
-from datagen.stated_speed import SPEED_ERROR
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation

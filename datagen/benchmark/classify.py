@@ -14,10 +14,10 @@ from datagen.benchmark.importance import importances
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.log_line import log_run
 from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
 from datagen.benchmark.options import Asked, Learning, Scoring
 from datagen.benchmark.rows import Reading, Rows, read_rows
-from datagen.benchmark.score_log import log_run
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
 from datagen.benchmark.training import (

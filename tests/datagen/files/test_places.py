@@ -22,7 +22,7 @@ FOLDERS = {
 WORK = (
     "datagen.runs.run.Run.make",
     "datagen.cards.report.corpus_facts",
-    "datagen.sizing.score.score_sizes",
+    "datagen.sizing.corpus_run.score_sizes",
     "datagen.paper.book.import_module",
     "datagen.charts.measure.measure",
     "datagen.benchmark.classify.run",

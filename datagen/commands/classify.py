@@ -19,7 +19,14 @@ if TYPE_CHECKING:
 
 Option, Argument = typer.Option, typer.Argument
 Train = Annotated[
-    Path, Option("--train", metavar="DIR|FILE", help="Simulated corpus to learn from, or a file that --save wrote.")
+    Path,
+    Option(
+        "--train",
+        metavar="DIR|FILE",
+        help="Simulated corpus to learn from, or a file that --save wrote; impulse-trains, or "
+        "impulse-trains-without-INGREDIENT, to compare with signals without contact physics, which are made on the "
+        "spot (docs/own_estimators.md).",
+    ),
 ]
 Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
 Save = Annotated[

@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import wave
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import netCDF4
@@ -23,6 +23,8 @@ from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 from datagen.inspection.info import corpus_info
+from datagen.recordings.listing import Request
+from datagen.recordings.recorded import Recorded, read_recording
 from labels.envelope import band_envelope
 from labels.schema import LABEL
 
@@ -386,13 +388,19 @@ def test_a_full_disk_is_told_of_the_folder_that_is_written(
 def test_a_recording_that_cannot_be_read_again_is_not_told_of_the_folder_that_is_written(
     bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def gone(*_: object) -> None:
-        raise OSError(errno.EIO, "Input/output error", "a.mat")
+    asked: list[Request] = []
+
+    def read_once(request: Request) -> Iterator[Recorded]:
+        asked.append(request)
+        if len(asked) > 1:
+            raise OSError(errno.EIO, "Input/output error", "a.mat")
+        return read_recording(request)
 
     mat("a.mat")
-    monkeypatch.setattr("datagen.recordings.importing._read_again", gone)
+    monkeypatch.setattr("datagen.recordings.importing.read_recording", read_once)
     with pytest.raises(OSError, match=r"Input/output error: 'a\.mat'"):
         bring(SPEC)
+    assert len(asked) == 2
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.mat", "spec.toml"]
 
 

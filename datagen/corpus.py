@@ -118,6 +118,11 @@ class Corpus:
             allowed = f"{first} to {last}" if len(self._places) == last - first + 1 else "a record of its index.csv"
             raise BadInput("not in this corpus", str(self.folder), "record", int(record), allowed) from None
 
+    @property
+    def open_files(self) -> list[Path]:
+        """Paths of the shards that are kept open for this reader; a process keeps few at a time, whoever reads them."""
+        return self._shards.open_files
+
     def close(self) -> None:
         """Close the files kept open for speed; they open again when needed."""
         self._shards.close()

@@ -110,9 +110,9 @@ def test_few_files_stay_open_however_many_are_read(tiny_corpus: Path, monkeypatc
     corpus = Corpus(tiny_corpus)
     for record in range(14):
         corpus.waveform(record)
-        assert len(corpus._shards.open_files) <= 2
+        assert len(corpus.open_files) <= 2
     corpus.close()
-    assert not corpus._shards.open_files
+    assert not corpus.open_files
 
 
 def test_a_corpus_dropped_without_closing_does_no_harm(tiny_corpus: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -15,6 +15,7 @@ from labels.schema import LOCATIONS
 if TYPE_CHECKING:
     from datagen.benchmark.classify import Benchmark
     from datagen.benchmark.model_scores import Scores
+    from datagen.benchmark.results import CorpusResults, Results
     from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
@@ -99,7 +100,6 @@ def classify(
     recordings is logged in their folder, in scored_runs.jsonl. A file written by --save is a pickle, which can run any
     program when it is loaded: use only your own.
     """
-    from datagen.benchmark.model_scores import report
     from datagen.benchmark.options import Asked, Learning, Scoring
     from datagen.benchmark.request import benchmark_of
 
@@ -109,47 +109,48 @@ def classify(
     asked = Asked(learning, Scoring(reject=reject, noise_db=noise_db, noise_draws=noise_draws))
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
-    write_json(json_file, report(results))
-    tell_results(results)
+    write_json(json_file, results.to_dict())
+    tell_results(results.tests)
 
 
-def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
+def _run(benchmark: Benchmark, out: Path | None) -> Results:
     from datagen.benchmark.classify import run
     from datagen.runs.progress import steps_told
 
     with steps_told() as listener:
-        results, _ = run(benchmark, listener)
+        results = run(benchmark, listener)
     if out is not None:
-        from datagen.benchmark.model_scores import report
         from datagen.benchmark.predictions import prediction_table
         from datagen.drawing.scores import scores_png
         from datagen.files.results import results_folder, write_files
 
-        table = prediction_table(results["tests"])
-        write_files(results_folder(out), "report", scores_png(results), report(results), table)
+        models = list(results.tests[0].scores.models) if results.tests else []
+        table = prediction_table(models, [(test.scores.corpus, test.predictions) for test in results.tests])
+        write_files(results_folder(out), "report", scores_png(results), results.to_dict(), table)
     return results
 
 
-def tell_results(results: dict[str, Any]) -> None:
+def tell_results(tests: list[CorpusResults]) -> None:
     """Print the scores of every corpus, and the answers about records that are not scored."""
     from datagen.commands.tables import verdict_table
 
-    for test in results["tests"]:
-        print(f"{test['corpus']}: {test['records']} records, {test['locations']}")
-        for name, scores in test["models"].items():
+    for test in tests:
+        found = test.scores
+        print(f"{found.corpus}: {found.records} records, {found.locations}")
+        for name, scores in found.models.items():
             print(f"  {name:10} {score_line(scores)}")
-        for reason, count in test["rejections"].items():
+        for reason, count in found.rejections.items():
             print(f"  rejected   {count}: {reason}")
-        if test["despiked"]["glitches"]:
-            print("  despiked   {glitches} glitches in {records} records".format(**test["despiked"]))
-        if test["shocks_cut"]["shocks"]:
-            print("  shocks cut {shocks} in {records} records".format(**test["shocks_cut"]))
-        for noisy in test["noise"]:
-            for name, scores in noisy["models"].items():
-                print(f"  {name:10} {noisy['snr_db']:g} dB: {score_line(scores)}")
-        unscored = [entry for entry in test["predictions"] if entry["truth"] not in LOCATIONS]
+        if found.despiked["glitches"]:
+            print("  despiked   {glitches} glitches in {records} records".format(**found.despiked))
+        if found.shocks_cut["shocks"]:
+            print("  shocks cut {shocks} in {records} records".format(**found.shocks_cut))
+        for noisy in test.noise:
+            for name, scores in noisy.scores.models.items():
+                print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")
+        unscored = [one for one in test.predictions if one.truth not in LOCATIONS]
         if unscored:
-            show_tables([verdict_table(unscored, list(test["models"]))])
+            show_tables([verdict_table(unscored, list(found.models))])
 
 
 def score_line(scores: Scores) -> str:

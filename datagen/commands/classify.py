@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.benchmark.options import SPEED_ERROR
+from datagen.benchmark.options import SPEED_ERROR, Asked, Learning, Scoring
+from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from labels.schema import LOCATIONS
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
+AS_USUAL = Asked()
 Train = Annotated[
     Path,
     Option(
@@ -34,33 +36,27 @@ Save = Annotated[
     Path | None, Option("--save", metavar="FILE", help="Save what was learned; --train FILE takes it later.")
 ]
 More = Annotated[list[Path] | None, Argument(metavar="[DIR]...", help="More corpora to score on.")]
-Learner = Annotated[str, Option(help="Model to train: forest, logistic, boosting or all.")]
-Estimator = Annotated[str | None, Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function.")]
-Inputs = Annotated[str, Option("--input", help="Input of your estimator: features or windows.")]
-Bandwidth = Annotated[
-    float | None, Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given.")
-]
-SpeedError = Annotated[
-    float,
-    Option(metavar="SHARE", help=f"Largest relative error of the shaft speeds used in training, 0 to {SPEED_ERROR}."),
-]
-First = Annotated[int | None, Option(metavar="N", min=1, help="Learn from only the first N records.")]
-Reject = Annotated[
-    float,
-    Option(
+# What Learning and Scoring hold, by the names of their fields.
+OPTIONS = {
+    "learner": Option(help="Model to train: forest, logistic, boosting or all."),
+    "estimator": Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function."),
+    "input": Option("--input", help="Input of your estimator: features or windows."),
+    "bandwidth": Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given."),
+    "speed_error": Option(
+        metavar="SHARE", help=f"Largest relative error of the shaft speeds used in training, 0 to {SPEED_ERROR}."
+    ),
+    "first": Option(metavar="N", min=1, help="Learn from only the first N records."),
+    "reject": Option(
         "--reject",
         min=0.0,
         max=1.0,
         help="Reject a record if its most likely answer has a lower probability than this.",
     ),
-]
-NoiseDb = Annotated[
-    str,
-    Option(
+    "noise_db": Option(
         metavar="DB,DB", help="Also score recordings of faults with white noise added at these signal-to-noise ratios."
     ),
-]
-NoiseDraws = Annotated[int, Option(metavar="N", min=1, help="How many times that noise is drawn.")]
+    "noise_draws": Option(metavar="N", min=1, help="How many times that noise is drawn."),
+}
 Curve = Annotated[bool, Option(help="Also learn from fractions of the corpus.")]
 Workers = Annotated[
     int,
@@ -74,19 +70,13 @@ Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder for rep
 
 
 @command("spallgen classify --train out/transfer --test out/transfer --test out/cwru --out out/scores")
+@grouped(OPTIONS)
 def classify(
     train: Train,
     test: Folders = None,
     more: More = None,
-    learner: Learner = "all",
-    estimator: Estimator = None,
-    input: Inputs = "features",
-    bandwidth: Bandwidth = None,
-    speed_error: SpeedError = SPEED_ERROR,
-    first: First = None,
-    reject: Reject = 0.0,
-    noise_db: NoiseDb = "",
-    noise_draws: NoiseDraws = 10,
+    learning: Learning = AS_USUAL.learning,
+    scoring: Scoring = AS_USUAL.scoring,
     learning_curve: Curve = False,
     workers: Workers = 2,
     save: Save = None,
@@ -100,13 +90,9 @@ def classify(
     recordings is logged in their folder, in scored_runs.jsonl. A file written by --save is a pickle, which can run any
     program when it is loaded: use only your own.
     """
-    from datagen.benchmark.options import Asked, Learning, Scoring
     from datagen.benchmark.request import benchmark_of
 
-    learning = Learning(
-        learner=learner, estimator=estimator, input=input, bandwidth=bandwidth, speed_error=speed_error, first=first
-    )
-    asked = Asked(learning, Scoring(reject=reject, noise_db=noise_db, noise_draws=noise_draws))
+    asked = Asked(learning, scoring)
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
     write_json(json_file, results.to_dict())

@@ -12,6 +12,9 @@ from datagen.benchmark.verdicts import Tested, Verdicts
 from labels.classifier.classes import condition_probability, location_probability
 from labels.schema import CONDITIONS, LOCATIONS
 
+FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "shocks_cut")
+SAID = ("location", "score", "alarm")
+
 
 @dataclass(frozen=True)
 class ModelAnswer:
@@ -51,10 +54,6 @@ class Prediction:
     def to_dict(self) -> dict[str, Any]:
         """As a report holds it: the answer of each model stands by its name beside the facts."""
         return self.facts | {name: answer.to_dict() for name, answer in self.models.items()}
-
-
-FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "shocks_cut")
-SAID = ("location", "score", "alarm")
 
 
 def record_predictions(tested: Tested) -> list[Prediction]:

@@ -2,13 +2,13 @@
 
 - what a person writes: `settings/` (TOML and its mistakes), `distributions/`, `recipes/`
 - what comes of it: `scenarios/` (every number fixed), `records/` (simulated and labelled)
-- on the disk: `files/` (of any kind), `corpora/` (shards, index, manifest), `runs/` (workers), `corpus` (read again)
+- on the disk: `files/` (of any kind), `corpus_files/` (shards, index, manifest), `corpus` (reads these),
+  `runs/` (workers)
 - real machines: `formats/` (files by format), `recordings/` (brought into the same schema)
 - judged: `inspection/` (is a corpus sound?), `benchmark/` (classifiers), `sizing/` (spall sizes), `charts/` (speed
   against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
 - what all of them use: `errors` and `spelling` (what a person wrote, refused), `telling` (how far a command has got),
-  `exits` (how programs end), `own_code` (of users), `optional` (what may be absent), `versions`, `stated_speed`
-  (how wrong it may be), `scored_runs` (their log), `marked_tables` (in the project's pages)
+  `exits` (how programs end), `own_code` (of users), `versions`, `scored_runs` (their log)
 """

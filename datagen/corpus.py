@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.index import read_index
-from datagen.corpora.manifest import Manifest, read_manifest
-from datagen.corpora.open_shards import OpenShards
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import Manifest, read_manifest
+from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:
@@ -117,6 +117,11 @@ class Corpus:
             first, last = min(self._places, default=0), max(self._places, default=0)
             allowed = f"{first} to {last}" if len(self._places) == last - first + 1 else "a record of its index.csv"
             raise BadInput("not in this corpus", str(self.folder), "record", int(record), allowed) from None
+
+    @property
+    def open_files(self) -> list[Path]:
+        """Paths of the shards that are kept open for this reader; a process keeps few at a time, whoever reads them."""
+        return self._shards.open_files
 
     def close(self) -> None:
         """Close the files kept open for speed; they open again when needed."""

@@ -18,7 +18,7 @@ CORPUS_CODE = (
     "labels",
     "labels/features",
     "datagen",
-    "datagen/corpora",
+    "datagen/corpus_files",
     "datagen/distributions",
     "datagen/files",
     "datagen/formats",

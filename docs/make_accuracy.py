@@ -6,10 +6,10 @@ import json
 from pathlib import Path
 
 import numpy as np
+from marked_tables import write_marked
 from matplotlib.figure import Figure
 
 from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, png_of, with_panels
-from datagen.marked_tables import write_marked
 
 DOCS = Path(__file__).parent
 SETS = {"0.1 s": "own_choice.json", "1 s": "own_choice_1s.json"}

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from datagen.marked_tables import write_marked
+from marked_tables import write_marked
 
 CHARTS = Path(__file__).with_name("charts")
 PAGE = CHARTS / "README.md"

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from joblib import Parallel, delayed
 from make_draws import ODD
+from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve, resample_poly
 
@@ -27,7 +28,6 @@ from datagen.benchmark.training import train_models, train_rule, training_record
 from datagen.benchmark.verdicts import Tested, judge
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.marked_tables import write_marked
 from datagen.scored_runs import write_line
 from labels.variables import SHAFT_ANGLE
 from physics.bearing import RACES

@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from datagen.marked_tables import write_marked
+from marked_tables import write_marked
 
 PAGE = Path(__file__).with_name("size.md")
 LEVELS = ("clean", "20 dB", "10 dB", "5 dB", "0 dB")

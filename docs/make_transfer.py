@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.stats import binomtest
 
-from datagen.marked_tables import write_marked
 from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, paired_difference
 from physics.bearing import RACES
 

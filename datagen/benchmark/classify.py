@@ -14,10 +14,12 @@ from datagen.benchmark.importance import importances
 from datagen.benchmark.impulse_train import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.log_line import log_run
 from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
 from datagen.benchmark.options import Asked, Learning, Scoring
+from datagen.benchmark.predictions import record_predictions
+from datagen.benchmark.results import CorpusResults, NoisyScores, Results
 from datagen.benchmark.rows import Reading, Rows, read_rows
-from datagen.benchmark.score_log import log_run
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
 from datagen.benchmark.training import (
@@ -32,7 +34,7 @@ from datagen.benchmark.training import (
     training_records,
     training_set,
 )
-from datagen.benchmark.verdicts import Tested, judge, pooled_draws
+from datagen.benchmark.verdicts import judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.scored_runs import write_line
@@ -90,8 +92,8 @@ class Benchmark:
         )
 
 
-def run(benchmark: Benchmark, listener: Listener = NOBODY) -> tuple[dict[str, Any], list[Tested]]:
-    """The results, with the Scores of each model, and what was said of every record; raises BadInput."""
+def run(benchmark: Benchmark, listener: Listener = NOBODY) -> Results:
+    """What the models say and score on every corpus; raises BadInput."""
     began = time.monotonic()
     if is_saved(benchmark.train):
         trained = load_trained(benchmark.train)
@@ -106,15 +108,11 @@ def run(benchmark: Benchmark, listener: Listener = NOBODY) -> tuple[dict[str, An
         trained = _learn(benchmark, labels, learned, listener)
     if benchmark.save is not None:
         save_trained(benchmark.save, trained)
-    results: dict[str, Any] = {"train": str(benchmark.train), "options": benchmark.asked.to_dict()} | trained.facts
-    tested = []
-    results["tests"] = []
-    for folder, records in zip(benchmark.tests, chosen, strict=True):
-        found, summary = _test(benchmark, folder, records, trained, listener)
-        tested.append(found)
-        results["tests"].append(summary)
-    results["seconds"] = time.monotonic() - began
-    return results, tested
+    tests = [
+        _test(benchmark, folder, records, trained, listener)
+        for folder, records in zip(benchmark.tests, chosen, strict=True)
+    ]
+    return Results(str(benchmark.train), benchmark.asked, trained.facts, tests, time.monotonic() - began)
 
 
 def _learn(
@@ -198,7 +196,7 @@ def _tested_records(folder: Path, learned: Learned | None) -> pandas.DataFrame:
 
 def _test(
     benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, listener: Listener
-) -> tuple[Tested, dict[str, Any]]:
+) -> CorpusResults:
     imported = bool(Corpus(folder).manifest.imported)
     if imported:
         write_line(folder, {"began": benchmark.asked.to_dict(), "train": str(benchmark.train)})
@@ -210,15 +208,15 @@ def _test(
     if benchmark.learning.takes_windows:
         raw = _windows(benchmark, folder, labels, listener)
     tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, imported, raw)
-    summary = summarise(tested)
+    scores = summarise(tested)
     noise_tells = imported and np.isin(tested.truth, RACES).any()
     levels = benchmark.scoring.levels if noise_tells else ()
     if benchmark.scoring.levels and not noise_tells:
         listener.say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
-    summary["noise"] = [_noisy(benchmark, folder, labels, trained, level, listener) for level in levels]
+    noise = [_noisy(benchmark, folder, labels, trained, level, listener) for level in levels]
     if imported:
-        log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), summary["models"])
-    return tested, summary
+        log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), scores.models)
+    return CorpusResults(scores, record_predictions(tested), noise)
 
 
 def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count) -> Rows:
@@ -232,7 +230,7 @@ def _windows(benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, liste
 
 def _noisy(
     benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, level: float, listener: Listener
-) -> dict[str, Any]:
+) -> NoisyScores:
     """Scores with white noise of that level (signal over noise, dB) added, all draws pooled."""
     draws = benchmark.scoring.noise_draws
     listener.say(f"testing on {folder} with noise at {level:g} dB, {draws} draws")
@@ -242,5 +240,4 @@ def _noisy(
         count = listener.counting(f"{level:g} dB, draw {draw + 1} of {draws}")
         rows = _rows(folder, labels, reading, benchmark.workers, count)
         pooled.append(judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, True))
-    joined = pooled_draws(pooled)
-    return {"snr_db": level, "draws": draws} | summarise(joined, predictions=False)
+    return NoisyScores(level, draws, summarise(pooled_draws(pooled)))

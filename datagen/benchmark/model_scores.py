@@ -90,12 +90,3 @@ class Scores:
             elif value is not None:
                 found |= value if name == "condition" else {name: value}
         return found
-
-
-def report(results: Any) -> Any:
-    """The results of `classify` with every Scores in them as plain numbers, for the JSON writer."""
-    if isinstance(results, Scores):
-        return results.to_dict()
-    if isinstance(results, dict):
-        return {name: report(value) for name, value in results.items()}
-    return [report(value) for value in results] if isinstance(results, list) else results

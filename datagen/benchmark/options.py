@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from datagen.stated_speed import SPEED_ERROR
-
 FEATURES, WINDOWS = "features", "windows"
+# Largest relative error of the shaft speeds that classifiers and size estimators are told in training. The true speed
+# is 2.04 % above one told 2 % too low, and features look for it within SPEED_TOLERANCE of the one told
+# (labels/features/speed.py): so that is a little wider, and a test asserts it.
+SPEED_ERROR = 0.02
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any
 
-from datagen.benchmark.verdicts import Tested
+from datagen.benchmark.verdicts import Tested, Verdicts
 from labels.classifier.classes import condition_probability, location_probability
 from labels.schema import CONDITIONS, LOCATIONS
 
@@ -14,43 +16,85 @@ FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "
 SAID = ("location", "score", "alarm")
 
 
-def record_predictions(tested: Tested) -> list[dict[str, Any]]:
-    """One entry a record: why it was rejected ("" if it was not), how many glitches were drawn over and shocks cut, and
-    of each model the location, the score, the alarm above which a spall is called, and probabilities, NaN without
-    features."""
-    found = []
-    for place, (_, row) in enumerate(tested.labels.iterrows()):
-        entry: dict[str, Any] = {
-            "record": int(row["record"]),
-            "recording": str(row["recording"]),
-            "bearing_id": str(row["bearing_id"]),
-            "truth": str(row["location"]),
-            "rejected": str(tested.reasons[place]),
-            "despiked": int(tested.glitches[place]),
-            "shocks_cut": int(tested.shocks[place]),
-        }
-        for said in tested.verdicts:
-            numbers = str(said.location[place]), float(said.score[place]), float(said.alarm[place])
-            entry[said.name] = dict(zip(SAID, numbers, strict=True))
-            if len(said.probability):
-                own = said.probability[place : place + 1]
-                entry[said.name] |= {
-                    "location_probability": dict(zip(LOCATIONS, location_probability(own)[0].tolist(), strict=True)),
-                    "condition_probability": dict(zip(CONDITIONS, condition_probability(own)[0].tolist(), strict=True)),
-                }
-        found.append(entry)
-    return found
+@dataclass(frozen=True)
+class ModelAnswer:
+    """What one model says of a record: a location, its score, and the alarm above which a spall is called; if it gives
+    any, probabilities of LOCATIONS and CONDITIONS by their names. Numbers are NaN without features."""
+
+    location: str
+    score: float
+    alarm: float
+    location_probability: dict[str, float] | None = None
+    condition_probability: dict[str, float] | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As a report holds it: probabilities only where there are any."""
+        return {name: value for name, value in asdict(self).items() if value is not None}
 
 
-def prediction_table(tests: list[dict[str, Any]]) -> str:
-    """CSV of the predictions in summaries of corpora, one row a record; probabilities are left to the JSON."""
-    models = list(tests[0]["models"]) if tests else []
+@dataclass(frozen=True)
+class Prediction:
+    """What is known of a record (`truth`, its location), why it was `rejected` ("" if it was not), how many glitches
+    were drawn over and shocks cut, and the answer of each of the `models`."""
+
+    record: int
+    recording: str
+    bearing_id: str
+    truth: str
+    rejected: str
+    despiked: int
+    shocks_cut: int
+    models: dict[str, ModelAnswer]
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """All by name but what the models say."""
+        return {name: getattr(self, name) for name in FACTS}
+
+    def to_dict(self) -> dict[str, Any]:
+        """As a report holds it: the answer of each model stands by its name beside the facts."""
+        return self.facts | {name: answer.to_dict() for name, answer in self.models.items()}
+
+
+def record_predictions(tested: Tested) -> list[Prediction]:
+    """What was said of every record, in the order of the labels."""
+    return [
+        Prediction(
+            record=int(row["record"]),
+            recording=str(row["recording"]),
+            bearing_id=str(row["bearing_id"]),
+            truth=str(row["location"]),
+            rejected=str(tested.reasons[place]),
+            despiked=int(tested.glitches[place]),
+            shocks_cut=int(tested.shocks[place]),
+            models={said.name: _answer(said, place) for said in tested.verdicts},
+        )
+        for place, (_, row) in enumerate(tested.labels.iterrows())
+    ]
+
+
+def _answer(said: Verdicts, place: int) -> ModelAnswer:
+    """What a model says of the record in that place."""
+    numbers = str(said.location[place]), float(said.score[place]), float(said.alarm[place])
+    if not len(said.probability):
+        return ModelAnswer(*numbers)
+    own = said.probability[place : place + 1]
+    return ModelAnswer(
+        *numbers,
+        location_probability=dict(zip(LOCATIONS, location_probability(own)[0].tolist(), strict=True)),
+        condition_probability=dict(zip(CONDITIONS, condition_probability(own)[0].tolist(), strict=True)),
+    )
+
+
+def prediction_table(models: Sequence[str], told: Iterable[tuple[str, Sequence[Prediction]]]) -> str:
+    """CSV of the predictions of corpora, each `told` by its folder and its predictions, one row a record: what is known
+    of it, and the answers of the `models`; probabilities are left to the JSON."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["corpus", *FACTS, *(f"{model}_{what}" for model in models for what in SAID)])
-    for test in tests:
-        for entry in test["predictions"]:
-            said = [entry[model][what] for model in models for what in SAID]
+    for corpus, predictions in told:
+        for one in predictions:
+            said = [getattr(one.models[model], what) for model in models for what in SAID]
             numbers = [f"{value:.6g}" if isinstance(value, float) else value for value in said]
-            writer.writerow([test["corpus"], *(entry[name] for name in FACTS), *numbers])
+            writer.writerow([corpus, *one.facts.values(), *numbers])
     return text.getvalue()

@@ -9,15 +9,14 @@ from pathlib import Path
 
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import NAME, ingredients_of
-from datagen.benchmark.options import FEATURES, WINDOWS, Asked, Learning, Scoring
+from datagen.benchmark.options import FEATURES, SPEED_ERROR, WINDOWS, Asked, Learning, Scoring
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
-from datagen.corpora.manifest import manifest_path, no_corpus
 from datagen.corpus import Corpus
+from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
 from datagen.own_code import load_own
 from datagen.scored_runs import log_path
-from datagen.stated_speed import SPEED_ERROR
 from labels.classifier.learners import LEARNERS
 
 INPUTS = (FEATURES, WINDOWS)

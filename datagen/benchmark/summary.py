@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.benchmark.model_scores import Calibration, ConditionScores, Confusion, MinusRule, Scores
-from datagen.benchmark.predictions import record_predictions
+from datagen.benchmark.results import CorpusScores
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
 from labels.classifier.reliability import calibration_error, equal_priors, reliability
 from labels.classifier.scores import (
@@ -37,26 +37,23 @@ def race_balance(truth: Any, said: Any) -> float:
     return balanced_accuracy(truth, said, RACES)
 
 
-def summarise(tested: Tested, predictions: bool = True) -> dict[str, Any]:
-    """Scores of the rule and of each model on one corpus, and what was said of each record.
+def summarise(tested: Tested) -> CorpusScores:
+    """Scores of the rule and of each model on one corpus.
 
     A fault that nobody could judge counts as an error in every accuracy, that of its race too; the area under the ROC
     and the calibration leave out records without a score, healthy or not.
     """
     rule = tested.verdicts[0]
-    found: dict[str, Any] = {
-        "corpus": str(tested.folder),
-        "imported": tested.imported,
-        "records": len(tested.labels),
-        "locations": {name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
-        "rejections": dict(Counter(str(reason) for reason in tested.reasons if reason)),
-        "despiked": {"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
-        "shocks_cut": {"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
-        "models": {verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
-    }
-    if predictions:
-        found["predictions"] = record_predictions(tested)
-    return found
+    return CorpusScores(
+        corpus=str(tested.folder),
+        imported=tested.imported,
+        records=len(tested.labels),
+        locations={name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
+        rejections=dict(Counter(str(reason) for reason in tested.reasons if reason)),
+        despiked={"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
+        shocks_cut={"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
+        models={verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
+    )
 
 
 def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> Scores:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from datagen.cards.facts import Facts, Kind, Solved
-from datagen.corpora.format import IMPORTED
+from datagen.corpus_files.format import IMPORTED
 from datagen.runs.progress import for_people
 from labels.schema import LABEL, LABELS, UNKNOWN
 

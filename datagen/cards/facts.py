@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.manifest import Manifest
 from datagen.corpus import Corpus
+from datagen.corpus_files.manifest import Manifest
 from datagen.inspection.info import Info, corpus_info
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from datagen.cards.toml_text import toml_text
-from datagen.corpora.manifest import Manifest
+from datagen.corpus_files.manifest import Manifest
 from datagen.errors import BadInput
 
 MANIFEST = Path("manifest.json")

@@ -4,55 +4,59 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from datagen.benchmark.options import SPEED_ERROR, Asked, Learning, Scoring
+from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
-from datagen.stated_speed import SPEED_ERROR
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
     from datagen.benchmark.classify import Benchmark
     from datagen.benchmark.model_scores import Scores
+    from datagen.benchmark.results import CorpusResults, Results
     from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
+AS_USUAL = Asked()
 Train = Annotated[
-    Path, Option("--train", metavar="DIR|FILE", help="Simulated corpus to learn from, or a file that --save wrote.")
+    Path,
+    Option(
+        "--train",
+        metavar="DIR|FILE",
+        help="Simulated corpus to learn from, or a file that --save wrote; impulse-trains, or "
+        "impulse-trains-without-INGREDIENT, to compare with signals without contact physics, which are made on the "
+        "spot (docs/own_estimators.md).",
+    ),
 ]
 Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
 Save = Annotated[
     Path | None, Option("--save", metavar="FILE", help="Save what was learned; --train FILE takes it later.")
 ]
 More = Annotated[list[Path] | None, Argument(metavar="[DIR]...", help="More corpora to score on.")]
-Learner = Annotated[str, Option(help="Model to train: forest, logistic, boosting or all.")]
-Estimator = Annotated[str | None, Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function.")]
-Inputs = Annotated[str, Option("--input", help="Input of your estimator: features or windows.")]
-Bandwidth = Annotated[
-    float | None, Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given.")
-]
-SpeedError = Annotated[
-    float,
-    Option(metavar="SHARE", help=f"Largest relative error of the shaft speeds used in training, 0 to {SPEED_ERROR}."),
-]
-First = Annotated[int | None, Option(metavar="N", min=1, help="Learn from only the first N records.")]
-Reject = Annotated[
-    float,
-    Option(
+# What Learning and Scoring hold, by the names of their fields.
+OPTIONS = {
+    "learner": Option(help="Model to train: forest, logistic, boosting or all."),
+    "estimator": Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function."),
+    "input": Option("--input", help="Input of your estimator: features or windows."),
+    "bandwidth": Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given."),
+    "speed_error": Option(
+        metavar="SHARE", help=f"Largest relative error of the shaft speeds used in training, 0 to {SPEED_ERROR}."
+    ),
+    "first": Option(metavar="N", min=1, help="Learn from only the first N records."),
+    "reject": Option(
         "--reject",
         min=0.0,
         max=1.0,
         help="Reject a record if its most likely answer has a lower probability than this.",
     ),
-]
-NoiseDb = Annotated[
-    str,
-    Option(
+    "noise_db": Option(
         metavar="DB,DB", help="Also score recordings of faults with white noise added at these signal-to-noise ratios."
     ),
-]
-NoiseDraws = Annotated[int, Option(metavar="N", min=1, help="How many times that noise is drawn.")]
+    "noise_draws": Option(metavar="N", min=1, help="How many times that noise is drawn."),
+}
 Curve = Annotated[bool, Option(help="Also learn from fractions of the corpus.")]
 Workers = Annotated[
     int,
@@ -66,19 +70,13 @@ Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder for rep
 
 
 @command("spallgen classify --train out/transfer --test out/transfer --test out/cwru --out out/scores")
+@grouped(OPTIONS)
 def classify(
     train: Train,
     test: Folders = None,
     more: More = None,
-    learner: Learner = "all",
-    estimator: Estimator = None,
-    input: Inputs = "features",
-    bandwidth: Bandwidth = None,
-    speed_error: SpeedError = SPEED_ERROR,
-    first: First = None,
-    reject: Reject = 0.0,
-    noise_db: NoiseDb = "",
-    noise_draws: NoiseDraws = 10,
+    learning: Learning = AS_USUAL.learning,
+    scoring: Scoring = AS_USUAL.scoring,
     learning_curve: Curve = False,
     workers: Workers = 2,
     save: Save = None,
@@ -92,57 +90,53 @@ def classify(
     recordings is logged in their folder, in scored_runs.jsonl. A file written by --save is a pickle, which can run any
     program when it is loaded: use only your own.
     """
-    from datagen.benchmark.model_scores import report
-    from datagen.benchmark.options import Asked, Learning, Scoring
     from datagen.benchmark.request import benchmark_of
 
-    learning = Learning(
-        learner=learner, estimator=estimator, input=input, bandwidth=bandwidth, speed_error=speed_error, first=first
-    )
-    asked = Asked(learning, Scoring(reject=reject, noise_db=noise_db, noise_draws=noise_draws))
+    asked = Asked(learning, scoring)
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
     results = _run(benchmark, out)
-    write_json(json_file, report(results))
-    tell_results(results)
+    write_json(json_file, results.to_dict())
+    tell_results(results.tests)
 
 
-def _run(benchmark: Benchmark, out: Path | None) -> dict[str, Any]:
+def _run(benchmark: Benchmark, out: Path | None) -> Results:
     from datagen.benchmark.classify import run
     from datagen.runs.progress import steps_told
 
     with steps_told() as listener:
-        results, _ = run(benchmark, listener)
+        results = run(benchmark, listener)
     if out is not None:
-        from datagen.benchmark.model_scores import report
         from datagen.benchmark.predictions import prediction_table
         from datagen.drawing.scores import scores_png
         from datagen.files.results import results_folder, write_files
 
-        table = prediction_table(results["tests"])
-        write_files(results_folder(out), "report", scores_png(results), report(results), table)
+        models = list(results.tests[0].scores.models) if results.tests else []
+        table = prediction_table(models, [(test.scores.corpus, test.predictions) for test in results.tests])
+        write_files(results_folder(out), "report", scores_png(results), results.to_dict(), table)
     return results
 
 
-def tell_results(results: dict[str, Any]) -> None:
+def tell_results(tests: list[CorpusResults]) -> None:
     """Print the scores of every corpus, and the answers about records that are not scored."""
     from datagen.commands.tables import verdict_table
 
-    for test in results["tests"]:
-        print(f"{test['corpus']}: {test['records']} records, {test['locations']}")
-        for name, scores in test["models"].items():
+    for test in tests:
+        found = test.scores
+        print(f"{found.corpus}: {found.records} records, {found.locations}")
+        for name, scores in found.models.items():
             print(f"  {name:10} {score_line(scores)}")
-        for reason, count in test["rejections"].items():
+        for reason, count in found.rejections.items():
             print(f"  rejected   {count}: {reason}")
-        if test["despiked"]["glitches"]:
-            print("  despiked   {glitches} glitches in {records} records".format(**test["despiked"]))
-        if test["shocks_cut"]["shocks"]:
-            print("  shocks cut {shocks} in {records} records".format(**test["shocks_cut"]))
-        for noisy in test["noise"]:
-            for name, scores in noisy["models"].items():
-                print(f"  {name:10} {noisy['snr_db']:g} dB: {score_line(scores)}")
-        unscored = [entry for entry in test["predictions"] if entry["truth"] not in LOCATIONS]
+        if found.despiked["glitches"]:
+            print("  despiked   {glitches} glitches in {records} records".format(**found.despiked))
+        if found.shocks_cut["shocks"]:
+            print("  shocks cut {shocks} in {records} records".format(**found.shocks_cut))
+        for noisy in test.noise:
+            for name, scores in noisy.scores.models.items():
+                print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")
+        unscored = [one for one in test.predictions if one.truth not in LOCATIONS]
         if unscored:
-            show_tables([verdict_table(unscored, list(test["models"]))])
+            show_tables([verdict_table(unscored, list(found.models))])
 
 
 def score_line(scores: Scores) -> str:

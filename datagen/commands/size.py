@@ -11,7 +11,7 @@ from datagen.commands.program import CorpusFolder, JsonFile, command, show_table
 from datagen.files.places import require_results_folder
 
 if TYPE_CHECKING:
-    from datagen.sizing.score import SizeScores
+    from datagen.sizing.corpus_run import SizeScores
 
 Estimator = Annotated[
     str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator: a class or a function.")
@@ -51,10 +51,10 @@ def size(
     scored_runs.jsonl.
     """
     from datagen.runs.progress import steps_told
+    from datagen.sizing.corpus_run import score_sizes
     from datagen.sizing.flat_rows import flat_scores
     from datagen.sizing.known_sizes import parse_known_sizes
     from datagen.sizing.report import write_report
-    from datagen.sizing.score import score_sizes
 
     if out is not None:
         require_results_folder(out)

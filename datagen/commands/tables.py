@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 from rich.markup import escape
 from rich.table import Table
 
-from datagen.corpora.format import IMPORTED
-from datagen.corpora.reading import AGAIN
+from datagen.corpus_files.format import IMPORTED
+from datagen.corpus_files.reading import AGAIN
 from datagen.runs.progress import for_people
 
 if TYPE_CHECKING:
+    from datagen.benchmark.predictions import ModelAnswer, Prediction
     from datagen.inspection.info import Info
 
 
@@ -116,7 +117,7 @@ def _ranges(info: Info) -> Table:
     return table
 
 
-def verdict_table(predictions: list[dict[str, Any]], models: list[str]) -> Table:
+def verdict_table(predictions: list[Prediction], models: list[str]) -> Table:
     """What every model says of the records, with its probability of a spall beside the alarm for it, or why a record
     was rejected."""
     table = Table(
@@ -126,24 +127,24 @@ def verdict_table(predictions: list[dict[str, Any]], models: list[str]) -> Table
     )
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")
-    for entry in predictions:
-        facts = (str(entry["record"]), escape(entry["recording"]), entry["truth"])
-        table.add_row(*facts, *(_verdict(entry[model]) for model in models), escape(entry["rejected"]))
+    for one in predictions:
+        facts = (str(one.record), escape(one.recording), one.truth)
+        table.add_row(*facts, *(_verdict(one.models[model]) for model in models), escape(one.rejected))
     return table
 
 
-def _verdict(said: dict[str, Any]) -> str:
-    where = said["location"]
-    if where not in said.get("location_probability", {}):  # the rule, which gives none, and rejected records
-        return str(where)
-    return f"{where} ({said['score']:.2f} {_beside_alarm(said)} {said['alarm']:.2f})"
+def _verdict(said: ModelAnswer) -> str:
+    where = said.location
+    if where not in (said.location_probability or {}):  # the rule, which gives none, and rejected records
+        return where
+    return f"{where} ({said.score:.2f} {_beside_alarm(said)} {said.alarm:.2f})"
 
 
-def _beside_alarm(said: dict[str, Any]) -> str:
+def _beside_alarm(said: ModelAnswer) -> str:
     """How the probability of a spall lies to the alarm, or ≈ where that of the whole record contradicts what was called
     by the mean margin of its windows."""
-    above = said["score"] > said["alarm"]
-    if above != (said["location"] != "none"):
+    above = said.score > said.alarm
+    if above != (said.location != "none"):
         return "≈"
     return ">" if above else "≤"
 

@@ -5,7 +5,6 @@ Whoever reads the output may stop before its end, as `head` does: any command th
 
 from __future__ import annotations
 
-import inspect
 import types
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -119,9 +118,8 @@ def _value(names: Sequence[str], given: Sequence[str]) -> str | None:
 
 
 def _allowed(command: Any, name: str) -> str:
-    """What the parameter `name` of a command's function takes, in words, from its annotation."""
-    function = inspect.unwrap(command.callback)
-    kind, *notes = get_args(get_type_hints(function, include_extras=True)[name])
+    """What the parameter `name` of a command takes, in words, from its annotation."""
+    kind, *notes = get_args(get_type_hints(command.callback, include_extras=True)[name])
     plain = next((kind for kind in _kinds(kind) if kind in KINDS), str)
     note = next((note for note in notes if hasattr(note, "min")), None)
     low, high = (note.min, note.max) if note is not None else (None, None)

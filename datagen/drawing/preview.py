@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.corpora.manifest import manifest_path, read_manifest
+from datagen.corpus_files.manifest import manifest_path, read_manifest
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.files.places import require_file

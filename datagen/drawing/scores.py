@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from datagen.benchmark.model_scores import Confusion, Scores
+    from datagen.benchmark.model_scores import Confusion
+    from datagen.benchmark.results import CorpusScores, Results
 
 COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
 WIDTH, ROW, DPI = 20.0, 3.0, 100
@@ -25,14 +26,14 @@ COLUMNS = 3 + len(AGAINST)
 COLUMN_WIDTHS = (1.0, 1.6, *[1.0] * (COLUMNS - 2))  # room for a confusion table of each model
 
 
-def scores_png(results: dict[str, Any]) -> bytes:
+def scores_png(results: Results) -> bytes:
     """The sheet of the results of `classify` as the bytes of a PNG file."""
     return png_of(lambda: draw_results(results), DPI)
 
 
-def draw_results(results: dict[str, Any]) -> Figure:
+def draw_results(results: Results) -> Figure:
     """The figure of the results of `classify`: one row of panels a corpus, then the model."""
-    tests = results["tests"]
+    tests = [test.scores for test in results.tests]
     rows = len(tests) + 1
     figure, axes = with_panels(
         rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False, width_ratios=COLUMN_WIDTHS
@@ -49,15 +50,15 @@ def draw_results(results: dict[str, Any]) -> Figure:
     return figure
 
 
-def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
+def draw_scores(axes: Axes, test: CorpusScores) -> None:
     """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals; false alarms where
     there are no faults."""
-    title = f"{Path(test['corpus']).name}: {test['records']} records"
-    if not any(test["locations"][race] for race in RACES):
-        alarms = (f"{name}: {said.false_alarms} of {said.healthy}" for name, said in test["models"].items())
+    title = f"{Path(test.corpus).name}: {test.records} records"
+    if not any(test.locations[race] for race in RACES):
+        alarms = (f"{name}: {said.false_alarms} of {said.healthy}" for name, said in test.models.items())
         say(axes, title, "no faults to score\n\nfalse alarms\n" + "\n".join(alarms))
         return
-    models: dict[str, Scores] = test["models"]
+    models = test.models
     words = list(next(iter(models.values())).headline)
     for place, (name, scores) in enumerate(models.items()):
         shift = (place - 0.5 * (len(models) - 1)) * 0.16
@@ -69,7 +70,7 @@ def draw_scores(axes: Axes, test: dict[str, Any]) -> None:
     axes.set_xticks(range(len(words)), words)
     axes.set_xlim(-0.5, len(words) - 0.5)
     axes.set_ylim(0.0, 1.03)
-    if not test["locations"]["none"]:
+    if not test.locations["none"]:
         axes.text(2, 0.5, "no healthy\nrecords", ha="center", va="center", color=GREY)
     axes.set_title(title)
     axes.legend(loc="lower left")
@@ -83,9 +84,9 @@ def say(axes: Axes, title: str, text: str) -> None:
     axes.text(0.5, 0.5, text, ha="center", va="center", color=INK, transform=axes.transAxes)
 
 
-def draw_confusion(axes: Axes, test: dict[str, Any]) -> None:
+def draw_confusion(axes: Axes, test: CorpusScores) -> None:
     """Truth against what each model says, a small table a model in the place of `axes`."""
-    models, place = test["models"], axes.get_subplotspec()
+    models, place = test.models, axes.get_subplotspec()
     if place is None:
         raise ValueError("the axes stand in no grid that could be divided")
     axes.axis("off")
@@ -112,14 +113,14 @@ def _draw_table(axes: Axes, name: str, table: Confusion, named_rows: bool, named
     axes.set_title(f"said by {name}", fontsize=8.5)
 
 
-def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
+def draw_reliability(axes: Axes, test: CorpusScores) -> None:
     """Share of spalls against the probability predicted."""
-    told = any(scores.calibration for scores in test["models"].values())
-    if not (told and test["locations"]["none"]):
+    told = any(scores.calibration for scores in test.models.values())
+    if not (told and test.locations["none"]):
         say(axes, "reliability", "needs healthy records and\nfaults of known size")
         return
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
-    for place, (name, scores) in enumerate(test["models"].items()):
+    for place, (name, scores) in enumerate(test.models.items()):
         if scores.calibration:
             curve = scores.calibration.reliability
             axes.plot(curve["predicted"], curve["observed"], "o-", color=COLOURS[place % 6], markersize=3, label=name)
@@ -129,9 +130,9 @@ def draw_reliability(axes: Axes, test: dict[str, Any]) -> None:
     axes.set_title("reliability")
 
 
-def draw_against(axes: Axes, test: dict[str, Any], quantity: str) -> None:
+def draw_against(axes: Axes, test: CorpusScores, quantity: str) -> None:
     """Accuracy over fault records against one of AGAINST, in bins of equally many records."""
-    models = test["models"]
+    models = test.models
     if not any(quantity in scores.accuracy_against for scores in models.values()):
         say(axes, "accuracy over faults", f"{AGAINST[quantity]}:\nunknown, or the same in all")
         return
@@ -153,11 +154,11 @@ def draw_against(axes: Axes, test: dict[str, Any], quantity: str) -> None:
     faint_grid(axes)
 
 
-def draw_importances(axes: NDArray[Any], results: dict[str, Any]) -> None:
+def draw_importances(axes: NDArray[Any], results: Results) -> None:
     """The features that each model uses most, one of `axes` (N,) each."""
     for panel in axes:
         panel.axis("off")
-    for panel, (name, table) in zip(axes, results["importances"].items(), strict=False):
+    for panel, (name, table) in zip(axes, results.importances.items(), strict=False):
         chosen = list(table.items())[:MOST_FEATURES][::-1]
         panel.axis("on")
         panel.barh([row[0] for row in chosen], [row[1] for row in chosen], color=BLUE)
@@ -166,12 +167,12 @@ def draw_importances(axes: NDArray[Any], results: dict[str, Any]) -> None:
         panel.set_title(f"importances, {name}")
 
 
-def draw_curve(axes: Axes, results: dict[str, Any]) -> None:
+def draw_curve(axes: Axes, results: Results) -> None:
     """Balanced accuracy against the number of virtual bearings learned from."""
-    if not results.get("learning_curve"):
+    if not results.learning_curve:
         axes.axis("off")
         return
-    for place, (name, points) in enumerate(results["learning_curve"].items()):
+    for place, (name, points) in enumerate(results.learning_curve.items()):
         bearings = [point["bearings"] for point in points]
         axes.plot(
             bearings, [point["value"] for point in points], "o-", color=COLOURS[place + 1], markersize=3, label=name

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, png_of, with_panels
+from datagen.sizing.aggregation import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.summary import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from datagen.sizing.score import SizeScores
+    from datagen.sizing.corpus_run import SizeScores
     from datagen.sizing.size_summary import ErrorRow, SizeSummary
 
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)

@@ -57,11 +57,11 @@ def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | memoryvie
 
 def has_fast_chunks() -> bool:
     """Whether chunks can be made outside netCDF: with h5py and isal, if netCDF reads what they write."""
-    return find_spec("h5py") is not None and find_spec("isal") is not None and _reads_back()
+    return find_spec("h5py") is not None and find_spec("isal") is not None and reads_back()
 
 
 @cache
-def _reads_back() -> bool:
+def reads_back() -> bool:
     """Whether netCDF reads a small file that h5py has filled, tried once a process.
 
     Each brings an HDF5 of its own: what 1.14 (h5py 3.15) has filled, 2.2 (netCDF4 1.7.5) cannot open.

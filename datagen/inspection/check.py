@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.format import FORMAT, content_hash, format_hash
-from datagen.corpora.index import LABEL_COLUMNS, read_index
-from datagen.corpora.manifest import Manifest, read_manifest, shard_entry
-from datagen.corpora.reading import READ_ERRORS, unspeakable
-from datagen.corpora.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
+from datagen.corpus_files.format import FORMAT, content_hash, format_hash
+from datagen.corpus_files.index import LABEL_COLUMNS, read_index
+from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
+from datagen.corpus_files.reading import READ_ERRORS, unspeakable
+from datagen.corpus_files.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
 from datagen.files.netcdf import ONE_AT_A_TIME
 from datagen.inspection.conformity import violations

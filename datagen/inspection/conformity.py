@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from datagen.corpora.format import LABEL_VARIABLES, is_imported
+from datagen.corpus_files.format import LABEL_VARIABLES, is_imported
 from labels.schema import LABEL
 from labels.variables import VARIABLES, Variable
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.manifest import ShardEntry
 from datagen.corpus import Corpus
+from datagen.corpus_files.manifest import ShardEntry
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 

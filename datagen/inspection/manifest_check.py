@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.format import data_hash
-from datagen.corpora.manifest import Manifest
-from datagen.corpora.shard import Sidecar
+from datagen.corpus_files.format import data_hash
+from datagen.corpus_files.manifest import Manifest
+from datagen.corpus_files.shard import Sidecar
 from datagen.errors import BadInput
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from datagen.drawing.style import GREEN, GREY, INK, LINE, PURPLE, faint_grid, wi
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, highest_near, legend_below, letter, power_decibel, spread
 from datagen.paper.published import published_value
-from datagen.paper.recordings import CONDITIONS, SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, bpfo_hz, ftf_hz, scene, shaft_hz, signal, wavy_extended_spall
+from datagen.paper.simulated import CONDITIONS, SAME_FOR_ALL, shown, simulated
 from labels.density import velocity_density
 from physics.arrays import Array
 
@@ -39,7 +39,7 @@ def harmonics(acceleration: Array) -> Array:
 
 def chapter(count: int = len(SEEDS)) -> Chapter:
     """Figure 8 with its table."""
-    levels = {name: np.array([harmonics(one) for one in recordings(name, count)]) for name in CONDITIONS}
+    levels = {name: np.array([harmonics(one) for one in simulated(name, count)]) for name in CONDITIONS}
     return Chapter(
         NAME,
         "Figure 8: velocity spectra, gearbox rig",

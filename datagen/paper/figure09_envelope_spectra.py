@@ -10,8 +10,8 @@ from datagen.drawing.style import INK, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, legend_below, letter, spread
 from datagen.paper.published import published_value
-from datagen.paper.recordings import CONDITIONS, SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine
+from datagen.paper.simulated import CONDITIONS, SAME_FOR_ALL, shown, simulated
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import line_amplitude
 from physics.arrays import Array
@@ -43,8 +43,8 @@ def pole_band() -> Band:
 def chapter(count: int = len(SEEDS)) -> Chapter:
     """Figure 9 with its table."""
     names = (*CONDITIONS, "gap")
-    lines = {name: np.array([envelope_line(one) for one in recordings(name, count)]) for name in names}
-    pole = {name: np.array([envelope_line(one, pole_band()) for one in recordings(name, count)]) for name in CONDITIONS}
+    lines = {name: np.array([envelope_line(one) for one in simulated(name, count)]) for name in names}
+    pole = {name: np.array([envelope_line(one, pole_band()) for one in simulated(name, count)]) for name in CONDITIONS}
     low, high = pole_band()
     return Chapter(
         NAME,

@@ -11,8 +11,8 @@ from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure09_envelope_spectra import PAPER_BAND
 from datagen.paper.panels import heading, legend_below, letter, power_decibel, spread
 from datagen.paper.published import published_value
-from datagen.paper.recordings import SAME_FOR_ALL, recordings, shown
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine, scene, signal
+from datagen.paper.simulated import SAME_FOR_ALL, shown, simulated
 from labels.density import power_density
 from physics.arrays import Array
 from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
@@ -55,8 +55,8 @@ def line_prominence(acceleration: Array) -> float:
 
 def chapter(count: int = len(SEEDS)) -> Chapter:
     """Figure 10 with its table."""
-    levels = {name: [band_level(one)[1] for one in recordings(name, count)] for name in TITLES}
-    slipping = np.array([line_prominence(one) for one in recordings("line", count)])
+    levels = {name: [band_level(one)[1] for one in simulated(name, count)] for name in TITLES}
+    slipping = np.array([line_prominence(one) for one in simulated("line", count)])
     steady = line_prominence(signal(scene("gearbox", line_spall("gearbox"))))
     return Chapter(
         NAME,

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, SIXTH, harmonics
 from datagen.paper.figure09_envelope_spectra import envelope_line
-from datagen.paper.recordings import recordings
 from datagen.paper.scenes import (
     SHORTEST_WAVE,
     WAVY_DEPTH,
@@ -23,6 +22,7 @@ from datagen.paper.scenes import (
     waved_extended_spall,
     wavy_extended_spall,
 )
+from datagen.paper.simulated import simulated
 from physics.arrays import Array
 from physics.reference_scenes import extended_spall
 from physics.spall import Spall
@@ -158,7 +158,7 @@ def rough_profiles(
 
 def outcome(profile: Profile) -> Outcome:
     """Simulate every draw of a profile with the slip of the line spall's record of the same number."""
-    lines = recordings("line", ROUGH_SEEDS)
+    lines = simulated("line", ROUGH_SEEDS)
     above, strongest, ratio = [], [], []
     for seed, spall in enumerate(profile.draws):
         found = signal(scene("gearbox", spall, slip_seed=seed))

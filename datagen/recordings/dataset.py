@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.corpora.format import COMPONENT_DIMENSIONS, IMPORTED, from_columns, global_attributes
+from datagen.corpus_files.format import COMPONENT_DIMENSIONS, IMPORTED, from_columns, global_attributes
 from datagen.recordings.recorded import Recorded
 from labels.envelope import band_envelope
 from labels.schema import LABELS

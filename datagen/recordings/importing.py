@@ -15,10 +15,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from datagen.corpora.format import IMPORTED, Identity, data_hash, format_hash
-from datagen.corpora.index import write_index
-from datagen.corpora.manifest import Manifest, write_manifest
-from datagen.corpora.shard import finished_shards, write_shard
+from datagen.corpus_files.format import IMPORTED, Identity, data_hash, format_hash
+from datagen.corpus_files.index import write_index
+from datagen.corpus_files.manifest import Manifest, write_manifest
+from datagen.corpus_files.shard import finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.files.atomic import TEMPORARY_SUFFIX
 from datagen.files.places import require_folder

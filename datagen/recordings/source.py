@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.shard import file_hash
+from datagen.corpus_files.shard import file_hash
 from datagen.errors import BadInput
 from datagen.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.formats.csv_file import Columns

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from datagen.optional import if_given
+from datagen.scenarios.optional import if_given
 from datagen.scenarios.scenario import Scenario
 from labels.noise import signal_to_noise
 from physics.arrays import Array

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
-from datagen.corpora.format import Identity, format_hash
-from datagen.corpora.manifest import manifest_path, read_manifest
+from datagen.corpus_files.format import Identity, format_hash
+from datagen.corpus_files.manifest import manifest_path, read_manifest
 from datagen.errors import BadInput
 from datagen.files.atomic import locked
 from datagen.files.netcdf import check_compression

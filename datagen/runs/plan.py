@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from datagen.corpora.format import ZLIB_SHARE
-from datagen.corpora.manifest import Span, add_spans
+from datagen.corpus_files.format import ZLIB_SHARE
+from datagen.corpus_files.manifest import Span, add_spans
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
 from datagen.records.profile_grid import PROFILE_POINTS

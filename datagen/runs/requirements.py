@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from datagen.corpora.manifest import Span, manifest_path
+from datagen.corpus_files.manifest import Span, manifest_path
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, stored_bytes

@@ -10,10 +10,10 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from datagen.corpora.format import Identity
-from datagen.corpora.index import write_index
-from datagen.corpora.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
-from datagen.corpora.shard import Failure, Sidecar, finished_shards
+from datagen.corpus_files.format import Identity
+from datagen.corpus_files.index import write_index
+from datagen.corpus_files.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
+from datagen.corpus_files.shard import Failure, Sidecar, finished_shards
 from datagen.files.atomic import NO_SPACE, sweep_temporaries, write_atomically
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes

@@ -9,8 +9,8 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from datagen.corpora.format import Identity, to_dataset
-from datagen.corpora.shard import Failure, write_shard
+from datagen.corpus_files.format import Identity, to_dataset
+from datagen.corpus_files.shard import Failure, write_shard
 from datagen.files.atomic import NO_SPACE
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record

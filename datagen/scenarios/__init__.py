@@ -6,4 +6,5 @@
   `defect`; `accuracy`
 - what cannot be: `feasibility`, `redraw`
 - as text: `scenario_text`, `sampling_text`, `sensor_text`
+- what may be absent: `optional`
 """

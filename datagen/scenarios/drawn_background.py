@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from datagen.distributions.kinds import Distribution
-from datagen.optional import if_given
 from datagen.recipes.background_settings import (
     BackgroundSettings,
     GearSettings,
@@ -17,6 +16,7 @@ from datagen.recipes.background_settings import (
 from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.draw import Draw
+from datagen.scenarios.optional import if_given
 from datagen.scenarios.picker import Picker
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.optional import if_given
 from datagen.recipes.operation_settings import OperationSettings
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.record_order import Place
@@ -16,6 +15,7 @@ from datagen.scenarios.drawn_background import draw_noise_target, draw_stretch
 from datagen.scenarios.drawn_rig import RPM_PER_RAD_S
 from datagen.scenarios.feasibility import require_equilibrium
 from datagen.scenarios.machine import Machine, draw_machine
+from datagen.scenarios.optional import if_given
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
 from datagen.scenarios.scenario import Scenario, Seeds

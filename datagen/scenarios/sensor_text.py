@@ -6,8 +6,8 @@ import base64
 import zlib
 from typing import Any
 
-from datagen.optional import if_given
 from datagen.scenarios.background import Background, NoiseTarget, Stretch
+from datagen.scenarios.optional import if_given
 from datagen.scenarios.scenario import Scenario
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance

@@ -18,8 +18,8 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.corpora.index import read_index
-from datagen.corpora.manifest import read_manifest
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import read_manifest
 from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, print_error
 from datagen.files.atomic import write_file

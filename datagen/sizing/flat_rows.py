@@ -10,7 +10,7 @@ from datagen.sizing.size_summary import Figure
 from labels.interval import Interval
 
 if TYPE_CHECKING:
-    from datagen.sizing.score import SizeScores
+    from datagen.sizing.corpus_run import SizeScores
 
 
 def flat_scores(scores: SizeScores) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.corpora.index import read_index
+from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
 from datagen.sizing.estimators import AnyEstimator
 from datagen.sizing.scored_record import ScoredRecord

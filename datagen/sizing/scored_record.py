@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from labels.event_scores import EventScores
 from labels.schema import UNKNOWN
-from labels.spall_size.size_estimate import Interval
+from labels.spall_size.size_estimate import Bounds
 
 LONGEST_SCORED_SPACINGS = 0.9
 SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS = 5.0, 1.0 / 50.0
@@ -64,12 +64,12 @@ class Told:
     race: str
     trust: float
     lag: float
-    lag_interval: Interval
+    lag_interval: Bounds
     lag_arc: float
     extent: float
-    extent_interval: Interval
+    extent_interval: Bounds
     extent_mm: float
-    extent_mm_interval: Interval
+    extent_mm_interval: Bounds
     candidates: tuple[float, ...]
     candidates_mm: tuple[float, ...]
     event_times: NDArray[np.float64] = field(compare=False)
@@ -83,7 +83,7 @@ class Told:
         return math.degrees(self.extent)
 
     @property
-    def extent_deg_interval(self) -> Interval:
+    def extent_deg_interval(self) -> Bounds:
         """Its interval in degrees."""
         low, high = self.extent_interval
         return math.degrees(low), math.degrees(high)

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.corpora.index import read_index
-from datagen.corpora.open_shards import OpenShards
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.sizing.stated_situation import reason_against, situation_of, wrong_speed
 from datagen.sizing.stored_record import StoredRecord, stored_record

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from datagen.benchmark.options import SPEED_ERROR
 from datagen.scenarios.streams import stream
-from datagen.stated_speed import SPEED_ERROR
 from labels.spall_size.situation import Situation
 from physics.checks import InvalidParameter
 from physics.operation import RPM

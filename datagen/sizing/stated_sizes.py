@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from datagen.corpora.index import read_index
-from datagen.corpora.manifest import read_manifest
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import read_manifest
+from datagen.sizing.aggregation import extent_error
 from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes
-from datagen.sizing.summary import extent_error
 
 
 def summarise_stated(records: list[ScoredRecord]) -> StatedSizes | None:

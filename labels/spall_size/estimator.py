@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from labels.spall_size.calibration import Calibration, Judgement
-from labels.spall_size.evidence import Evidence, gather_evidence
+from labels.spall_size.evidence import Evidence
+from labels.spall_size.gathering import gather_evidence
 from labels.spall_size.measurement import Measurement, leading_pairs, measure
 from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation

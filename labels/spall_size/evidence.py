@@ -1,21 +1,13 @@
-"""From a record to pairs of candidate events: prewhitened, its passes tracked and lined up, on either race."""
+"""What a record shows of a spall: its passes, their mean and the pairs of candidate events in it."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from labels.spall_size.candidates import candidate_places
-from labels.spall_size.columns.table import pair_rows
-from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
-from labels.spall_size.signal.alignment import Alignment, aligned
-from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
-from labels.spall_size.signal.noise_floor import log_noise_share
-from labels.spall_size.signal.pass_track import PassTrack, track_passes
-from labels.spall_size.signal.prewhitening import prewhitened
-from physics.arrays import Array
+from labels.spall_size.pairs import Pairs
+from labels.spall_size.signal.alignment import Alignment
+from labels.spall_size.signal.mean_pass import MeanPass
+from labels.spall_size.signal.pass_track import PassTrack
 
 
 @dataclass(frozen=True)
@@ -34,37 +26,3 @@ class Evidence:
     alignment: Alignment
     mean: MeanPass
     pairs: Pairs
-
-
-def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -> Evidence | None:
-    """Evidence of `signal` (T,) for the race whose `pass_period` (s) shows most clearly; None without passes."""
-    found_free = prewhitened(signal)
-    whitened = found_free.residual
-    energy = whitened**2
-    tracks = {race: track_passes(energy, rate, period) for race, period in pass_period.items()}
-    found = {race: track for race, track in tracks.items() if track is not None}
-    if not found:
-        return None
-    race = max(found, key=lambda name: found[name].score)
-    alignment = aligned(energy, rate, found[race])
-    if alignment is None:
-        return None
-    mean = mean_pass(signal, whitened, alignment, found[race].period * rate)
-    places = candidate_places(mean)
-    if places.size < 2:
-        return None
-    facts = RecordFacts(
-        found[race].score,
-        race == "inner",
-        math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
-        predictability(signal),
-        log_noise_share(signal),
-    )
-    view = all_pairs(mean, places, facts)
-    pairs = Pairs(view.entry, view.exit, view.lag, pair_rows(view))
-    return Evidence(race, rate, float(np.std(signal)), found_free.unit, found[race], alignment, mean, pairs)
-
-
-def predictability(signal: Array) -> float:
-    """Log of how much more low-passed than white the signal is: variance over that of its differences."""
-    return math.log(float(np.var(signal)) / max(float(np.var(np.diff(signal))), 1e-300))

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.spall_size.evidence import Evidence
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
-
-if TYPE_CHECKING:  # the evidence holds columns of pairs, whose table knows of these too
-    from labels.spall_size.evidence import Evidence
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ import numpy as np
 
 from physics.arrays import Array
 
-Interval = tuple[float, float]
-UNKNOWN: Interval = (math.nan, math.nan)
+# Lower and upper end of an interval; the number that it is around has a field of its own.
+Bounds = tuple[float, float]
+UNKNOWN: Bounds = (math.nan, math.nan)
 NO_TIMES = np.zeros((0, 2))
 # Ball passes that a record must hold; TOO_SHORT says this in words.
 FEWEST_PASSES = 6
@@ -46,12 +47,12 @@ class SizeEstimate:
     method: str
     race: str = ""
     lag: float = math.nan
-    lag_interval: Interval = UNKNOWN
+    lag_interval: Bounds = UNKNOWN
     lag_arc: float = math.nan
     extent: float = math.nan
-    extent_interval: Interval = UNKNOWN
+    extent_interval: Bounds = UNKNOWN
     extent_mm: float = math.nan
-    extent_mm_interval: Interval = UNKNOWN
+    extent_mm_interval: Bounds = UNKNOWN
     candidates: tuple[float, ...] = ()
     pass_period: float = math.nan
     trust: float = 0.0

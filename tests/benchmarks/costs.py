@@ -1,8 +1,9 @@
 """What a run costs beside its records: compiling, starting; how time goes with length and balls, memory with records.
 
-python tests/benchmarks/costs.py writes docs/costs.json and the tables of docs/pipeline.md. Compiling and starting are
-wall clock of a fresh process, with an empty and with a filled cache of kernels; times of responses are processor time,
-medians of rounds; memory is the largest resident size of a process that makes so many records of `gearbox_rig`.
+PYTHONPATH=. python tests/benchmarks/costs.py writes docs/costs.json and the tables of docs/pipeline.md. Compiling and
+starting are wall clock of a fresh process, with an empty and with a filled cache of kernels; times of responses are
+processor time, medians of rounds; memory is the largest resident size of a process that makes so many records of
+`gearbox_rig`.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
+from docs.marked_tables import write_marked
 from physics.reference_scenes import reference_scene
 from physics.scene import Scene
 from physics.simulate import simulate

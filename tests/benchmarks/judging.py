@@ -1,7 +1,8 @@
 """How fast records are judged: features and verdicts of `classify`, and the estimates of `size`.
 
-python tests/benchmarks/judging.py [--records 1000] [--sizes 40] [--workers 2] writes docs/judging.json and the table of
-docs/pipeline.md: wall clock on a machine that does nothing else, corpora made beforehand and learners trained.
+PYTHONPATH=. python tests/benchmarks/judging.py [--records 1000] [--sizes 40] [--workers 2] writes docs/judging.json and
+the table of docs/pipeline.md: wall clock on a machine that does nothing else, corpora made beforehand and learners
+trained.
 """
 
 from __future__ import annotations
@@ -16,17 +17,17 @@ from pathlib import Path
 
 import numpy as np
 
+from datagen.benchmark.options import SPEED_ERROR
 from datagen.benchmark.rows import Reading, read_rows
 from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, train_models, train_rule, training_set
 from datagen.benchmark.verdicts import judge
 from datagen.corpus import Corpus
-from datagen.marked_tables import write_marked
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.sizing.estimators import default_estimator
 from datagen.sizing.sized_records import sized_records
-from datagen.stated_speed import SPEED_ERROR
 from datagen.versions import in_words, measured_on
+from docs.marked_tables import write_marked
 
 ROOT = Path(__file__).resolve().parents[2]
 LEARNED_FROM = 160

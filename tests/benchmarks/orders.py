@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
+from docs.marked_tables import write_marked
 from physics.integrators.methods import MARCHES, METHODS
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene

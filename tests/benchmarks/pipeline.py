@@ -1,6 +1,6 @@
 """The whole pipeline: draw, simulate, sensor, background, envelope, stiffness, truth and writing, as a run does them.
 
-python tests/benchmarks/pipeline.py [--records 64] [--rounds 3] writes docs/pipeline.json and the tables of
+PYTHONPATH=. python tests/benchmarks/pipeline.py [--records 64] [--rounds 3] writes docs/pipeline.json and the tables of
 docs/pipeline.md: times real time of one processor with the default compression and with none, bytes a second of record,
 where the time goes, and what a second worker adds (wall clock, on a machine that does nothing else).
 """
@@ -21,13 +21,13 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from datagen.marked_tables import write_marked
 from datagen.recipes.recipe import Recipe, Store, load_recipe
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard
 from datagen.runs.workers import Engine
 from datagen.versions import in_words, measured_on
+from docs.marked_tables import write_marked
 from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]

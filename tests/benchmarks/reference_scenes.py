@@ -1,6 +1,7 @@
 """Error and real-time factor of every reference scene, against a finer run and beside SciPy's DOP853 in the same run.
 
-python tests/benchmarks/reference_scenes.py [--rounds 5] writes docs/reference_scenes.json and the table in README.md.
+PYTHONPATH=. python tests/benchmarks/reference_scenes.py [--rounds 5] writes docs/reference_scenes.json and the table in
+README.md.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ import statistics
 import time
 from pathlib import Path
 
-from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
+from docs.marked_tables import write_marked
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.response.periodic import METHOD as REPEATED
 from physics.rms import relative_error

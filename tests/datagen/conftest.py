@@ -19,7 +19,7 @@ from datagen.benchmark.model_scores import Confusion, Scores
 from datagen.charts.contestants import contestants
 from datagen.charts.measure import Chart, measure
 from datagen.charts.scenes import find_subject
-from datagen.corpora.shard import finished_shards
+from datagen.corpus_files.shard import finished_shards
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.generate import generate

@@ -64,6 +64,13 @@ def test_every_command_shows_an_example_and_takes_json(command: str) -> None:
     assert "--json FILE" in shown
 
 
+def test_the_help_of_classify_names_every_kind_of_training_set() -> None:
+    _, shown, _ = run("classify", "--help")
+    told = "".join(shown.split())  # lines end at blanks and behind hyphens
+    for kind in ("Simulatedcorpus", "afilethat--savewrote", "impulse-trains,", "impulse-trains-without-INGREDIENT"):
+        assert kind in told
+
+
 def test_generate_check_and_info_work_and_write_their_results(tiny_recipe: Path, tmp_path: Path) -> None:
     out, results = tmp_path / "out", tmp_path / "results.json"
     code, shown, told = run("generate", tiny_recipe, "--out", out, "--limit", 3, "--workers", 1, "--json", results)

@@ -106,13 +106,13 @@ def test_a_corpus_is_a_sequence_of_signals_and_labels_that_can_be_pickled(corpus
 
 
 def test_few_files_stay_open_however_many_are_read(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("datagen.corpora.open_shards.OPEN_FILES", 2)
+    monkeypatch.setattr("datagen.corpus_files.open_shards.OPEN_FILES", 2)
     corpus = Corpus(tiny_corpus)
     for record in range(14):
         corpus.waveform(record)
-        assert len(corpus._shards.open_files) <= 2
+        assert len(corpus.open_files) <= 2
     corpus.close()
-    assert not corpus._shards.open_files
+    assert not corpus.open_files
 
 
 def test_a_corpus_dropped_without_closing_does_no_harm(tiny_corpus: Path) -> None:

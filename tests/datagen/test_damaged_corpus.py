@@ -10,8 +10,8 @@ import h5py
 import pytest
 from command_line import run
 
-from datagen.corpora.shard import shard_path
 from datagen.corpus import Corpus
+from datagen.corpus_files.shard import shard_path
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 

@@ -1,7 +1,5 @@
 """The script that disturbs recordings: what it refuses, and how strong what it adds is."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray
@@ -11,8 +9,7 @@ from datagen.errors import BadInput
 
 
 @pytest.fixture
-def script(load_script, monkeypatch):
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "docs"))
+def script(load_script):
     return load_script("make_disturbed")
 
 

@@ -3,15 +3,17 @@
 import re
 import shlex
 import sys
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pandas
 import pytest
+from marked_tables import write_marked
 from typer.testing import CliRunner
 
+from datagen.benchmark.impulse_train import Ingredients
 from datagen.cli import app
-from datagen.marked_tables import write_marked
 from labels.classifier.classes import CLASSES
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -56,6 +58,11 @@ def test_the_page_has_an_example_of_each_kind_and_a_command_for_each_module():
 
 def test_the_page_names_the_classes_in_their_order():
     assert f"    {', '.join(CLASSES)}\n" in PAGE
+
+
+def test_the_page_names_every_ingredient_of_an_impulse_train():
+    told = PAGE.split("impulse-trains-without-INGREDIENT")[1].split("\n## ")[0]
+    assert re.findall(r"^\| `(\w+)` \|", told, re.MULTILINE) == [field.name for field in fields(Ingredients)]
 
 
 def test_the_tables_are_those_that_the_script_writes(load_script, tmp_path):

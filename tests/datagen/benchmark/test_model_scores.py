@@ -1,7 +1,6 @@
 """Reports hold the scores of a model as plain numbers, and only those that apply."""
 
-from datagen.benchmark.model_scores import Calibration, ConditionScores, MinusRule, report
-from datagen.files.plain import plain_json
+from datagen.benchmark.model_scores import Calibration, ConditionScores, MinusRule
 from labels.interval import Interval
 
 OF_ALL = [
@@ -47,12 +46,3 @@ def test_parts_of_a_group_stand_beside_the_other_scores(made_scores):
     assert found["detection_auc"] == found["minus_rule"]["race_accuracy"] == HALF_HELD
     assert found["calibration_error"] == 0.0
     assert found["calibration_error_interval"] == {"low": 0.0, "high": 0.2}
-
-
-def test_scores_are_plain_wherever_they_are_in_the_results(made_scores):
-    scores = made_scores(detection_auc=HALF)
-    results = {"train": "a", "tests": [{"models": {"rule": scores}, "noise": [{"models": {"rule": scores}}]}]}
-    (test,) = report(results)["tests"]
-    assert test["models"]["rule"] == test["noise"][0]["models"]["rule"]
-    assert test["models"]["rule"]["detection_auc"] == HALF_HELD
-    assert "minus_rule" not in plain_json(report(results))

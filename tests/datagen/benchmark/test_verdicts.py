@@ -8,7 +8,8 @@ import pandas
 import pytest
 from scipy.stats import binomtest
 
-from datagen.benchmark.predictions import prediction_table
+from datagen.benchmark.predictions import ModelAnswer, Prediction, prediction_table, record_predictions
+from datagen.benchmark.results import CorpusResults
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
@@ -66,7 +67,7 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
     generator = np.random.default_rng(2)
     probability = generator.dirichlet([1.0, 2.0, 2.0, 0.5, 0.5], len(locations))
     one = judged(locations, probability)
-    once, pooled = (summarise(replace(found), False)["models"]["said"] for found in (one, pooled_draws([one] * 10)))
+    once, pooled = (summarise(replace(found)).models["said"] for found in (one, pooled_draws([one] * 10)))
     for name in ("faults_balanced_accuracy", "race_accuracy"):
         assert astuple(getattr(pooled, name)) == pytest.approx(astuple(getattr(once, name)))
         differences = [astuple(getattr(scores.minus_rule, name))[1:] for scores in (pooled, once)]
@@ -78,8 +79,8 @@ def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
     # One in ten of either side has the probability of the other: calibrated at equal priors, odds nine to one.
     spall = np.where(np.arange(100) < 10, 0.1, 0.9)
     spall[[0, *range(10, 19)]] = 0.9, *[0.1] * 9
-    found = summarise(judged(locations, np.column_stack([1 - spall, spall, *np.zeros((3, 100))])), False)
-    assert found["models"]["said"].calibration.calibration_error.value == pytest.approx(
+    found = summarise(judged(locations, np.column_stack([1 - spall, spall, *np.zeros((3, 100))])))
+    assert found.models["said"].calibration.calibration_error.value == pytest.approx(
         0.0, abs=1e-5
     )  # votes keep 1e-6 for every class
 
@@ -89,7 +90,7 @@ def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interv
     labels, rows = corpus(locations)
     labels.loc[20:, "condition"] = "unknown"
     model = Model("said", Said(np.column_stack([1 - spall, np.zeros((40, 1)), spall, np.zeros((40, 2))])), 0.5)
-    said = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
+    said = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)).models["said"]
     found = said.calibration
     assert found.reliability["observed"] == [0.0, 1.0]
     assert found.calibration_error.value == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
@@ -101,7 +102,7 @@ def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interv
 def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_drawn():
     spall = np.where(np.arange(12) < 1, 0.9, 0.1)
     one = judged(["none"] * 10 + ["outer"] * 2, np.column_stack([1 - spall, spall, *np.zeros((3, 12))]))
-    once, pooled = (summarise(found, False)["models"]["said"] for found in (one, pooled_draws([one] * 4)))
+    once, pooled = (summarise(found).models["said"] for found in (one, pooled_draws([one] * 4)))
     share = binomtest(1, 10).proportion_ci()
     assert (once.false_alarms, pooled.false_alarms) == (1, 4)
     for found in (once, pooled):
@@ -113,16 +114,17 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     rows = replace(rows, table=rows.table[:2], record=rows.record[:2], rejected={2: "too short"})
     rows = replace(rows, glitches={1: 4}, shocks={1: 2})
     models = [Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)]
-    summary = summarise(judge(Path("made-up"), labels, rows, RULE, models, 0.0, True))
-    assert summary["rejections"] == {"too short": 1}
-    assert summary["despiked"] == {"records": 1, "glitches": 4}
-    assert summary["shocks_cut"] == {"records": 1, "shocks": 2}
-    first, second, third = summary["predictions"]
-    assert (first["rejected"], second["despiked"], third["rejected"]) == ("", 4, "too short")
-    assert first["rule"]["alarm"] == RULE.threshold
-    assert first["said"]["alarm"] == pytest.approx(0.7)
-    assert np.isnan(third["said"]["alarm"])
-    table = prediction_table([summary]).splitlines()
+    tested = judge(Path("made-up"), labels, rows, RULE, models, 0.0, True)
+    summary = summarise(tested)
+    assert summary.rejections == {"too short": 1}
+    assert summary.despiked == {"records": 1, "glitches": 4}
+    assert summary.shocks_cut == {"records": 1, "shocks": 2}
+    first, second, third = predictions = record_predictions(tested)
+    assert (first.rejected, second.despiked, third.rejected) == ("", 4, "too short")
+    assert first.models["rule"].alarm == RULE.threshold
+    assert first.models["said"].alarm == pytest.approx(0.7)
+    assert np.isnan(third.models["said"].alarm)
+    table = prediction_table(["rule", "said"], [("made-up", predictions)]).splitlines()
     assert table[0].startswith("corpus,record,recording,bearing_id,truth,rejected,despiked,shocks_cut,rule_location,")
     location, score, alarm = table[1].split(",")[-3:]
     assert (location, float(alarm)) == ("outer", 0.7)
@@ -150,13 +152,13 @@ def test_nothing_is_said_of_a_record_without_features():
         assert np.isnan(said.score[unjudged]).all()
         assert np.isfinite(said.score[~unjudged]).all()
     assert np.isnan(tested.verdicts[1].probability[unjudged]).all()
-    last = summarise(tested)["predictions"][-1]
-    assert np.isnan(last["rule"]["score"])
-    assert np.isnan(list(last["said"]["location_probability"].values())).all()
+    last = record_predictions(tested)[-1].models
+    assert np.isnan(last["rule"].score)
+    assert np.isnan(list(last["said"].location_probability.values())).all()
 
 
 def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_no_calibration():
-    models = summarise(with_unjudged_records()[0], False)["models"]
+    models = summarise(with_unjudged_records()[0]).models
     for scores in models.values():
         assert scores.race_accuracy.value == pytest.approx(0.6)
         assert scores.faults_balanced_accuracy.value == pytest.approx(0.6)
@@ -173,7 +175,7 @@ def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     labels, rows = corpus(["none", "outer", "inner"])
     rows = replace(rows, table=rows.table[:0], record=rows.record[:0], rejected=dict.fromkeys(range(3), "too short"))
     tested = judge(Path("made-up"), labels, rows, RULE, [Model("said", Said([]), 0.5)], 0.0, True)
-    said = summarise(tested, False)["models"]["said"]
+    said = summarise(tested).models["said"]
     assert said.race_accuracy.value == 0.0
     assert np.isnan(said.detection_auc.value)
     assert said.calibration is None
@@ -220,7 +222,7 @@ def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
     labels["bearing_id"] = ["one", "one", "two", "three", "three", "faulty"]
     spall = np.array([0.9, 0.9, 0.1, 0.1, 0.9, 0.9])
     model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 6))])), 0.5)
-    found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True), False)["models"]["said"]
+    found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)).models["said"]
     assert (found.healthy, found.false_alarms) == (5, 3)
     assert (found.healthy_bearings, found.alarming_bearings) == (3, 2)
 
@@ -239,7 +241,7 @@ def test_unknown_bearings_are_not_counted_as_one(bearings, counts, words):
     spall = np.array([0.9, 0.1, 0.9, 0.1])
     model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 4))])), 0.5)
     tested = judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)
-    found = summarise(tested, False)["models"]["said"]
+    found = summarise(tested).models["said"]
     names = ("healthy_bearings", "alarming_bearings", "healthy_of_unknown_bearing")
     assert tuple(getattr(found, name) for name in names) == counts
     assert f"{words}, rejected 0" in score_line(found)
@@ -248,17 +250,15 @@ def test_unknown_bearings_are_not_counted_as_one(bearings, counts, words):
 def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
     outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.95, 0.05, 0.0, 0.0, 0.0]
     locations = ["none", "none", "ball", "unknown", "outer"]
-    found = summarise(judged(locations, [outer, healthy, outer, outer, outer]), False)["models"]["said"]
+    found = summarise(judged(locations, [outer, healthy, outer, outer, outer])).models["said"]
     assert (found.healthy, found.false_alarms) == (2, 1)
     assert found.confusion.counts[-1] == [0, 2, 0, 0]  # beside them, called outer
 
 
 def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(capsys):
     outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]
-    summary = summarise(judged(["none", "unknown", "ball"], [healthy, outer, healthy]))
-    facts = {"corpus": "made-up", "rejections": {}, "noise": []}
-    none = {"glitches": 0, "shocks": 0, "records": 0}
-    tell_results({"tests": [summary | facts | {"despiked": none, "shocks_cut": none}]})
+    tested = judged(["none", "unknown", "ball"], [healthy, outer, healthy])
+    tell_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
     lines = [line for line in capsys.readouterr().out.splitlines() if "│" in line]
     assert len(lines) == 2
     assert "unknown" in lines[0]
@@ -283,10 +283,8 @@ def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
 )
 def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, told):
     where = {"none": 1.0 - score, "outer": score, "inner": 0.0}
-    model = {"location": location, "score": score, "alarm": 0.73, "location_probability": where}
-    rule = {"location": "inner", "score": 30.0, "alarm": 9.0}
-    entry = {"record": 0, "recording": "a", "truth": "unknown", "rejected": "", "forest": model, "rule": rule}
-    table = verdict_table([entry], ["forest", "rule"])
+    answers = {"forest": ModelAnswer(location, score, 0.73, where), "rule": ModelAnswer("inner", 30.0, 9.0)}
+    table = verdict_table([Prediction(0, "a", "b", "unknown", "", 0, 0, answers)], ["forest", "rule"])
     columns = {str(column.header): list(column.cells) for column in table.columns}
     assert (columns["forest"], columns["rule"]) == ([told], ["inner"])
     assert "a spall, and the alarm above which one is called" in str(table.caption)

@@ -21,8 +21,8 @@ from datagen.cards.report import CARD, METADATA, VOCABULARY, Report, write_repor
 from datagen.cards.toml_text import toml_text
 from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.cli import app
-from datagen.corpora.index import LABEL_COLUMNS
 from datagen.corpus import Corpus
+from datagen.corpus_files.index import LABEL_COLUMNS
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.recordings.importing import import_recordings

@@ -37,7 +37,11 @@ def test_lines_above_half_the_rate_are_said_to_be_there_and_not_looked_for(portr
 def test_silence_is_drawn_without_a_warning(portrait):
     drawn = portrait("line, outer")
     still = np.zeros_like(drawn.acceleration)
-    axes_of(replace(drawn, acceleration=still, clean=still, envelope=still[:, 0]), "Squared")
+    panel = axes_of(replace(drawn, acceleration=still, clean=still, envelope=still[:, 0]), "Squared")
+    low, high = panel.get_ylim()
+    assert 0.0 < low < high  # of a logarithmic axis
+    assert (panel.lines[0].get_ydata() <= low).all()  # the spectrum lies at the foot
+    assert all(line.get_xdata().size == 0 for line in panel.lines[1:])  # and no line stands out of it
 
 
 @pytest.fixture

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from datagen.benchmark.options import Asked
+from datagen.benchmark.results import CorpusResults, CorpusScores, Results
 from datagen.drawing.scores import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
 from datagen.drawing.style import house_style, with_panels
 from labels.interval import Interval
@@ -24,7 +26,7 @@ def summary(made_scores, none, outer):
     if none and outer:
         scores = replace(scores, detection_auc=HALF)
     locations = {"none": none, "outer": outer, "inner": 0}
-    return {"corpus": "out/made", "records": none + outer, "locations": locations, "models": {"rule": scores}}
+    return CorpusScores("out/made", False, none + outer, locations, {}, {}, {}, {"rule": scores})
 
 
 @pytest.fixture
@@ -59,18 +61,18 @@ def test_what_cannot_be_drawn_is_explained(words, summary_of):
 
 def test_every_model_has_its_table_of_confusion(summary_of):
     test = summary_of(5, 10)
-    (scores,) = test["models"].values()
+    (scores,) = test.models.values()
     counts = {"rule": 7, "forest": 8, "logistic": 9}
-    test["models"] = {
+    models = {
         name: replace(scores, confusion=replace(scores.confusion, counts=[[count]])) for name, count in counts.items()
     }
     with house_style():
         figure, axes = with_panels(figsize=(4.0, 3.0))
-        draw_confusion(axes, test)
+        draw_confusion(axes, replace(test, models=models))
         drawn = {panel.get_title(loc="left"): panel.texts[0].get_text() for panel in figure.axes if panel.texts}
     assert drawn == {"said by rule": "7", "said by forest": "8", "said by logistic": "9"}
 
 
 def test_the_sheet_of_a_corpus_without_faults_is_a_picture(summary_of):
-    results = {"tests": [summary_of(96, 0)], "importances": {}}
+    results = Results("out/made", Asked(), {"importances": {}}, [CorpusResults(summary_of(96, 0), [], [])], 1.0)
     assert scores_png(results).startswith(b"\x89PNG")

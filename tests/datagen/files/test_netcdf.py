@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import h5py
 import netCDF4
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora.format import content_hash, to_dataset
+from datagen.corpus_files.format import content_hash, to_dataset
 from datagen.files import netcdf
 from datagen.files.chunk import checksum, chunk_bytes, deflated, shuffled
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes
@@ -115,25 +116,34 @@ def test_without_the_fast_libraries_netcdf_does_it_all(monkeypatch: pytest.Monke
     assert not netcdf.has_fast_chunks()
 
 
-@pytest.mark.parametrize("filled", [b"", b"CDF", OSError("no file"), KeyError("no object"), "half"])
+@pytest.fixture
+def asked_anew() -> Iterator[None]:
+    """Whether netCDF reads what h5py writes, else found out once a process, is asked in this test and after it."""
+    netcdf.reads_back.cache_clear()
+    yield
+    netcdf.reads_back.cache_clear()
+
+
+@pytest.mark.parametrize("found", [b"", b"CDF", OSError("no file"), KeyError("no object"), "half"])
+@pytest.mark.usefixtures("asked_anew")
 def test_where_netcdf_does_not_read_what_h5py_writes_it_does_it_all(
-    filled: object, dataset: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    found: object, dataset: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    plain = netcdf._filled
+    plain = netCDF4.Dataset
 
-    def broken(*given: object) -> bytes:
-        if isinstance(filled, Exception):
-            raise filled
-        content = plain(*given)  # type: ignore[arg-type]
-        return filled if isinstance(filled, bytes) else content[: len(content) // 2]
+    def not_at_home(name: str, mode: str = "r", **given: Any) -> netCDF4.Dataset:
+        """netCDF4, to which a file that it did not write itself is another or none."""
+        if mode == "r" and isinstance(found, Exception):
+            raise found
+        if mode == "r":
+            content = given["memory"]
+            given["memory"] = found if isinstance(found, bytes) else content[: len(content) // 2]
+        return plain(name, mode, **given)
 
-    netcdf._reads_back.cache_clear()
-    monkeypatch.setattr(netcdf, "_filled", broken)
-    try:
+    path = tmp_path / "a.nc"
+    with monkeypatch.context() as patched:
+        patched.setattr(netCDF4, "Dataset", not_at_home)
         assert not netcdf.has_fast_chunks()
-        path = tmp_path / "a.nc"
         path.write_bytes(netcdf_bytes(dataset, "zlib"))
-        with xarray.open_dataset(path) as opened:
-            assert content_hash(opened.load()) == content_hash(dataset)
-    finally:
-        netcdf._reads_back.cache_clear()
+    with xarray.open_dataset(path) as opened:
+        assert content_hash(opened.load()) == content_hash(dataset)

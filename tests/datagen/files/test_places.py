@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import tempfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -22,12 +26,28 @@ FOLDERS = {
 WORK = (
     "datagen.runs.run.Run.make",
     "datagen.cards.report.corpus_facts",
-    "datagen.sizing.score.score_sizes",
+    "datagen.sizing.corpus_run.score_sizes",
     "datagen.paper.book.import_module",
     "datagen.charts.measure.measure",
     "datagen.benchmark.classify.run",
     "datagen.records.record.make_record",
 )
+
+
+@pytest.fixture
+def lock(monkeypatch):
+    """Function (word) after which no folder with that word in its path takes files, whatever its permissions say."""
+
+    def make(word: str) -> None:
+        def in_open_folders(**given: Any) -> Any:
+            if word in str(given["dir"]):
+                raise OSError(errno.EROFS, "Read-only file system")
+            return temporary_file(**given)
+
+        temporary_file = tempfile.TemporaryFile
+        monkeypatch.setattr(tempfile, "TemporaryFile", in_open_folders)
+
+    return make
 
 
 @pytest.fixture
@@ -70,8 +90,8 @@ def test_a_file_is_no_folder(command, refused, tmp_path):
 
 
 @pytest.mark.parametrize("command", FOLDERS)
-def test_a_folder_that_may_not_be_written_into_is_refused(command, refused, tmp_path, monkeypatch):
-    monkeypatch.setattr("datagen.files.places._writable", lambda folder: False)
+def test_a_folder_that_may_not_be_written_into_is_refused(command, refused, tmp_path, lock):
+    lock(tmp_path.name)
     assert f"cannot write into {tmp_path}" in refused(FOLDERS[command], tmp_path / "out")
     assert list(tmp_path.iterdir()) == []
 
@@ -82,10 +102,10 @@ def test_a_folder_that_may_not_be_written_into_is_refused(command, refused, tmp_
     [("preview", "RECIPE", "--out", "PLACE"), ("catalog", "--json", "PLACE"), ("schema", "--out", "PLACE")],
     ids=lambda arguments: arguments[0],
 )
-def test_a_place_for_a_file_is_looked_at_first(arguments, place, refused, tmp_path, monkeypatch):
+def test_a_place_for_a_file_is_looked_at_first(arguments, place, refused, tmp_path, lock):
     for folder in ("a folder", "a folder.png", "locked"):
         (tmp_path / folder).mkdir()
-    monkeypatch.setattr("datagen.files.places._writable", lambda folder: "locked" not in str(folder))
+    lock("locked")
     if arguments[0] == "preview":
         place = place.removesuffix(".json") + ".png"
     words = {"a": "this is a folder", "nowhere": "no such folder", "locked": "cannot write into"}
@@ -100,21 +120,24 @@ def test_a_name_too_long_for_a_file_is_refused(tmp_path):
             require(tmp_path / ("x" * 300))
 
 
-def test_a_terminal_and_a_file_that_is_there_are_places(tmp_path):
-    (tmp_path / "old.json").write_text("{}")
-    require_file(tmp_path / "old.json")
-    require_file(Path("/dev/null"))
+def test_a_file_that_is_there_is_a_place_and_stays_as_it_is_until_it_is_written_over(tmp_path):
+    old = tmp_path / "old.json"
+    old.write_text("mine")
+    require_file(old)
+    assert [(path, path.read_text()) for path in tmp_path.iterdir()] == [(old, "mine")]
 
 
-def test_whether_a_folder_takes_files_is_found_by_trying_and_nothing_is_left(tmp_path, monkeypatch):
+def test_results_may_go_to_a_terminal_or_to_nowhere():
+    done = CliRunner().invoke(app, ["catalog", "--json", os.devnull], catch_exceptions=False)
+    assert done.exit_code == 0
+    assert "rig gearbox" in done.stdout
+
+
+def test_whether_a_folder_takes_files_is_found_by_trying_and_nothing_is_left(tmp_path, lock):
     require_folder(tmp_path / "new")
     require_file(tmp_path / "new.json")
     assert list(tmp_path.iterdir()) == []
-
-    def full(**_: object) -> None:
-        raise OSError(30, "Read-only file system")
-
-    monkeypatch.setattr("datagen.files.places.tempfile.TemporaryFile", full)
+    lock(tmp_path.name)
     with pytest.raises(BadInput, match="cannot write into"):
         require_folder(tmp_path / "new")
 

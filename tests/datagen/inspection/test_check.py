@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora.format import content_hash
-from datagen.corpora.shard import file_hash, label_columns, shard_path, sidecar_path
 from datagen.corpus import Corpus
+from datagen.corpus_files.format import content_hash
+from datagen.corpus_files.shard import file_hash, label_columns, shard_path, sidecar_path
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.files.netcdf import netcdf_bytes

@@ -10,9 +10,9 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.cli import app
-from datagen.corpora.index import index_path, read_index
-from datagen.corpora.manifest import manifest_path
-from datagen.corpora.shard import sidecar_path
+from datagen.corpus_files.index import index_path, read_index
+from datagen.corpus_files.manifest import manifest_path
+from datagen.corpus_files.shard import sidecar_path
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 

@@ -14,7 +14,7 @@ from command_line import run
 from rich.console import Console
 
 from datagen.commands.tables import info_tables
-from datagen.corpora.manifest import read_manifest
+from datagen.corpus_files.manifest import read_manifest
 from datagen.inspection.info import Info, corpus_info
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate

@@ -1,6 +1,7 @@
 import csv
 import errno
 import json
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -57,7 +58,10 @@ def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path):
 
 
 def test_a_folder_that_cannot_be_written_into_is_bad_input(tmp_path, monkeypatch):
-    monkeypatch.setattr("datagen.files.places._writable", lambda folder: False)
+    def full(**_: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", full)
     with pytest.raises(BadInput, match="cannot write into"):
         write_book(tmp_path, ["6"])
     assert list(tmp_path.iterdir()) == []

@@ -9,8 +9,8 @@ from datagen.paper.figure06_stiffness import STEPS, period, stiffness
 from datagen.paper.figure07_contact_forces import forces
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, harmonics
 from datagen.paper.figure11_fan_rig import Recording, vertical_modes
-from datagen.paper.recordings import recordings
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, scene
+from datagen.paper.simulated import simulated
 from labels.truth import PassTable
 from physics.reference_scenes import gap_line_spall, line_spall
 from physics.statics.stiffness import stiffness_trace
@@ -74,8 +74,8 @@ def test_lines_of_figure_8_lie_where_the_claims_say(ours, chapter):
 
 
 def test_the_record_that_is_drawn_is_an_ordinary_one():
-    line = np.array([harmonics(one) for one in recordings("line")])
-    above = np.array([harmonics(one) for one in recordings("extended")]) - line
+    line = np.array([harmonics(one) for one in simulated("line")])
+    above = np.array([harmonics(one) for one in simulated("extended")]) - line
     mean = np.mean(above[:, FIRST_READ - 1 :], axis=1)
     low, high = np.quantile(mean, [0.25, 0.75])
     assert list(SEEDS)[SHOWN_SEED] == SHOWN_SEED

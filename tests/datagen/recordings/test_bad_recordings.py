@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.recordings.source import source_hash
 
 Bring = Callable[..., Corpus]
 Mat = Callable[..., np.ndarray]
@@ -223,16 +224,14 @@ def test_an_import_that_breaks_off_while_writing_leaves_nothing(
 def test_a_file_that_changes_during_the_import_is_noticed(
     bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from datagen.recordings import importing, source
-
-    def meddling(*arguments: object) -> object:
+    def meddling(path: Path) -> str:
         mat("a.mat", noise(seed=99))
-        source._opened.cache_clear()
-        return manifest(*arguments)
+        return source_hash(path)
 
     mat("a.mat", noise(seed=1))
-    manifest = importing._manifest
-    monkeypatch.setattr(importing, "_manifest", meddling)
+    mat("b.mat", noise(seed=2))  # read last, so that a.mat is no longer remembered
+    # The hashes are taken when all files have been checked, and before they are read again.
+    monkeypatch.setattr("datagen.recordings.importing.source_hash", meddling)
     with pytest.raises(BadInput, match=r"a\.mat: the file changed while it was being imported"):
         bring(GOOD)
     assert not (tmp_path / "corpus").exists()

@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import wave
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import netCDF4
@@ -17,12 +17,14 @@ import xarray
 from command_line import run
 from scipy.io import wavfile
 
-from datagen.corpora.shard import file_hash
 from datagen.corpus import Corpus
+from datagen.corpus_files.shard import file_hash
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 from datagen.inspection.info import corpus_info
+from datagen.recordings.listing import Request
+from datagen.recordings.recorded import Recorded, read_recording
 from labels.envelope import band_envelope
 from labels.schema import LABEL
 
@@ -391,7 +393,7 @@ def test_a_full_disk_is_told_of_the_folder_that_is_written(
         raise OSError(errno.ENOSPC, "No space left on device")
 
     mat("a.mat")
-    monkeypatch.setattr("datagen.corpora.shard.write_atomically", full)
+    monkeypatch.setattr("datagen.corpus_files.shard.write_atomically", full)
     with pytest.raises(BadInput) as problem:
         bring(SPEC)
     assert str(problem.value) == f"{tmp_path / 'corpus'}: --out: cannot write here: No space left on device"
@@ -401,13 +403,19 @@ def test_a_full_disk_is_told_of_the_folder_that_is_written(
 def test_a_recording_that_cannot_be_read_again_is_not_told_of_the_folder_that_is_written(
     bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def gone(*_: object) -> None:
-        raise OSError(errno.EIO, "Input/output error", "a.mat")
+    asked: list[Request] = []
+
+    def read_once(request: Request) -> Iterator[Recorded]:
+        asked.append(request)
+        if len(asked) > 1:
+            raise OSError(errno.EIO, "Input/output error", "a.mat")
+        return read_recording(request)
 
     mat("a.mat")
-    monkeypatch.setattr("datagen.recordings.importing._read_again", gone)
+    monkeypatch.setattr("datagen.recordings.importing.read_recording", read_once)
     with pytest.raises(OSError, match=r"Input/output error: 'a\.mat'"):
         bring(SPEC)
+    assert len(asked) == 2
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.mat", "spec.toml"]
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import gzip
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.formats import csv_file
+from datagen.files.csv_rows import Row, read_csv_rows
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
 
@@ -72,6 +73,24 @@ def test_a_cell_that_is_no_number_is_shown_with_its_line(
     assert str(problem.value) == f"{tmp_path / 'a.csv'}, {told}"
 
 
+def at_once_only(patched: pytest.MonkeyPatch) -> None:
+    """From now on no table is split into cells, but for the first rows by which its layout is known."""
+
+    def first_rows(*arguments: Any, most: int) -> list[Row]:
+        return read_csv_rows(*arguments, most=most)
+
+    patched.setattr("datagen.formats.csv_file.read_csv_rows", first_rows)
+
+
+def cell_by_cell_only(patched: pytest.MonkeyPatch) -> None:
+    """From now on numpy reads no table at once."""
+
+    def refuses(*_: object, **__: object) -> None:
+        raise ValueError("not read at once")
+
+    patched.setattr(np, "loadtxt", refuses)
+
+
 @pytest.mark.parametrize(
     ("head", "layout"),
     [
@@ -87,11 +106,12 @@ def test_a_table_of_nothing_but_numbers_is_read_at_once_and_gives_the_same(
 ) -> None:
     lines = [layout.delimiter.join(map(repr, cells)).replace(".", layout.decimal) for cells in CELLS]
     (tmp_path / "a.csv").write_text(head + "\n".join(lines), newline="")
-    monkeypatch.setattr(csv_file, "_columns", None)
-    at_once = read_arrays(tmp_path / "a.csv", None, layout)
-    monkeypatch.undo()
-    monkeypatch.setattr(csv_file, "_clean_table", lambda *_: None)
-    by_cells = read_arrays(tmp_path / "a.csv", None, layout)
+    with monkeypatch.context() as patched:
+        at_once_only(patched)
+        at_once = read_arrays(tmp_path / "a.csv", None, layout)
+    with monkeypatch.context() as patched:
+        cell_by_cell_only(patched)
+        by_cells = read_arrays(tmp_path / "a.csv", None, layout)
     for columns in (at_once, by_cells):
         assert [columns[name].tolist() for name in columns] == np.array(CELLS).T.tolist()
         assert list(columns) == ["a", "b"]
@@ -125,13 +145,11 @@ def test_no_delimiter_is_guessed_where_the_rows_are_read(bring: Bring, tmp_path:
     assert "did you mean" not in str(refused.value)
 
 
-@pytest.mark.parametrize(
-    "switched_off", [("_columns", None), ("_clean_table", lambda *_: None)], ids=["at once", "cells"]
-)
+@pytest.mark.parametrize("way", [at_once_only, cell_by_cell_only])
 def test_a_delimiter_at_the_end_of_each_row_makes_an_empty_column(
-    switched_off: tuple[str, object], bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    way: Callable[[pytest.MonkeyPatch], None], bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(csv_file, *switched_off)
+    way(monkeypatch)
     rows = "".join(f"{first!r}\t{second!r}\t\r\n" for first, second in CELLS)
     (tmp_path / "a.csv").write_text("by hand\n" + rows, newline="")
     columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(delimiter="\t", header=False, skip_lines=1))

@@ -13,13 +13,13 @@ from typing import Any
 import joblib
 import pytest
 
-import datagen.corpora.index
-import datagen.corpora.manifest
-import datagen.corpora.shard
+import datagen.corpus_files.index
+import datagen.corpus_files.manifest
+import datagen.corpus_files.shard
 import datagen.runs.run
-from datagen.corpora.index import read_index
-from datagen.corpora.manifest import read_manifest
-from datagen.corpora.shard import finished_shards, shard_path, sidecar_path
+from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import read_manifest
+from datagen.corpus_files.shard import finished_shards, shard_path, sidecar_path
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.recipes.recipe import Recipe
@@ -227,7 +227,7 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
             raise OSError(errno.ENOSPC, "no space left on device")
         write_atomically(path, data)
 
-    monkeypatch.setattr(datagen.corpora.shard, "write_atomically", filling)
+    monkeypatch.setattr(datagen.corpus_files.shard, "write_atomically", filling)
     run = generate(tiny, tmp_path / "out", engine=ALONE)
     assert not run.complete
     assert run.problem.startswith(f"the disk is full: {14 - run.made} records have not been made")
@@ -246,9 +246,9 @@ def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
     def full(path: Path, data: bytes | memoryview = b"") -> None:
         raise OSError(errno.ENOSPC, "no space left on device")
 
-    for module in (datagen.corpora.shard, datagen.corpora.manifest):
+    for module in (datagen.corpus_files.shard, datagen.corpus_files.manifest):
         monkeypatch.setattr(module, "write_atomically", full)
-    monkeypatch.setattr(datagen.corpora.index, "opened_atomically", full)
+    monkeypatch.setattr(datagen.corpus_files.index, "opened_atomically", full)
     run = generate(tiny, tmp_path / "out", engine=ALONE)
     assert (run.made, run.asked) == (0, 14)
     assert "the disk is full" in run.problem

@@ -80,7 +80,13 @@ def test_the_lowest_rate_is_that_of_the_rig_and_not_of_its_rate(tmp_path: Path) 
 def test_parts_of_which_some_records_are_possible_are_made(tmp_path: Path) -> None:
     mixed = TEXT.replace('rig = "gearbox"', 'rig = "gearbox"\nmachine.factors.resonator_mass = {choice = [1, 400]}')
     (tmp_path / "recipe.toml").write_text(mixed.replace("32768", "500").replace("0.05", "1").replace("= 3", "= 20"))
-    require_possible_rates(load_recipe(tmp_path / "recipe.toml"), ((0, 20),))
+    recipe = load_recipe(tmp_path / "recipe.toml")
+    possible = [lowest_rate(draw_scenario(recipe, record)) <= 500.0 for record in range(20)]
+    assert set(possible) == {True, False}
+    one = possible.index(False)
+    with pytest.raises(BadInput, match="a rate of 500 Hz has to be raised"):
+        require_possible_rates(recipe, ((one, one + 1),))
+    require_possible_rates(recipe, ((0, 20),))
 
 
 @pytest.mark.parametrize("duration", ["3600", "{uniform = [3000, 3600]}"])

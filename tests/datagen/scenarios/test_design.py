@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import multiprocessing
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +14,7 @@ import pytest
 from scipy.stats import qmc
 
 from datagen.recipes.recipe import Recipe, parse_recipe
-from datagen.scenarios import design, machine
+from datagen.scenarios import design
 from datagen.scenarios.design import BLOCK, DIMENSIONS, TOTAL, Design, dimension_of
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -29,6 +33,12 @@ def recipe_of(kind: str, records: int, **settings: Any) -> Recipe:
 
 def draw_all(recipe: Recipe) -> list[Scenario]:
     return [draw_scenario(recipe, record) for record in range(recipe.count)]
+
+
+def drawn_elsewhere(recipe: Recipe, records: Iterable[int]) -> list[Scenario]:
+    """Scenarios drawn in that order by a process that remembers none."""
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        return list(pool.map(partial(draw_scenario, recipe), records))
 
 
 def unit_cube(scenarios: list[Scenario]) -> np.ndarray:
@@ -95,12 +105,10 @@ def test_the_first_records_of_a_sobol_design_are_already_spread() -> None:
 
 @pytest.mark.parametrize("kind", DESIGNS)
 def test_a_designed_record_is_remade_alone_and_in_any_order(kind: str) -> None:
-    forward = draw_all(recipe_of(kind, 12, records_per_machine=3))
-    design.sobol_block.cache_clear()
-    design._latin_cells.cache_clear()
-    machine._first_possible.cache_clear()
-    assert draw_scenario(recipe_of(kind, 12, records_per_machine=3), 7) == forward[7]
-    assert [draw_scenario(recipe_of(kind, 12, records_per_machine=3), k) for k in range(11, -1, -1)] == forward[::-1]
+    recipe = recipe_of(kind, 12, records_per_machine=3)
+    forward = draw_all(recipe)
+    assert drawn_elsewhere(recipe, [7]) == [forward[7]]
+    assert drawn_elsewhere(recipe, range(11, -1, -1)) == forward[::-1]
 
 
 def test_a_sobol_design_goes_on_unchanged_when_records_are_added() -> None:

@@ -15,7 +15,7 @@ from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
-from datagen.sizing.score import score_sizes
+from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import reason_against
 from labels.spall_size.situation import Situation
@@ -155,7 +155,7 @@ class Tells:
 def test_the_table_of_recordings_tells_race_size_intervals_and_trust(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    monkeypatch.setattr("datagen.sizing.corpus_run.find_estimator", lambda _: Tells())
     code, said, _ = size(imported(tmp_path, noise=noise(2)), "--json", tmp_path / "s.json")
     assert code == 0
     # 0.1 rad is 5.73 degrees, its interval 4.58 to 6.88.
@@ -193,7 +193,7 @@ def stated(tmp_path: Path) -> Path:
 def test_recordings_are_scored_by_the_extents_that_are_stated_and_the_run_is_logged(
     stated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    monkeypatch.setattr("datagen.sizing.corpus_run.find_estimator", lambda _: Tells())
     code, said, _ = size(stated, "--json", tmp_path / "s.json")
     assert code == 0
     found = json.loads((tmp_path / "s.json").read_text())
@@ -227,7 +227,7 @@ def test_the_records_whose_load_and_hertz_factor_were_told_are_counted(
         "file,speed_rpm,load_n\nfree.npy,1200,\npressed.npy,1200,200\nrest.npy,0,200\n"
     )
     corpus = imported(tmp_path, TABLE, free=noise(1), pressed=noise(2), rest=noise(3))
-    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    monkeypatch.setattr("datagen.sizing.corpus_run.find_estimator", lambda _: Tells())
     for load_known, given in ((True, ["pressed"]), (False, [])):
         scores = score_sizes(corpus, None, load_known, None)
         assert [one.truth.recording for one in scores.records if one.told.load_known] == given

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Iterator
 from pathlib import Path
 
 import joblib
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from datagen.sizing import training_rows
 from datagen.sizing.in_blocks import in_blocks
+from datagen.sizing.sized_records import SizedRecord
+from labels.spall_size.situation import Situation
 
 READERS: list[threading.Thread] = []
 
@@ -41,8 +46,20 @@ def test_an_error_stops_the_drawing_of_calls() -> None:
 
 
 def test_records_to_learn_sizes_from_are_read_by_the_thread_that_asks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(training_rows, "sized_records", lambda *_, **__: read())
-    monkeypatch.setattr(training_rows, "_of_record", list)
+    situation = Situation(12, 2, 38.75e-3, 7.12e-3, 190.0)
+    listened: list[int] = []
+
+    def records(*_: object, **__: object) -> Iterator[SizedRecord]:
+        for (number,) in read():
+            noise = np.random.default_rng(number).standard_normal((64, 2))
+            yield SizedRecord(number, 1000.0, noise, None, {"snr_db": math.inf}, situation, None)
+
+    def hears_nothing(signal: NDArray[np.float64], *_: object) -> None:
+        listened.append(signal.size)
+
+    monkeypatch.setattr(training_rows, "sized_records", records)
+    monkeypatch.setattr(training_rows, "gather_evidence", hears_nothing)
     with joblib.parallel_config(backend="threading"):
-        assert training_rows.trials(Path(), ("train",), 2) == list(range(40))
+        assert training_rows.trials(Path(), ("train",), 2) == []
+    assert len(listened) == 3 * 40  # as it is, in noise, and a part
     assert set(READERS) == {threading.current_thread()}

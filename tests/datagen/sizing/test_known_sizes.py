@@ -14,8 +14,8 @@ from command_line import run
 from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
+from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.known_sizes import KnownSize, factor_for, machine_of, parse_known_sizes, shared_factors
-from datagen.sizing.score import score_sizes
 from labels.spall_size.known_size import known_size_factor
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -63,7 +63,7 @@ def corpus(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "t.csv").write_text(TABLE)
     (tmp_path / "spec.toml").write_text(SPEC)
     import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
-    monkeypatch.setattr("datagen.sizing.score.find_estimator", lambda _: Tells())
+    monkeypatch.setattr("datagen.sizing.corpus_run.find_estimator", lambda _: Tells())
     return tmp_path / "corpus"
 
 

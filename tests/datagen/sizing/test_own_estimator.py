@@ -17,10 +17,10 @@ from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.errors import BadInput
+from datagen.sizing.comparison import score_record
+from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import find_estimator
 from datagen.sizing.own_estimator import OwnEstimator
-from datagen.sizing.record_scores import score_record
-from datagen.sizing.score import score_sizes
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -162,7 +162,7 @@ def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeyp
             readers.append(threading.current_thread())
             yield one
 
-    monkeypatch.setattr("datagen.sizing.score.sized_records", watched)
+    monkeypatch.setattr("datagen.sizing.corpus_run.sized_records", watched)
     scores = score_sizes(tiny_corpus, None, True, "all", workers=2)
     assert len(readers) == len(scores.records) == 14
     assert set(readers) == {threading.current_thread()}

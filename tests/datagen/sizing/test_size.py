@@ -13,21 +13,21 @@ import numpy as np
 import pytest
 from command_line import run
 
+from datagen.benchmark.options import SPEED_ERROR
 from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.streams import PURPOSES, stream
+from datagen.sizing.aggregation import extent_error, lag_error, noise_level, summarise
+from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
-from datagen.sizing.score import score_sizes
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import wrong_speed
-from datagen.sizing.summary import extent_error, lag_error, noise_level, summarise
 from datagen.sizing.tables import known_size_sentence
-from datagen.stated_speed import SPEED_ERROR
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation
@@ -165,7 +165,7 @@ def test_a_report_that_cannot_be_written_is_refused_before_any_work(
     sized_corpus: Path, tmp_path: Path, place: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_text("mine")
-    monkeypatch.setattr("datagen.sizing.score.score_sizes", lambda *_: pytest.fail("it was at work already"))
+    monkeypatch.setattr("datagen.sizing.corpus_run.score_sizes", lambda *_: pytest.fail("it was at work already"))
     code, said, complaint = run("size", sized_corpus, "--out", tmp_path / place)
     assert (code, said, complaint.count("\n")) == (2, "", 1)
     assert "--out" in complaint

@@ -19,7 +19,7 @@ from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected
 from labels.spall_size.rules import EnvelopeLagRule
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import Interval, SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import Bounds, SizeEstimate, SizeOutcome
 from labels.spall_size.static_release import arc_with_static_release
 from physics.bearing import RACES
 
@@ -114,7 +114,7 @@ def _told(told: SizeEstimate) -> Told:
     )
 
 
-def _floats(interval: Interval) -> Interval:
+def _floats(interval: Bounds) -> Bounds:
     low, high = interval
     return float(low), float(high)
 

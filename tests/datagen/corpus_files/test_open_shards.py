@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from xarray.backends import NetCDF4DataStore
 
-from datagen.corpora.open_shards import OpenShards, _open_files
 from datagen.corpus import Corpus
+from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
@@ -67,7 +67,7 @@ def test_recordings_and_sized_records_are_read_by_one_thread_at_a_time_too(tiny_
 def test_threads_that_share_a_corpus_read_what_one_thread_reads(
     tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("datagen.corpora.open_shards.OPEN_FILES", 1)  # nearly every reading closes a file
+    monkeypatch.setattr("datagen.corpus_files.open_shards.OPEN_FILES", 1)  # nearly every reading closes a file
     with Corpus(tiny_corpus) as corpus, ThreadPoolExecutor(8) as pool:
         alone = [corpus.waveform(record) for record in range(14)]
         together = list(pool.map(corpus.waveform, [*range(14)] * 20))
@@ -146,15 +146,22 @@ def test_forked_processes_read_what_their_parent_reads_and_so_does_it_afterwards
         assert [corpus.scenario(record) for record in range(14)] == texts
 
 
+def fork_once() -> None:
+    """A process that is forked from this one and ends."""
+    child = multiprocessing.get_context("fork").Process(target=int)
+    child.start()
+    child.join()
+    assert child.exitcode == 0
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system does not fork")
 def test_a_file_that_is_being_read_stays_open_during_a_fork(tiny_corpus: Path) -> None:
     shards = OpenShards(tiny_corpus)
     shard = min(f"shards/{path.name}" for path in (tiny_corpus / "shards").glob("*.nc"))
     with shards.reading(shard) as file:
-        _open_files.before_fork()
-        _open_files.after_fork()
+        fork_once()
         assert file.isopen()
-    _open_files.before_fork()
-    _open_files.after_fork()
+    fork_once()
     assert not shards.open_files
     with shards.reading(shard) as file:
         assert file.isopen()
@@ -181,8 +188,8 @@ def test_a_corpus_closes_its_files_at_the_end_of_its_block_whatever_happens_ther
     corpus = Corpus(tiny_corpus)
     with contextlib.suppress(BadInput), corpus as same:
         same.waveform(0)
-        assert corpus._shards.open_files
+        assert corpus.open_files
         same.waveform(14)  # there is none
-    assert not corpus._shards.open_files
+    assert not corpus.open_files
     assert np.isfinite(corpus.waveform(0)).all()  # and opens them again
     corpus.close()

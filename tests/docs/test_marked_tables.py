@@ -4,8 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-
-from datagen.marked_tables import ROOT, write_marked
+from marked_tables import ROOT, write_marked
 
 SCRIPT = str(ROOT / "docs" / "make_accuracy.py")
 BEGIN, END = "<!-- speeds: begin (written by docs/make_accuracy.py) -->", "<!-- speeds: end -->"

@@ -11,9 +11,9 @@ import numpy as np
 import pandas
 import pytest
 
-from datagen.corpora.format import Identity, to_dataset
-from datagen.corpora.index import LABEL_COLUMNS, index_path, read_index, write_index
-from datagen.corpora.shard import finished_shards, write_shard
+from datagen.corpus_files.format import Identity, to_dataset
+from datagen.corpus_files.index import LABEL_COLUMNS, index_path, read_index, write_index
+from datagen.corpus_files.shard import finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.records.record import Record
 from labels.schema import LABELS

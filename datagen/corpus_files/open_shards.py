@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from datagen.corpora.reading import reading
+from datagen.corpus_files.reading import reading
 from datagen.files.netcdf import ONE_AT_A_TIME
 
 if TYPE_CHECKING:

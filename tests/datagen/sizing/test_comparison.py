@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from datagen.sizing.record_scores import score_record
+from datagen.sizing.comparison import score_record
 from datagen.sizing.sized_records import SizedRecord
 from datagen.sizing.stored_record import nominal_period
 from labels.spall_size.event_truth import EventTruth

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from datagen.corpora.format import Identity, to_dataset
-from datagen.corpora.shard import (
+from datagen.corpus_files.format import Identity, to_dataset
+from datagen.corpus_files.shard import (
     Failure,
     Sidecar,
     file_hash,

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 import xarray
 
-from datagen.corpora import format
-from datagen.corpora.format import VARIABLE, content_hash, format_hash, to_dataset
+from datagen.corpus_files import format
+from datagen.corpus_files.format import VARIABLE, content_hash, format_hash, to_dataset
 from datagen.errors import BadInput
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes
 from datagen.inspection.conformity import violations

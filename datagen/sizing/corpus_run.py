@@ -8,19 +8,19 @@ from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 
-from datagen.corpora.index import read_index
+from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
 from datagen.scored_runs import write_line
+from datagen.sizing.aggregation import summarise
+from datagen.sizing.comparison import score_record, unsized_row
 from datagen.sizing.estimators import find_estimator
 from datagen.sizing.flat_rows import flat_summary
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
-from datagen.sizing.record_scores import score_record, unsized_row
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary, StatedSizes
 from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
-from datagen.sizing.summary import summarise
 from datagen.telling import Count, unheard
 from datagen.versions import program_versions
 from labels.schema import SPLITS

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpora.manifest import no_corpus
-from datagen.corpora.shard import Sidecar, shard_path
+from datagen.corpus_files.manifest import no_corpus
+from datagen.corpus_files.shard import Sidecar, shard_path
 from datagen.errors import BadInput
 from datagen.files.atomic import opened_atomically
 from labels.schema import LABELS

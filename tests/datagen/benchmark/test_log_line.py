@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from datagen.benchmark.score_log import log_run
+from datagen.benchmark.log_line import log_run
 from datagen.errors import BadInput
 from datagen.scored_runs import log_path
 from labels.interval import Interval

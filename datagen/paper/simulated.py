@@ -1,4 +1,4 @@
-"""The gearbox rig's simulated recordings behind Figures 8 to 10: slip of 1 %, 1.4 s, ten seeds a condition."""
+"""The simulated accelerations of the gearbox rig behind Figures 8 to 10: slip of 1 %, 1.4 s, ten seeds a condition."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SAME_FOR_ALL = (
 
 
 @cache
-def recordings(condition: str, count: int = len(SEEDS)) -> tuple[Array, ...]:
+def simulated(condition: str, count: int = len(SEEDS)) -> tuple[Array, ...]:
     """Accelerations along y (T,) of a condition, one for each of `count` seeds, m/s²; "gap" is scene G1p."""
     return tuple(signal(scene("gearbox", *_spalls(condition, seed), slip_seed=seed)) for seed in range(count))
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from datagen.corpora.format import Identity, content_hash
-from datagen.corpora.stated import UNREADABLE, amount, row, text, whole
+from datagen.corpus_files.format import Identity, content_hash
+from datagen.corpus_files.stated import UNREADABLE, amount, row, text, whole
 from datagen.files.atomic import write_atomically
 from datagen.files.netcdf import netcdf_bytes
 from datagen.scenarios.redraw import Refused

@@ -9,10 +9,10 @@ from dataclasses import astuple, replace
 import numpy as np
 import pytest
 
+from datagen.sizing.aggregation import summarise
 from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes
-from datagen.sizing.summary import summarise
 from datagen.sizing.tables import stated_sentence, summary_table
 from labels.event_scores import EventScores
 from labels.interval import Interval

@@ -1,0 +1,46 @@
+"""Options of a command in groups: a parameter that is a dataclass stands for an option for each of its fields."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import is_dataclass
+from inspect import Parameter
+from typing import Annotated, Any, get_type_hints
+
+
+def grouped(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Decorator of a command some of whose parameters are dataclasses: it takes the fields of these in their place, by
+    their names and with their defaults, each told about by the typer.Option of that name in `options`.
+
+    Raises KeyError for a field without one.
+    """
+
+    def decorate(function: Callable[..., None]) -> Callable[..., None]:
+        hints = get_type_hints(function, include_extras=True)
+        groups: dict[str, Any] = {name: kind for name, kind in hints.items() if is_dataclass(kind)}
+
+        @functools.wraps(function)
+        def flat(**given: Any) -> None:
+            for name, kind in groups.items():
+                given[name] = kind(**{field: given.pop(field) for field in inspect.signature(kind).parameters})
+            function(**given)
+
+        def flat_parameters() -> Iterator[Parameter]:
+            for name, parameter in inspect.signature(function).parameters.items():
+                kind = hints[name]
+                if name not in groups:
+                    yield parameter.replace(annotation=kind, kind=Parameter.KEYWORD_ONLY)
+                    continue
+                fields = get_type_hints(kind)
+                for field, own in inspect.signature(kind).parameters.items():
+                    yield own.replace(annotation=Annotated[fields[field], options[field]], kind=Parameter.KEYWORD_ONLY)
+
+        parameters = list(flat_parameters())
+        # The one or the other is read, by typer as by messages on command lines that cannot be read.
+        flat.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        flat.__annotations__ = {one.name: one.annotation for one in parameters}
+        return flat
+
+    return decorate

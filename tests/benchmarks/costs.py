@@ -20,6 +20,7 @@ from pathlib import Path
 from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
 from physics.reference_scenes import reference_scene
+from physics.request import Accurate
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.warming import warm_up
@@ -54,11 +55,11 @@ def starts() -> tuple[float, float]:
 
 def seconds_of(scene: Scene) -> float:
     """Processor time (s) of a response marched to its end."""
-    simulate(scene, RATE, repeat=False)
+    simulate(scene, RATE, Accurate(repeat=False))
     seconds = []
     for _ in range(ROUNDS):
         begin = time.process_time()
-        simulate(scene, RATE, repeat=False)
+        simulate(scene, RATE, Accurate(repeat=False))
         seconds.append(time.process_time() - begin)
     return statistics.median(seconds)
 

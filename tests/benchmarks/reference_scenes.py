@@ -14,6 +14,7 @@ from pathlib import Path
 from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
+from physics.request import FixedSteps, Reference
 from physics.response.periodic import METHOD as REPEATED
 from physics.rms import relative_error
 from physics.simulate import simulate
@@ -54,7 +55,7 @@ def measure(name: str, rounds: int) -> dict[str, float]:
 
 def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]:
     scene, long_scene = (reference_scene(name, seconds, slip_seed=slip_seed) for seconds in (DURATION, LONG_DURATION))
-    finer = simulate(scene, RATE, substeps=FINER_SUBSTEPS, estimate_error=False)
+    finer = simulate(scene, RATE, FixedSteps(FINER_SUBSTEPS))
     trace, factor = timed(scene, rounds)
     scored = trace.time >= SCORED_FROM
     return {
@@ -69,9 +70,9 @@ def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]
 
 def measure_rival(scene: object) -> float:
     """Real-time factor of the package's slow reference: SciPy's DOP853 with located events, rtol 1e-9."""
-    simulate(scene, RATE, method="reference")
+    simulate(scene, RATE, Reference())
     begin = time.process_time()
-    simulate(scene, RATE, method="reference")
+    simulate(scene, RATE, Reference())
     return RIVAL_DURATION / (time.process_time() - begin)
 
 

@@ -8,6 +8,7 @@ from datagen.recipes.recipe import load_recipe
 from datagen.records.record import make_record
 from datagen.scenarios.sampling import draw_scenario
 from labels.description import label_values
+from physics.request import FixedSteps
 from physics.response.modal_case import March
 from physics.rms import rms
 from physics.simulate import simulate
@@ -23,9 +24,7 @@ def scenario():
 
 
 def test_two_step_sizes_of_another_method_end_far_apart(scenario):
-    one, other = (
-        simulate(scenario.scene, scenario.rate, substeps=count, estimate_error=False).acceleration for count in (16, 32)
-    )
+    one, other = (simulate(scenario.scene, scenario.rate, FixedSteps(count)).acceleration for count in (16, 32))
     assert ((one - other) ** 2).mean() > 0.01 * (other**2).mean()  # a hundred times the accuracy asked for
 
 
@@ -39,9 +38,7 @@ def test_the_record_is_called_chaotic_and_its_points_unknown(scenario):
 def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
     late = draw_scenario(load_recipe("corpus").model_copy(update={"seed": 20261201}), 5900)
     trace = simulate(late.scene, late.rate)
-    one, other = (
-        simulate(late.scene, late.rate, substeps=count, estimate_error=False).acceleration for count in (16, 64)
-    )
+    one, other = (simulate(late.scene, late.rate, FixedSteps(count)).acceleration for count in (16, 64))
     assert ((one - other) ** 2).mean() > 0.01 * (other**2).mean()
     assert trace.chaotic
     assert trace.error_estimate == 1.0

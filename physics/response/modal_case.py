@@ -18,9 +18,10 @@ from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
 from physics.motion import MotionModel, motion_model, starting_state
-from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.outcome import StaticOutcome
+from physics.response.change_log import room_for_changes
 from physics.response.kinks import known_kinks
-from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output, require_done
+from physics.response.march import empty_output, require_done
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, instants_without_period, refuse
 from physics.trace import ACCELERATION_ALONE, Kept
@@ -113,7 +114,8 @@ class March:
     def __post_init__(self) -> None:
         shared = self.case.contacts
         self._contacts = shared._replace(balls=shared.balls.copy(), frames=shared.frames.copy())
-        self.output = empty_output(shared, self.samples, FIRST_CHANGE_LOG, self.kept)
+        capacity = room_for_changes(0, self.case.scene.duration)
+        self.output = empty_output(shared, self.samples, capacity, self.kept)
 
     def go_on(self, grid: Stride) -> Output:
         """The output, filled up to the samples of `grid`.
@@ -143,10 +145,9 @@ class March:
 
 def _with_longer_log(output: Output, scene: Scene) -> Output:
     full = output.change_time.size
-    if 8 * full > LARGEST_CHANGE_LOG:
-        raise SimulationFailed(Outcome.TOO_MANY_CHANGES, f"more than {full} changes of contact in {scene.duration:g} s")
+    more = room_for_changes(full, scene.duration) - full
     return output._replace(
-        change_time=np.concatenate([output.change_time, np.zeros(7 * full)]),
-        change_ball=np.concatenate([output.change_ball, np.zeros(7 * full, dtype=np.int64)]),
-        change_made=np.concatenate([output.change_made, np.zeros(7 * full, dtype=np.bool_)]),
+        change_time=np.concatenate([output.change_time, np.zeros(more)]),
+        change_ball=np.concatenate([output.change_ball, np.zeros(more, dtype=np.int64)]),
+        change_made=np.concatenate([output.change_made, np.zeros(more, dtype=np.bool_)]),
     )

@@ -18,7 +18,9 @@ def a_case(memory=0.0):
     ringing = 1.0 / (0.3 * RATE * PUSH**2)
     return SimpleNamespace(
         contacts=Contacts(np.zeros((1, 11, 4)), np.zeros((1, 3)), None, None),
-        scene=SimpleNamespace(operation=SimpleNamespace(load=LOAD), rig=SimpleNamespace(outer_mass=MASS)),
+        scene=SimpleNamespace(
+            duration=SAMPLES / RATE, operation=SimpleNamespace(load=LOAD), rig=SimpleNamespace(outer_mass=MASS)
+        ),
         rate=RATE,
         push=PUSH,
         memory=memory,

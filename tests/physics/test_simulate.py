@@ -6,8 +6,6 @@ import math
 import numpy as np
 import pytest
 
-import physics.response.march
-import physics.response.modal_case
 from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
@@ -89,9 +87,8 @@ def test_a_step_that_would_blow_up_is_refused_with_the_one_it_takes(absurd, refe
 
 @pytest.mark.parametrize("solution", [Accurate(), FixedSteps(1)])
 def test_more_contact_changes_than_can_be_logged_are_told(solution, reference_scene, monkeypatch):
-    for module in (physics.response.march, physics.response.modal_case):
-        monkeypatch.setattr(module, "FIRST_CHANGE_LOG", 4)
-        monkeypatch.setattr(module, "LARGEST_CHANGE_LOG", 32)
+    monkeypatch.setattr("physics.response.change_log.FIRST_ROOM", 4)
+    monkeypatch.setattr("physics.response.change_log.LARGEST_ROOM", 32)
     with pytest.raises(SimulationFailed, match=r"more than 32 changes of contact in 0\.5 s") as caught:
         simulate(reference_scene("G1", 0.5), RATE, solution)
     assert caught.value.outcome is Outcome.TOO_MANY_CHANGES
@@ -100,8 +97,7 @@ def test_more_contact_changes_than_can_be_logged_are_told(solution, reference_sc
 def test_a_log_that_was_too_short_at_first_changes_nothing(reference_scene, reference_trace, monkeypatch):
     once = reference_trace("G1", 0.5)
     chosen = simulate(reference_scene("G1", 0.5), RATE)
-    for module in (physics.response.march, physics.response.modal_case):
-        monkeypatch.setattr(module, "FIRST_CHANGE_LOG", 4)
+    monkeypatch.setattr("physics.response.change_log.FIRST_ROOM", 4)
     again = simulate(reference_scene("G1", 0.5), RATE, FixedSteps(1))
     assert np.array_equal(again.acceleration, once.acceleration)
     assert np.array_equal(again.changes.time, once.changes.time)

@@ -19,6 +19,7 @@ from pathlib import Path
 
 from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
+from physics.freed_memory import keep_freed_memory
 from physics.reference_scenes import reference_scene
 from physics.request import Accurate
 from physics.scene import Scene
@@ -81,6 +82,7 @@ def resident(records: int) -> float:
 
 def main() -> None:
     """Measure and write both files."""
+    keep_freed_memory()  # as where records are made
     warm_up()
     first, again = starts()
     lengths = {seconds: seconds_of(reference_scene("G1", seconds, slip_seed=SLIP_SEED)) for seconds in LENGTHS}

@@ -29,6 +29,7 @@ from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import measured_on
+from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
 from physics.request import Accurate, FixedSteps, Solution
 from physics.rms import relative_error, rms
@@ -168,6 +169,7 @@ def main() -> None:
     parser.add_argument("--hindsight", type=int, default=1, help="rival settings on every n-th scene; 0: none")
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "own_choice.json")
     options = parser.parse_args()
+    keep_freed_memory()  # as where records are made
     warm_up()
     recipe = load_recipe(ROOT / "datasets" / options.dataset).model_copy(update={"seed": options.seed})
     # At random: the parts and machines of a corpus take turns, so that every n-th record may be of one kind.

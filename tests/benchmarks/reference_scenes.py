@@ -13,6 +13,7 @@ from pathlib import Path
 
 from datagen.marked_tables import write_marked
 from datagen.versions import in_words, measured_on
+from physics.freed_memory import keep_freed_memory
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.request import FixedSteps, Reference
 from physics.response.periodic import METHOD as REPEATED
@@ -118,6 +119,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
+    keep_freed_memory()  # as where records are made
     warm_up()
     results = {name: measure(name, rounds) for name in REFERENCE_SCENES}
     rivals = {name: measure_rival(reference_scene(name, RIVAL_DURATION)) for name in RIVAL_SCENES}

@@ -22,13 +22,18 @@ from datagen.commands import (
 )
 from datagen.commands.program import app
 from datagen.exits import OUTPUT_CLOSED
+from physics.freed_memory import keep_freed_memory
 
 COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
 
 
 def main() -> None:
     """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input), 130 (Ctrl-C), 141 (nobody reads
-    the output any more) or 143 (SIGTERM)."""
+    the output any more) or 143 (SIGTERM).
+
+    The process keeps the memory of freed arrays (physics.freed_memory).
+    """
+    keep_freed_memory()
     if sys.stdout is None:  # closed by whoever started the program
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):

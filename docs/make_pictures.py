@@ -33,7 +33,7 @@ from physics.reference_scenes import BOTTOM, reference_scene
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
-from physics.trace import Trace
+from physics.trace import Kept, Trace
 
 Array = NDArray[np.float64]
 
@@ -86,7 +86,7 @@ def columns() -> list[Column]:
 def column(title: str, name: str) -> Column:
     """One simulated state, a reference scene of that name."""
     scene = reference_scene(name, DURATION, slip_seed=SEED, roughness_seed=SEED)
-    trace = simulate(scene, RATE, keep_force=True)
+    trace = simulate(scene, RATE, keep=Kept(force=True))
     noise = FLOOR * np.random.default_rng(SEED).standard_normal(trace.time.size)
     return Column(title, scene, trace, ball_passes(scene, trace.changes, DURATION), trace.acceleration[:, 1] + noise)
 

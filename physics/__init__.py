@@ -9,7 +9,7 @@ What a machine is, put together in a `scene`:
 
 What comes of it, from the front door inwards:
 
-- `simulate`: a scene in, a `trace` out, or an `outcome` that says what failed; `request`: how it is wanted, checked
+- `simulate`: a scene in, a `trace` out, or an `outcome` that says what failed; `request`: how it is wanted
 - `response/`: the response to a stated accuracy; `ladder/`: the simpler models
 - `integrators/`: one numerical method, one file; `integrators/modal/` is the default
 - `motion`, `modes`: the equations of motion around the contacts, and what they are when linear
@@ -22,6 +22,6 @@ What all of them use:
 
 - `assembly`: from a scene to the arrays and NamedTuples that kernels read
 - `arrays`: names of array types; `words`: those of scenes and results, for packages that need no more than these
-- `_jit`: compiles kernels; `warming` does so early; `compiled`: what other packages need of the compiler
+- `_jit/`: compiles kernels; `warming` does so early; `compiled`: what other packages need of the compiler
 - `checks` (a value refused), `rms`, `freed_memory`
 """

@@ -1,7 +1,8 @@
 """Memory that is freed is kept for the next arrays instead of being given back to the system.
 
 The arrays of a record are megabytes that come and go with it. The C library fetches each of these from the system anew,
-which clears it page by page on first touch: a fifth of the time of a simulation.
+which clears it page by page on first touch: a fifth of the time of a simulation. It is for whoever owns the process to
+ask for: the command line and the makers of records do, `simulate` does not.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ CHOSEN_BY = ("MALLOC_MMAP_THRESHOLD_", "MALLOC_TRIM_THRESHOLD_", "GLIBC_TUNABLES
 
 @cache
 def keep_freed_memory() -> bool:
-    """Let this process keep up to a gigabyte of freed memory; False if the C library is another, or told already."""
+    """Let this process keep up to a gigabyte of freed memory, all of it and to its end; False if the C library is
+    another, or told already."""
     if any(os.environ.get(name) for name in CHOSEN_BY):
         return False
     try:

@@ -1,91 +1,132 @@
-"""How a response is wanted, and whether a scene can be simulated so."""
+"""How a response is wanted: the kinds of solution, each with the choices that it has, and the lead-in."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+from typing import ClassVar
 
-from physics.integrators.methods import METHODS, MODAL, REFERENCE
+from physics.checks import require_between, require_count, require_not_negative, require_one_of
+from physics.integrators.methods import MARCHES
 from physics.ladder.models import SIMPLER_MODELS
-from physics.outcome import Outcome, SimulationFailed
-from physics.response.march import MODEL
-from physics.scene import Scene
-from physics.trace import Kept
+from physics.response.stability import MOST_STABLE_SUBSTEPS
+from physics.trace import KEEPABLE
 
 SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
-GIVEN_STEPS = "exponential_rk4"
+USUAL_STEPS = "exponential_rk4"
 
 
 @dataclass(frozen=True)
-class Request:
-    """How a response is wanted: the arguments of `simulate`, which explains them, with what to keep in one."""
+class Accurate:
+    """The nonlinear model to a stated accuracy, by the modal method, which chooses its own steps.
 
-    rate: float
+    It says what error it made: an `error_estimate` above the `accuracy` says that it was not reached, as where edges
+    are narrower than the shortest step, or that the response is chaotic. With a lead-in both are of what comes from
+    t = 0 on.
+
+    `accuracy`: relative RMS error of the acceleration that is allowed, 1e-6 to 0.1.
+    `least_error` (m/s², RMS): an error that is always allowed.
+    `repeat`: whether, where nothing slips and the acceleration alone is kept, it stops when the response repeats itself
+        from ball to ball.
+
+    Raises InvalidParameter for a value out of range.
+    """
+
+    accuracy: float = 1e-3
+    least_error: float = 0.0
+    repeat: bool = True
+    keeps: ClassVar[tuple[str, ...]] = KEEPABLE
+
+    def __post_init__(self) -> None:
+        _require_accuracy(self.accuracy)
+        require_not_negative("least_error", self.least_error, "m/s²")
+
+
+@dataclass(frozen=True)
+class FixedSteps:
+    """The nonlinear model by `substeps` steps a sample of a `method` of integrators.methods.MARCHES.
+
+    `substeps`: 1 to 1024, or None for the fewest that are stable and resolve the fastest mode.
+    `estimate_error`: a second response, at half the step, says what error was made.
+
+    Raises InvalidParameter for a number of steps out of range or another method.
+    """
+
+    substeps: int | None = None
+    method: str = USUAL_STEPS
+    estimate_error: bool = False
+    keeps: ClassVar[tuple[str, ...]] = KEEPABLE
+
+    def __post_init__(self) -> None:
+        if self.substeps is not None:
+            require_count("substeps", self.substeps, 1, MOST_STABLE_SUBSTEPS)
+        require_one_of("method", self.method, MARCHES)
+
+
+@dataclass(frozen=True)
+class HalvedSteps:
+    """The nonlinear model by a `method` of integrators.methods.MARCHES, to a stated accuracy.
+
+    Steps are halved, down to 32 a sample, until the response differs from one at half the step by no more than the
+    `accuracy`, a relative RMS error of the acceleration, 1e-6 to 0.1.
+
+    Raises InvalidParameter for an accuracy out of range or another method.
+    """
+
+    accuracy: float = 1e-3
+    method: str = USUAL_STEPS
+    keeps: ClassVar[tuple[str, ...]] = KEEPABLE
+
+    def __post_init__(self) -> None:
+        _require_accuracy(self.accuracy)
+        require_one_of("method", self.method, MARCHES)
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The nonlinear model by the slow reference method, which follows neither forces nor its own error."""
+
+    keeps: ClassVar[tuple[str, ...]] = ("state",)
+
+
+@dataclass(frozen=True)
+class Simpler:
+    """A simpler `model` of ladder.models.SIMPLER_MODELS, by its own method; it keeps what it knows, asked for or not.
+
+    Raises InvalidParameter for another model.
+    """
+
     model: str
-    method: str | None
-    substeps: int | None
-    accuracy: float
-    least_error: float
-    kept: Kept
-    fastest_path: float
-    estimate_error: bool
-    repeat: bool
-    lead_in: float
+
+    def __post_init__(self) -> None:
+        require_one_of("model", self.model, SIMPLER_MODELS)
 
     @property
-    def solver(self) -> str:
-        """The method that is meant."""
-        return self.method or (MODAL if self.substeps is None else GIVEN_STEPS)
+    def keeps(self) -> tuple[str, ...]:
+        """What the model knows besides acceleration and contact changes: fields of Kept."""
+        return SIMPLER_MODELS[self.model].keeps
 
-    @property
-    def before(self) -> int:
-        """Samples of the lead-in."""
-        return round(self.lead_in * self.rate)
 
-    def samples(self, scene: Scene) -> int:
-        """How many instants of `scene` are asked for."""
-        return round(scene.duration * self.rate)
+Solution = Accurate | FixedSteps | HalvedSteps | Reference | Simpler
 
-    def check(self, scene: Scene) -> None:
-        """Raise SimulationFailed with BAD_REQUEST, the argument and its value if `scene` cannot be simulated so."""
-        problem = self._problem_of_model() or self._problem_of_numbers() or self._problem_of_time(scene)
-        if problem:
-            raise SimulationFailed(Outcome.BAD_REQUEST, problem)
 
-    def _problem_of_model(self) -> str:
-        if self.solver not in METHODS:
-            return f'method = "{self.method}"; allowed: {", ".join(METHODS)}'
-        if self.model != MODEL and self.model not in SIMPLER_MODELS:
-            return f'model = "{self.model}"; allowed: {", ".join((*SIMPLER_MODELS, MODEL))}'
-        if self.model != MODEL and self.method is not None:
-            return f'method = "{self.method}"; the model "{self.model}" has its own and takes none'
-        if self.model != MODEL and self.substeps is not None:
-            return f'substeps = {self.substeps!r}; the model "{self.model}" takes no number of steps'
-        if self.solver == REFERENCE and (self.kept.force or self.kept.outer):
-            return "keep_force or keep_outer = True; the reference method keeps no forces"
-        return ""
+@dataclass(frozen=True)
+class LeadIn:
+    """The machine starts `seconds` before t = 0, rounded to whole samples, so that one that runs is recorded and not
+    its start; with `kept` the trace has the instants before 0 too.
 
-    def _problem_of_numbers(self) -> str:
-        if not (math.isfinite(self.rate) and self.rate > 0.0):
-            return f"rate = {self.rate!r} Hz; it must be above 0"
-        if self.substeps is not None and (not float(self.substeps).is_integer() or self.substeps < 1):
-            return f"substeps = {self.substeps!r}; it must be a whole number, 1 or more"
-        if self.solver == MODAL and self.substeps is not None:
-            return f"substeps = {self.substeps!r}; the method {MODAL} chooses its own steps, give accuracy instead"
-        if not SMALLEST_ACCURACY <= self.accuracy <= LARGEST_ACCURACY:
-            return f"accuracy = {self.accuracy!r}; it must lie from {SMALLEST_ACCURACY:g} to {LARGEST_ACCURACY:g}"
-        if not 0.0 <= self.least_error < math.inf:
-            return f"least_error = {self.least_error!r} m/s²; it must be 0 or more, and finite"
-        if not 0.0 <= self.fastest_path < math.inf:
-            return f"fastest_path = {self.fastest_path!r} Hz; it must be 0 or more, and finite"
-        return ""
+    Raises InvalidParameter if that is no time.
+    """
 
-    def _problem_of_time(self, scene: Scene) -> str:
-        if self.samples(scene) < 1:
-            return f"a duration of {scene.duration:g} s holds no sample at {self.rate:g} Hz"
-        if not 0.0 <= self.lead_in < math.inf:
-            return f"lead_in = {self.lead_in!r} s; it must be 0 or more, and finite"
-        known_from = max((cage.knot_start for cage in scene.cages if cage.knot_values), default=-math.inf)
-        if -self.before / self.rate < known_from:
-            return f"lead_in = {self.lead_in!r} s; the cage's slip is known from {known_from:g} s on"
-        return ""
+    seconds: float = 0.0
+    kept: bool = False
+
+    def __post_init__(self) -> None:
+        require_not_negative("seconds", self.seconds, "s", "lead-in")
+
+    def samples(self, rate: float) -> int:
+        """Whole samples of it at `rate` (Hz)."""
+        return round(self.seconds * rate)
+
+
+def _require_accuracy(accuracy: float) -> None:
+    require_between("accuracy", accuracy, SMALLEST_ACCURACY, LARGEST_ACCURACY)

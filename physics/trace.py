@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.arrays import Array
+from physics.checks import require, require_not_negative
 
 
 @dataclass(frozen=True)
@@ -28,14 +29,28 @@ class ContactChanges:
 
 @dataclass(frozen=True)
 class Kept:
-    """What else a trace keeps besides acceleration and contact changes."""
+    """What else a trace keeps besides acceleration and contact changes.
+
+    `state`: displacements and velocities; `force`: the normal force of every ball; `outer`: the outer ring's motion, at
+    a multiple of the rate that is also large enough for what is to follow it at up to `fastest_path` (Hz).
+
+    Raises InvalidParameter for a path that is no frequency, or follows an outer ring that is not kept.
+    """
 
     state: bool = False
     force: bool = False
     outer: bool = False
+    fastest_path: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_not_negative("fastest_path", self.fastest_path, "Hz")
+        told = f"fastest_path = {self.fastest_path!r} Hz; without the outer ring's motion nothing follows it"
+        require(self.outer or self.fastest_path == 0.0, told, "fastest_path")
 
 
 ACCELERATION_ALONE = Kept()
+# Fields of Kept that a way to respond may be unable to fill.
+KEEPABLE = ("state", "force", "outer")
 
 
 @dataclass(frozen=True)

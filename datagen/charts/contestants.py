@@ -23,11 +23,13 @@ from physics.integrators.rivals.general_purpose import (
 )
 from physics.ladder.models import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
+from physics.request import Accurate, FixedSteps, Simpler
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import worth_repeating
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
+from physics.trace import Kept
 
 Raw = object
 
@@ -107,23 +109,23 @@ def start_of(scene: Scene) -> Array:
 
 def _march(name: str, steps: int) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
-        return simulate(scene, rate, method=name, substeps=steps, estimate_error=False, keep_state=True)
+        return simulate(scene, rate, FixedSteps(steps, name), keep=Kept(state=True))
 
     return Contestant(METHOD, name, f"{steps} steps a sample", run, _of_trace)
 
 
 def _choosing(name: str, accuracy: float, *, repeat: bool) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
-        return simulate(scene, rate, accuracy=accuracy, repeat=repeat)
+        return simulate(scene, rate, Accurate(accuracy, repeat=repeat))
 
     def run_with_state(scene: Scene, rate: float) -> Raw:
-        return simulate(scene, rate, accuracy=accuracy, keep_state=True)
+        return simulate(scene, rate, Accurate(accuracy), keep=Kept(state=True))
 
     return Contestant(METHOD, name, f"accuracy {accuracy:g}", run, _of_trace, run_with_state=run_with_state)
 
 
 def _model(name: str) -> Contestant:
-    return Contestant(MODEL, name, "", lambda scene, rate: simulate(scene, rate, model=name), _of_trace)
+    return Contestant(MODEL, name, "", lambda scene, rate: simulate(scene, rate, Simpler(name)), _of_trace)
 
 
 def _of_trace(scene: Scene, rate: float, result: Raw) -> Response:

@@ -21,10 +21,12 @@ from physics.integrators.method import NO_MODES
 from physics.integrators.methods import METHODS, REFERENCE
 from physics.ladder.models import SIMPLER_MODELS
 from physics.outcome import SimulationFailed
+from physics.request import FixedSteps, Reference
 from physics.response.stability import longest_stable_step
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
+from physics.trace import Kept
 from physics.warming import warm_up
 
 WARM_UP = 0.004
@@ -84,11 +86,9 @@ def measure(subject: Subject, quick: bool, rounds: int, told: Say) -> Chart:
     told("reference")
     warm_up()
     reference = of_trace(
-        simulate(
-            scene, subject.rate, method="exponential_rk4", substeps=QUICK_STEPS, estimate_error=False, keep_state=True
-        )
+        simulate(scene, subject.rate, FixedSteps(QUICK_STEPS), keep=Kept(state=True))
         if quick
-        else simulate(scene, subject.rate, method=REFERENCE, keep_state=True)
+        else simulate(scene, subject.rate, Reference(), keep=Kept(state=True))
     )
     runs = []
     entered = contestants(scene, quick)

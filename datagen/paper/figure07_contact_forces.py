@@ -26,11 +26,13 @@ from datagen.paper.scenes import RATE, SHOWN_SEED, reference_extended_spall, sce
 from labels.truth import ball_passes
 from physics.arrays import Array
 from physics.reference_scenes import gap_line_spall, line_spall
+from physics.request import FixedSteps
 from physics.rms import rms
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
+from physics.trace import Kept
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,7 +89,7 @@ class Forces:
 def forces(spall: Spall) -> Forces:
     """The gearbox rig from a cage angle of 0, without slip, 0.2 s."""
     of = scene("gearbox", spall, duration=DURATION)
-    trace = simulate(of, RATE, substeps=1, keep_force=True, estimate_error=False)
+    trace = simulate(of, RATE, FixedSteps(1), keep=Kept(force=True))
     if trace.contact_force is None:
         raise ValueError("the trace holds no contact forces")
     static = equilibrium(of, trace.time).ball_load

@@ -21,6 +21,7 @@ from physics.arrays import Array
 from physics.catalog.claims import resonator_alone_hz, resonator_damping_ratio
 from physics.modes import modes, rated_matrices
 from physics.reference_scenes import gap_line_spall, gradual_line_spall, line_spall
+from physics.request import FixedSteps
 from physics.simulate import simulate
 from physics.spall import Spall
 
@@ -82,7 +83,7 @@ def _peak(envelope: Array, start: float, stop: float) -> float:
 def recording(spall: Spall) -> Recording:
     """The fan rig at 800 rpm and 100 N with 1 % slip."""
     of = scene("fan", spall, slip_seed=SHOWN_SEED)
-    trace = simulate(of, RATE, substeps=1, estimate_error=False)
+    trace = simulate(of, RATE, FixedSteps(1))
     passes = ball_passes(of, trace.changes, of.duration)
     complete = np.flatnonzero(passes.complete & (passes.entry_time > LEAD))
     return Recording(trace.acceleration[:, 1], passes, complete)

@@ -23,6 +23,7 @@ from physics.reference_scenes import (
     rough_extended_spall,
     slipping,
 )
+from physics.request import FixedSteps
 from physics.rig import Rig
 from physics.scene import Scene
 from physics.simulate import simulate
@@ -63,7 +64,7 @@ def scene(
 
 def signal(of: Scene) -> Array:
     """Resonator acceleration along y (T,) of the last 1.4 s of a scene at 65 536 Hz, m/s²."""
-    trace = simulate(of, RATE, substeps=1, estimate_error=False)
+    trace = simulate(of, RATE, FixedSteps(1))
     return trace.acceleration[-round(ANALYSED * RATE) :, 1]
 
 

@@ -21,6 +21,7 @@ from labels.noise import signal_to_noise
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
 from physics.paths.profile import race_depth
+from physics.request import Accurate, LeadIn
 from physics.response.lead_in import from_start
 from physics.rms import rms
 from physics.scene import Scene
@@ -29,7 +30,7 @@ from physics.sensor.recorder import recorded
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.stiffness_series import stiffness_series
-from physics.trace import Trace
+from physics.trace import Kept, Trace
 
 Rounded = NDArray[np.float32]
 RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
@@ -95,13 +96,9 @@ def _simulated(scenario: Scenario, keep_force: bool) -> Trace:
     return simulate(
         scenario.scene,
         scenario.rate,
-        accuracy=accuracy,
-        least_error=least_error,
-        keep_force=keep_force,
-        keep_outer=scenario.chain.needs_outer_ring,
-        fastest_path=scenario.chain.fastest,
-        lead_in=scenario.settle,
-        keep_lead_in=True,
+        Accurate(accuracy, least_error=least_error),
+        keep=Kept(force=keep_force, outer=scenario.chain.needs_outer_ring, fastest_path=scenario.chain.fastest),
+        lead_in=LeadIn(scenario.settle, kept=True),
     )
 
 

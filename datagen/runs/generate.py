@@ -35,7 +35,8 @@ def generate(
     """Make the recipe's records (all, the first `limit`, or those listed) in `folder`, keeping what is finished there.
 
     The arrays depend on the recipe alone, not on `engine`, order or interruptions. Raises BadInput before anything is
-    written. KeyboardInterrupt leaves a usable corpus of the shards finished so far.
+    written. KeyboardInterrupt leaves a usable corpus of the shards finished so far. Processes that make records, this
+    one if it is the only worker, keep the memory of freed arrays (physics.freed_memory).
     """
     began = time.monotonic()
     asked = selection(recipe, limit, records)

@@ -20,6 +20,7 @@ from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from datagen.telling import Say
+from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
 
 
@@ -55,7 +56,11 @@ def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
 
 
 def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
-    """Make and write all records of a planned shard; raises OSError only if the disk is full."""
+    """Make and write all records of a planned shard; raises OSError only if the disk is full.
+
+    The process keeps the memory of freed arrays from then on (physics.freed_memory).
+    """
+    keep_freed_memory()
     try:
         return _make_shard(recipe, folder, planned, identity)
     except Exception as problem:

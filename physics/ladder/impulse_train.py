@@ -202,5 +202,6 @@ IMPULSE_TRAIN = Model(
     leaves_out="release and regain other than of a ball at rest, variation of stiffness, hardening, healthy vibration, "
     "and modes that do not swing",
     rings=True,
+    keeps=(),
     respond=impulse_response,
 )

@@ -225,5 +225,6 @@ LINEAR_TIME_VARYING = Model(
     holds_where="healthy bearings and spalls over which contact forces stay within about a tenth of the static loads",
     leaves_out="contact lost or made by vibration, and the hardening of the contacts under impacts",
     rings=True,
+    keeps=("state",),
     respond=linear_response,
 )

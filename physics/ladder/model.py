@@ -14,7 +14,8 @@ class Model:
     """One model of the ladder: `respond(scene, rate)` gives its Trace.
 
     `computes` says what its response holds, `holds_where` in which scenes that is near the nonlinear model's, and
-    `leaves_out` what it cannot show; `rings` if its response has the modes, which take a rate that holds them.
+    `leaves_out` what it cannot show; `rings` if its response has the modes, which take a rate that holds them;
+    `keeps`: which fields of Kept its Trace has, asked for or not.
     """
 
     name: str
@@ -22,4 +23,5 @@ class Model:
     holds_where: str
     leaves_out: str
     rings: bool
+    keeps: tuple[str, ...]
     respond: Callable[[Scene, float], Trace]

@@ -48,5 +48,6 @@ QUASI_STATIC = Model(
     holds_where="stiffness and ball loads of slow, shallow or extended spalls, where contact forces stay near them",
     leaves_out="every vibration that contacts excite, so its acceleration is no stand-in for a sensor's",
     rings=False,
+    keeps=("state", "force"),
     respond=quasi_static_response,
 )

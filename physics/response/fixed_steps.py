@@ -35,10 +35,10 @@ def respond_by_fixed_steps(
 ) -> Trace:
     """Trace of `scene` at k / rate from its `rest` at t = 0 by `substeps` steps a sample of `method`.
 
-    None starts from the fewest that are stable and resolve the fastest mode, and doubles them until the response keeps
-    the `accuracy` by what one of half the step makes of it. Without an accuracy there is no second response, and no
-    estimate of the error. Raises SimulationFailed for steps that are not stable, and where MOST_SUBSTEPS do not keep
-    the accuracy.
+    None stands for the fewest that are stable and resolve the fastest mode. They are doubled until the response keeps
+    the `accuracy`, which may be infinite, by what one of half the step makes of it. Without an accuracy there is no
+    second response, and no estimate of the error. Raises SimulationFailed for steps that are not stable, and where
+    MOST_SUBSTEPS do not keep the accuracy.
     """
     start = starting_state(motion_model(scene), rest.displacement[0])
     least = stable_substeps(scene, METHODS[method], rest, rate)
@@ -50,14 +50,14 @@ def respond_by_fixed_steps(
 
     if accuracy is None:
         return response(steps)
-    most = steps if substeps else max(MOST_SUBSTEPS, steps)
+    most = max(MOST_SUBSTEPS, steps)
     coarse, fine = response(steps), response(2 * steps)
     error = _estimated_error(coarse, fine)
     while error > accuracy and 2 * steps <= most:
         steps *= 2
         coarse, fine = fine, response(2 * steps)
         error = _estimated_error(coarse, fine)
-    if substeps is None and error > accuracy:
+    if error > accuracy:
         raise SimulationFailed(
             Outcome.INACCURATE,
             f"{method} with {steps} steps a sample of {rate:.6g} Hz is off by {error:.2g} of the acceleration's "

@@ -25,13 +25,12 @@ from physics.integrators.output import (
 from physics.integrators.propagator import power_series
 from physics.motion import motion_model, resonator_acceleration
 from physics.outcome import Outcome, SimulationFailed
+from physics.response.change_log import room_for_changes
 from physics.response.kinks import known_kinks
 from physics.scene import Scene
 from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
 MODEL = "nonlinear 6-DOF"
-FIRST_CHANGE_LOG = 4096
-LARGEST_CHANGE_LOG = 2_097_152
 # No bearing changes its contacts this often all along: what does, does not converge.
 LOGGED_CHANGES_PER_STEP = 4
 
@@ -44,17 +43,12 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
     """
     contacts, motion = assemble(scene), motion_model(scene)
     series, stops = power_series(motion, grid.step), known_kinks(scene, contacts, grid.step)
-    capacity = FIRST_CHANGE_LOG
-    largest = min(LARGEST_CHANGE_LOG, max(FIRST_CHANGE_LOG, LOGGED_CHANGES_PER_STEP * grid.samples * grid.substeps))
+    capacity, most = 0, LOGGED_CHANGES_PER_STEP * grid.samples * grid.substeps
     status = LOG_FULL
     while status == LOG_FULL:
-        if capacity > largest and capacity > FIRST_CHANGE_LOG:
-            raise SimulationFailed(
-                Outcome.TOO_MANY_CHANGES, f"more than {capacity // 8} changes of contact in {scene.duration:g} s"
-            )
+        capacity = room_for_changes(capacity, scene.duration, most)
         output = empty_output(contacts, grid.samples, capacity, kept)
         status = MARCHES[method](contacts, motion, series, grid, stops, start, output)
-        capacity *= 8
     require_done(status, f"of {grid.step:.3g} s", f"the method {method} used up its steps within {scene.duration:g} s")
     return trace_of(scene, grid, output, method)
 

@@ -18,9 +18,10 @@ from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
 from physics.motion import MotionModel, motion_model, starting_state
-from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.outcome import StaticOutcome
+from physics.response.change_log import room_for_changes
 from physics.response.kinks import known_kinks
-from physics.response.march import FIRST_CHANGE_LOG, LARGEST_CHANGE_LOG, empty_output, require_done
+from physics.response.march import empty_output, require_done
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, instants_without_period, refuse
 from physics.trace import ACCELERATION_ALONE, Kept
@@ -43,8 +44,6 @@ class Case:
     stops: Stops
     start: Array
     rate: float
-    # How many marches have set out; the last of them may go on, as all share the contacts.
-    begun: list[int] = field(default_factory=lambda: [0], init=False, repr=False)
 
     @cached_property
     def ringing(self) -> float:
@@ -101,35 +100,34 @@ def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
 
 @dataclass
 class March:
-    """A march of `case` over up to `samples`, begun with a `push` (N s) between the rings; one at a time, as it keeps
-    its contact set in the case's contacts: once another has set out, it cannot go on."""
+    """A march of `case` over up to `samples`, begun with a `push` (N s) between the rings, with a contact set of its
+    own: others of the case do not disturb it."""
 
     case: Case
     samples: int
     kept: Kept = ACCELERATION_ALONE
     push: float = 0.0
     output: Output = field(init=False)
+    _contacts: Contacts = field(init=False)
     _memory: Memory | None = field(init=False, default=None)
-    _number: int = field(init=False, default=0)
 
     def __post_init__(self) -> None:
-        self.output = empty_output(self.case.contacts, self.samples, FIRST_CHANGE_LOG, self.kept)
+        shared = self.case.contacts
+        self._contacts = shared._replace(balls=shared.balls.copy(), frames=shared.frames.copy())
+        capacity = room_for_changes(0, self.case.scene.duration)
+        self.output = empty_output(shared, self.samples, capacity, self.kept)
 
     def go_on(self, grid: Stride) -> Output:
         """The output, filled up to the samples of `grid`.
 
         Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or
-        steps become too many; RuntimeError if another march of the case has set out since this one did.
+        steps become too many.
         """
-        case, contacts = self.case, self.case.contacts
+        case, contacts = self.case, self._contacts
         if self._memory is None:
-            case.begun[0] += 1
-            self._number = case.begun[0]
             start = case.amplitudes(self.push)
             self._memory = memory_for(case.flow, start, case.tables, contacts.balls.shape)
             begin(contacts, case.flow, grid, self._memory, self.output)
-        if self._number != case.begun[0]:
-            raise RuntimeError("another march of this case has set out; the contacts that both share are its own now")
         self._memory.marks[RETUNE] = 0  # the grid may be another one than before
         status = LOG_FULL
         while status == LOG_FULL:
@@ -147,10 +145,9 @@ class March:
 
 def _with_longer_log(output: Output, scene: Scene) -> Output:
     full = output.change_time.size
-    if 8 * full > LARGEST_CHANGE_LOG:
-        raise SimulationFailed(Outcome.TOO_MANY_CHANGES, f"more than {full} changes of contact in {scene.duration:g} s")
+    more = room_for_changes(full, scene.duration) - full
     return output._replace(
-        change_time=np.concatenate([output.change_time, np.zeros(7 * full)]),
-        change_ball=np.concatenate([output.change_ball, np.zeros(7 * full, dtype=np.int64)]),
-        change_made=np.concatenate([output.change_made, np.zeros(7 * full, dtype=np.bool_)]),
+        change_time=np.concatenate([output.change_time, np.zeros(more)]),
+        change_ball=np.concatenate([output.change_ball, np.zeros(more, dtype=np.int64)]),
+        change_made=np.concatenate([output.change_made, np.zeros(more, dtype=np.bool_)]),
     )

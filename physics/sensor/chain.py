@@ -50,8 +50,8 @@ def sensed(chain: SensorChain, trace: Trace) -> Array:
     """What the sensor gives (T, 2), m/s², before background and recorder.
 
     Modes are solved at the rate of the outer ring's motion and then lowered to the trace's. ValueError if the chain has
-    modes and the trace kept no motion of the outer ring (`simulate(keep_outer=True)`); InvalidParameter if a resonance
-    or the cutoff does not lie below half the trace's rate.
+    modes and the trace kept no motion of the outer ring (`Kept(outer=True)`); InvalidParameter if a resonance or the
+    cutoff does not lie below half the trace's rate.
     """
     chain.check_rate(trace.rate)
     signal = trace.acceleration if chain.resonator_gain == 1.0 else chain.resonator_gain * trace.acceleration
@@ -62,7 +62,7 @@ def sensed(chain: SensorChain, trace: Trace) -> Array:
 
 def _of_outer_ring(modes: tuple[SensorMode, ...], trace: Trace) -> Array:
     if trace.outer_displacement is None or trace.outer_velocity is None or trace.outer_acceleration is None:
-        raise ValueError("sensor modes need a trace that kept the outer ring's motion: simulate(..., keep_outer=True)")
+        raise ValueError("sensor modes need a trace that kept the outer ring's motion: keep=Kept(outer=True)")
     motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
     raised = mode_accelerations(modes, *motion, trace.outer_rate)
     return decimate(raised, round(trace.outer_rate / trace.rate))

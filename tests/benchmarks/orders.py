@@ -18,6 +18,7 @@ from docs.marked_tables import write_marked
 from physics.integrators.methods import MARCHES, METHODS
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps
 from physics.rms import relative_error
 from physics.scene import Scene
 from physics.simulate import simulate
@@ -39,7 +40,7 @@ SCENES = {
 
 def response(scene: Scene, method: str, substeps: int) -> Array:
     """Acceleration (T, 2) with fixed steps."""
-    return simulate(scene, RATE, method=method, substeps=substeps, estimate_error=False).acceleration
+    return simulate(scene, RATE, FixedSteps(substeps, method)).acceleration
 
 
 def measure(scene: Scene, method: str, exact: Array) -> dict[str, object]:

@@ -29,7 +29,9 @@ from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import measured_on
+from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
+from physics.request import Accurate, FixedSteps, Solution
 from physics.rms import relative_error, rms
 from physics.scene import Scene
 from physics.simulate import simulate
@@ -64,27 +66,27 @@ def shortened(scene: Scene, seconds: float) -> Scene:
 def judge(scene: Scene, rate: float) -> tuple[Array, float]:
     """Acceleration (T, 2) by fixed steps, and how far (relative RMS) two step sizes are apart."""
     coarse, fine = (
-        simulate(scene, rate, substeps=count, estimate_error=False).acceleration
+        simulate(scene, rate, FixedSteps(count)).acceleration
         for count in (JUDGING_SUBSTEPS[0] // 2, JUDGING_SUBSTEPS[0])
     )
     last = fine
     apart = relative_error(coarse, fine)
     if apart > CERTAIN * ACCURACY:
-        last = simulate(scene, rate, substeps=JUDGING_SUBSTEPS[1], estimate_error=False).acceleration
+        last = simulate(scene, rate, FixedSteps(JUDGING_SUBSTEPS[1])).acceleration
         apart = relative_error(fine, last)
     return last, apart
 
 
 def rivals(scene: Scene, rate: float, exact: Array) -> dict[str, float]:
     """Processor time (s) of every setting of the chart that keeps the accuracy."""
-    settings: dict[str, dict[str, object]] = {f"modal {a:g}": {"accuracy": a} for a in ACCURACIES}
+    settings: dict[str, Solution] = {f"modal {accuracy:g}": Accurate(accuracy) for accuracy in ACCURACIES}
     for method in CHEAP_METHODS:
         for count in SUBSTEPS[method]:
-            settings[f"{method} {count}"] = {"method": method, "substeps": count, "estimate_error": False}
+            settings[f"{method} {count}"] = FixedSteps(count, method)
     kept = {}
     for name, setting in settings.items():
         try:
-            seconds, found = timed(lambda setting=setting: simulate(scene, rate, **setting).acceleration)
+            seconds, found = timed(lambda setting=setting: simulate(scene, rate, setting).acceleration)
         except SimulationFailed:
             continue
         if relative_error(found, exact) <= ACCURACY:
@@ -104,11 +106,11 @@ def spectral_difference(one: Array, other: Array, rate: float) -> float:
 
 def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: bool) -> dict[str, object]:
     """One scene's row; `allowed` is the accuracy and the error (m/s²) that its recipe asks for."""
-    trace = simulate(scene, rate, accuracy=ACCURACY)
-    seconds, _ = timed(lambda: simulate(scene, rate, accuracy=ACCURACY).acceleration)
+    trace = simulate(scene, rate, Accurate(ACCURACY))
+    seconds, _ = timed(lambda: simulate(scene, rate, Accurate(ACCURACY)).acceleration)
     exact, apart = judge(scene, rate)
     accuracy, least = allowed
-    own = simulate(scene, rate, accuracy=accuracy, least_error=least)
+    own = simulate(scene, rate, Accurate(accuracy, least_error=least))
     row: dict[str, object] = {
         "seconds": seconds,
         "error": relative_error(trace.acceleration, exact),
@@ -167,6 +169,7 @@ def main() -> None:
     parser.add_argument("--hindsight", type=int, default=1, help="rival settings on every n-th scene; 0: none")
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "own_choice.json")
     options = parser.parse_args()
+    keep_freed_memory()  # as where records are made
     warm_up()
     recipe = load_recipe(ROOT / "datasets" / options.dataset).model_copy(update={"seed": options.seed})
     # At random: the parts and machines of a corpus take turns, so that every n-th record may be of one kind.

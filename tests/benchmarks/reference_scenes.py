@@ -14,7 +14,9 @@ from pathlib import Path
 
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
+from physics.freed_memory import keep_freed_memory
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
+from physics.request import FixedSteps, Reference
 from physics.response.periodic import METHOD as REPEATED
 from physics.rms import relative_error
 from physics.simulate import simulate
@@ -55,7 +57,7 @@ def measure(name: str, rounds: int) -> dict[str, float]:
 
 def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]:
     scene, long_scene = (reference_scene(name, seconds, slip_seed=slip_seed) for seconds in (DURATION, LONG_DURATION))
-    finer = simulate(scene, RATE, substeps=FINER_SUBSTEPS, estimate_error=False)
+    finer = simulate(scene, RATE, FixedSteps(FINER_SUBSTEPS))
     trace, factor = timed(scene, rounds)
     scored = trace.time >= SCORED_FROM
     return {
@@ -70,9 +72,9 @@ def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]
 
 def measure_rival(scene: object) -> float:
     """Real-time factor of the package's slow reference: SciPy's DOP853 with located events, rtol 1e-9."""
-    simulate(scene, RATE, method="reference")
+    simulate(scene, RATE, Reference())
     begin = time.process_time()
-    simulate(scene, RATE, method="reference")
+    simulate(scene, RATE, Reference())
     return RIVAL_DURATION / (time.process_time() - begin)
 
 
@@ -118,6 +120,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
+    keep_freed_memory()  # as where records are made
     warm_up()
     results = {name: measure(name, rounds) for name in REFERENCE_SCENES}
     rivals = {name: measure_rival(reference_scene(name, RIVAL_DURATION)) for name in RIVAL_SCENES}

@@ -5,6 +5,7 @@ import pytest
 from datagen.charts.stability import DURATION, RATE, SWEEPS
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import reference_scene
+from physics.request import Accurate, FixedSteps, HalvedSteps
 from physics.rms import relative_error
 from physics.simulate import simulate
 
@@ -34,14 +35,14 @@ def scene_with(quantity, value):
 
 def error(trace, scene):
     """RMS error of the acceleration over its RMS, against a run with many short steps."""
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=FINE_STEPS, estimate_error=False).acceleration
+    exact = simulate(scene, RATE, FixedSteps(FINE_STEPS)).acceleration
     return relative_error(trace.acceleration, exact)
 
 
 @EDGE
 def test_just_inside_an_edge_the_accuracy_is_kept(method, quantity, accuracy, inside, outside):
     scene = scene_with(quantity, inside)
-    trace = simulate(scene, RATE, method=method, accuracy=accuracy)
+    trace = simulate(scene, RATE, HalvedSteps(accuracy, method=method))
     assert trace.error_estimate <= accuracy
     assert error(trace, scene) <= accuracy
 
@@ -52,16 +53,16 @@ def test_just_outside_an_edge_the_method_is_refused_and_the_default_keeps_the_ac
 ):
     scene = scene_with(quantity, outside)
     with pytest.raises(SimulationFailed, match=f"{method} with [0-9]+ steps .* {accuracy:g} is asked") as failure:
-        simulate(scene, RATE, method=method, accuracy=accuracy)
+        simulate(scene, RATE, HalvedSteps(accuracy, method=method))
     assert failure.value.outcome is Outcome.INACCURATE
-    assert error(simulate(scene, RATE, accuracy=accuracy), scene) <= accuracy
+    assert error(simulate(scene, RATE, Accurate(accuracy)), scene) <= accuracy
 
 
 def test_where_own_steps_become_too_short_they_are_given_up_with_a_typed_outcome():
-    kept = simulate(scene_with("contact stiffness K", 1e5), RATE, method="dormand_prince")
+    kept = simulate(scene_with("contact stiffness K", 1e5), RATE, HalvedSteps(method="dormand_prince"))
     assert error(kept, scene_with("contact stiffness K", 1e5)) <= 1e-3
     with pytest.raises(SimulationFailed, match="used up its steps") as failure:
-        simulate(scene_with("contact stiffness K", 1e6), RATE, method="dormand_prince")
+        simulate(scene_with("contact stiffness K", 1e6), RATE, HalvedSteps(method="dormand_prince"))
     assert failure.value.outcome is Outcome.TOO_MANY_STEPS
 
 
@@ -69,5 +70,5 @@ def test_where_own_steps_become_too_short_they_are_given_up_with_a_typed_outcome
 def test_own_steps_bounded_by_the_samples_are_told_as_wrong_as_they_are(quantity, value):
     """Where only the sampling limits steps, a smaller tolerance would change nothing, and tell no error."""
     scene = scene_with(quantity, value)
-    trace = simulate(scene, RATE, method="dormand_prince", substeps=1)
+    trace = simulate(scene, RATE, FixedSteps(1, "dormand_prince", estimate_error=True))
     assert error(trace, scene) <= 2.0 * trace.error_estimate

@@ -15,9 +15,11 @@ from physics.catalog import rig
 from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
 from physics.reference_scenes import reference_scene
+from physics.request import LeadIn
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
+from physics.trace import Kept
 
 RATE = 65536.0
 DURATION = 0.12
@@ -121,7 +123,7 @@ def distance(found, expected):
 def test_a_record_made_again_from_its_text_alone_agrees_within_one_percent(name):
     made = SCENES[name]()
     again = replay(json.loads(text_of(made, RATE)), substeps=16)["acceleration"]
-    ours = simulate(made, RATE, estimate_error=False).acceleration
+    ours = simulate(made, RATE).acceleration
     settled = slice(round(SETTLED * RATE), None)
     assert again.shape == ours.shape
     assert distance(ours[settled], again[settled]) < 0.01  # asked for; the replay's own error is up to 4e-3
@@ -136,7 +138,7 @@ def test_a_record_of_a_machine_that_has_run_before_agrees_with_its_text_from_the
     made = dataclasses.replace(made, **cages)
     settle = round(LEAD_IN * RATE) / RATE
     again = replay(json.loads(text_of(made, RATE, settle=settle)), substeps=16)
-    ours = simulate(made, RATE, lead_in=LEAD_IN, keep_force=True)
+    ours = simulate(made, RATE, keep=Kept(force=True), lead_in=LeadIn(LEAD_IN))
     assert ours.time[0] == again["time"][0] == 0.0
     assert again["acceleration"].shape == ours.acceleration.shape
     assert distance(ours.acceleration, again["acceleration"]) < 0.01

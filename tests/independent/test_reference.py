@@ -14,6 +14,7 @@ from physics.integrators.reference import integrate as reference
 from physics.integrators.reference.integrate import integrate_reference
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
+from physics.request import Reference
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
@@ -55,7 +56,7 @@ def test_without_contact_the_reference_follows_the_matrix_exponential():
 @pytest.mark.parametrize("law", ["paper", "no_tension"])
 def test_the_reference_agrees_with_the_independent_replay(law):
     scene = reference_scene_json("F1", duration=0.03) | {"contact_law": law}
-    found = simulate(fan_scene(line_spall(), law=law, duration=0.03), RATE, method="reference").acceleration
+    found = simulate(fan_scene(line_spall(), law=law, duration=0.03), RATE, Reference()).acceleration
     expected = replay(scene, substeps=64)["acceleration"]
     error = np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2))
     assert error < 2e-3  # the replay's own error: 5e-4 over half a second, more over a few passes

@@ -64,9 +64,7 @@ def test_a_dip_too_shallow_for_half_the_load_has_no_times(make_scene):
 
 def test_the_pass_table_gives_them_only_where_contact_is_never_lost(make_scene):
     kept, lost = make_scene(shallow(4.5e-6), duration=DURATION), make_scene(shallow(15e-6), duration=DURATION)
-    tables = [
-        ball_passes(scene, simulate(scene, 16384.0, estimate_error=False).changes, DURATION) for scene in (kept, lost)
-    ]
+    tables = [ball_passes(scene, simulate(scene, 16384.0).changes, DURATION) for scene in (kept, lost)]
     inside = [table.complete & table.loaded for table in tables]
     assert np.isnan(tables[0].release_time[inside[0]]).all()
     assert np.isfinite(tables[0].fall_time[inside[0]]).all()

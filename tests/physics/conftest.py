@@ -14,6 +14,7 @@ from physics.cage import CagePath
 from physics.catalog import rig
 from physics.operation import Operation
 from physics.reference_scenes import reference_scene as build_reference_scene
+from physics.request import FixedSteps
 from physics.rig import Rig
 from physics.scene import Scene
 from physics.simulate import simulate
@@ -53,8 +54,8 @@ def reference_trace(reference_scene: Callable[..., Scene]) -> Callable[..., Trac
     """Simulates a reference scene once: `reference_trace(name, duration, substeps, **choices of the scene)`."""
 
     @cache
-    def run(name: str, duration: float = 0.5, substeps: int | None = 1, **scene: Any) -> Trace:
-        return simulate(reference_scene(name, duration, **scene), RATE, substeps=substeps, estimate_error=False)
+    def run(name: str, duration: float = 0.5, substeps: int = 1, **scene: Any) -> Trace:
+        return simulate(reference_scene(name, duration, **scene), RATE, FixedSteps(substeps))
 
     return run
 

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from physics.contact.forces import Contacts
 from physics.integrators.output import Output
 from physics.response.goal import Goal
 from physics.trace import ACCELERATION_ALONE
@@ -16,8 +17,10 @@ def a_case(memory=0.0):
     """A push of 1 N s rings like 1 / (0.3 · rate · PUSH²), so that PUSH N s make 1 m/s² at the usual number."""
     ringing = 1.0 / (0.3 * RATE * PUSH**2)
     return SimpleNamespace(
-        contacts=SimpleNamespace(balls=np.zeros((1, 11, 4))),
-        scene=SimpleNamespace(operation=SimpleNamespace(load=LOAD), rig=SimpleNamespace(outer_mass=MASS)),
+        contacts=Contacts(np.zeros((1, 11, 4)), np.zeros((1, 3)), None, None),
+        scene=SimpleNamespace(
+            duration=SAMPLES / RATE, operation=SimpleNamespace(load=LOAD), rig=SimpleNamespace(outer_mass=MASS)
+        ),
         rate=RATE,
         push=PUSH,
         memory=memory,

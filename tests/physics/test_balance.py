@@ -10,6 +10,7 @@ from scipy.integrate import simpson
 from physics.cage import CagePath
 from physics.integrators.output import Grid
 from physics.operation import Operation
+from physics.request import FixedSteps
 from physics.response.march import respond
 from physics.rms import rms
 from physics.simulate import simulate
@@ -34,8 +35,7 @@ def fine_run(reference_scene):
     still = reference_scene("G1", 0.06)
     run = dataclasses.replace(still.operation, unbalance_force=40.0, unbalance_phase=0.7, load_fluctuation=0.2)
     scene = dataclasses.replace(still, operation=run)
-    kept = {"keep_state": True, "keep_force": True, "keep_outer": True}
-    return scene, simulate(scene, FINE_RATE, substeps=1, estimate_error=False, **kept)
+    return scene, simulate(scene, FINE_RATE, FixedSteps(1), keep=Kept(state=True, force=True, outer=True))
 
 
 def outer_loads(scene, time):
@@ -124,7 +124,7 @@ def energy(scene, state):
 @pytest.mark.parametrize("law", ["paper", "no_tension"])
 def test_energy_never_grows_while_the_cage_stands_still(law, reference_scene):
     scene = still_scene(reference_scene, law)
-    start = simulate(scene, RATE, keep_state=True, estimate_error=False).state[0].copy()
+    start = simulate(scene, RATE, keep=Kept(state=True)).state[0].copy()
     lowest = energy(scene, start[None])[0]
     start[6:8] = [0.03, 0.05]  # m/s: a blow that lets every ball lose contact
     trace = respond(scene, start, Grid(3000, 4, 0.25 / RATE), "exponential_rk4", Kept(state=True))
@@ -141,7 +141,7 @@ def test_undamped_energy_is_kept_while_the_cage_stands_still(reference_scene):
         damped.rig, film_damping=0.0, support_damping_x=0.0, support_damping_y=0.0, resonator_damping=0.0
     )
     scene = dataclasses.replace(damped, rig=free)
-    start = simulate(scene, RATE, keep_state=True, estimate_error=False).state[0].copy()
+    start = simulate(scene, RATE, keep=Kept(state=True)).state[0].copy()
     lowest = energy(scene, start[None])[0]
     start[6:8] = [0.03, 0.05]
     trace = respond(scene, start, Grid(3000, 4, 0.25 / RATE), "exponential_rk4", Kept(state=True))
@@ -169,7 +169,7 @@ def test_a_scene_turned_by_half_a_turn_answers_with_the_opposite_sign(name, lops
         cage=dataclasses.replace(scene.cage, start_angle=scene.cage.start_angle + math.pi),
         spalls=tuple(dataclasses.replace(spall, angle=spall.angle + math.pi) for spall in scene.spalls),
     )
-    here, there = (simulate(s, RATE, substeps=1, estimate_error=False).acceleration for s in (scene, turned))
+    here, there = (simulate(s, RATE, FixedSteps(1)).acceleration for s in (scene, turned))
     # Round-off decides which of two balls that change sides at one instant goes first, and with that the next steps.
     assert rms(here + there) < 1e-5 * rms(here)
 
@@ -179,8 +179,7 @@ def test_a_cage_one_ball_spacing_further_answers_alike(name, lopsided_scene):
     scene = lopsided_scene(name, 0.1)
     ahead = dataclasses.replace(scene.cage, start_angle=scene.cage.start_angle + scene.rig.bearing.spacing)
     here, there = (
-        simulate(s, RATE, substeps=1, estimate_error=False).acceleration
-        for s in (scene, dataclasses.replace(scene, cage=ahead))
+        simulate(s, RATE, FixedSteps(1)).acceleration for s in (scene, dataclasses.replace(scene, cage=ahead))
     )
     assert rms(here - there) < 1e-7 * rms(here)  # round-off of angles, through the contact changes
 
@@ -190,7 +189,7 @@ def test_a_spall_on_the_second_row_is_one_on_the_first_with_the_cage_half_a_spac
     second = tuple(dataclasses.replace(spall, row=2) for spall in scene.spalls)
     back = dataclasses.replace(scene.cage, start_angle=scene.cage.start_angle - scene.rig.bearing.stagger)
     here, there = (
-        simulate(s, RATE, substeps=1, estimate_error=False).acceleration
+        simulate(s, RATE, FixedSteps(1)).acceleration
         for s in (scene, dataclasses.replace(scene, spalls=second, cage=back))
     )
     assert rms(here - there) < 1e-7 * rms(here)  # round-off of angles, through the contact changes
@@ -199,7 +198,7 @@ def test_a_spall_on_the_second_row_is_one_on_the_first_with_the_cage_half_a_spac
 def test_two_cages_that_run_alike_answer_as_one(reference_scene):
     scene = reference_scene("F1", 0.1)
     twin = dataclasses.replace(scene, second_cage=scene.cage)
-    here, there = (simulate(s, RATE, substeps=1, estimate_error=False).acceleration for s in (scene, twin))
+    here, there = (simulate(s, RATE, FixedSteps(1)).acceleration for s in (scene, twin))
     assert rms(here - there) < 1e-7 * rms(here)  # sums of the two rows in another order
 
 

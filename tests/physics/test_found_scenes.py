@@ -9,6 +9,7 @@ from physics.bearing import Bearing
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
+from physics.request import FixedSteps
 from physics.rig import Rig
 from physics.rms import rms
 from physics.scene import Scene
@@ -57,7 +58,7 @@ def found_scene(name):
 def test_what_was_wrong_once_keeps_its_accuracy_now(name, rate, once):
     """`once`: the error that was made when 1e-3 was asked for and about half of that or less was said."""
     scene = found_scene(name)
-    exact = simulate(scene, rate, method="exponential_rk4", substeps=64, estimate_error=False)
+    exact = simulate(scene, rate, FixedSteps(64))
     trace = simulate(scene, rate)
     error = rms(trace.acceleration - exact.acceleration) / rms(exact.acceleration)
     assert error <= trace.error_estimate <= 1e-3 < once

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import physics
-from physics import _jit
 from physics._jit import (
     CACHE_FOLDER,
+    cache,
     fingerprint,
     njit,
     njit_inline,
@@ -32,7 +32,7 @@ def copied(tmp_path, monkeypatch):
     """A copy of the physics package which `fingerprint` reads instead."""
     copy = tmp_path / "physics"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(_jit, "__file__", str(copy / "_jit.py"))
+    monkeypatch.setattr(cache, "__file__", str(copy / "_jit" / "cache.py"))
     return copy
 
 
@@ -43,7 +43,7 @@ def test_a_copy_of_the_physics_has_the_same_fingerprint(copied, monkeypatch):
     assert len(of_copy) == 16
 
 
-@pytest.mark.parametrize("name", ["contact/forces.py", "integrators/march.py", "_jit.py"])
+@pytest.mark.parametrize("name", ["contact/forces.py", "integrators/march.py", "_jit/cache.py"])
 def test_the_fingerprint_changes_with_the_text_of_any_file(copied, name):
     before = fingerprint()
     file = copied / name
@@ -275,8 +275,8 @@ def test_a_user_without_a_home_gets_a_cache_of_his_own(monkeypatch):
 
     for name in ("SPALLGEN_CACHE", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(_jit.Path, "home", nowhere)
-    folder = _jit._cache_folder()
+    monkeypatch.setattr(cache.Path, "home", nowhere)
+    folder = cache._cache_folder()
     assert folder.is_dir()
     assert Path(tempfile.gettempdir()) in folder.parents
     monkeypatch.delenv("SPALLGEN_CACHE")

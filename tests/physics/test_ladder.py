@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from physics.checks import InvalidParameter
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import edges_of, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
@@ -14,21 +15,23 @@ from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
 from physics.paths.profile import race_depth
+from physics.request import FixedSteps, Simpler
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
 from physics.statics.stiffness import stiffness_at, stiffness_trace
+from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept
 
 RATE = 65536.0
 
 
-def nonlinear(scene, **choices):
-    return simulate(scene, RATE, method="exponential_rk4", substeps=2, estimate_error=False, **choices)
+def nonlinear(scene, keep=ACCELERATION_ALONE):
+    return simulate(scene, RATE, FixedSteps(2), keep=keep)
 
 
 @pytest.mark.parametrize("name", SIMPLER_MODELS)
 def test_every_model_gives_a_trace_of_the_same_shape_and_says_which_it_is(name, reference_scene):
-    trace = simulate(reference_scene("G1", 0.05), RATE, model=name)
+    trace = simulate(reference_scene("G1", 0.05), RATE, Simpler(name))
     assert trace.model == name
     assert trace.acceleration.shape == (round(0.05 * RATE), 2)
     assert np.all(np.isfinite(trace.acceleration))
@@ -36,19 +39,28 @@ def test_every_model_gives_a_trace_of_the_same_shape_and_says_which_it_is(name, 
     assert trace.changes.initial.shape == (2, 12)
 
 
-def test_an_unknown_model_is_refused_with_the_known_ones(reference_scene):
-    with pytest.raises(
-        SimulationFailed, match="impulse train, quasi-static, linear time-varying, nonlinear"
-    ) as failure:
-        simulate(reference_scene("G1", 0.05), RATE, model="spice")
-    assert failure.value.outcome is Outcome.BAD_REQUEST
+def test_an_unknown_model_is_refused_with_the_known_ones():
+    with pytest.raises(InvalidParameter, match='model = "spice"; allowed: impulse train, quasi-static, linear'):
+        Simpler("spice")
+
+
+@pytest.mark.parametrize("name", SIMPLER_MODELS)
+@pytest.mark.parametrize("what", KEEPABLE)
+def test_what_a_model_does_not_know_is_refused_and_what_it_knows_is_there(name, what, reference_scene):
+    scene, keep = reference_scene("G1", 0.01), Kept(**{what: True})
+    if what in SIMPLER_MODELS[name].keeps:
+        trace = simulate(scene, RATE, Simpler(name), keep=keep)
+        assert (trace.state if what == "state" else trace.contact_force).shape[0] == trace.time.size
+    else:
+        with pytest.raises(InvalidParameter, match=rf"keep\.{what} = True; Simpler\(model='{name}'\) keeps "):
+            simulate(scene, RATE, Simpler(name), keep=keep)
 
 
 @pytest.mark.parametrize("rate", [1000.0, 6000.0, 16384.0])
 def test_models_that_ring_keep_their_size_at_rates_too_low_for_their_modes(rate, reference_scene):
     scene = reference_scene("G1", 0.3)
     for name in ("linear time-varying", "impulse train"):
-        low, high = simulate(scene, rate, model=name), simulate(scene, RATE, model=name)
+        low, high = simulate(scene, rate, Simpler(name)), simulate(scene, RATE, Simpler(name))
         assert low.acceleration.shape == (round(0.3 * rate), 2)
         below = np.abs(np.fft.rfft(high.acceleration[:, 1]))[: round(0.4 * 0.3 * rate)] / RATE
         kept = np.abs(np.fft.rfft(low.acceleration[:, 1]))[: below.size] / rate
@@ -58,12 +70,12 @@ def test_models_that_ring_keep_their_size_at_rates_too_low_for_their_modes(rate,
 def test_the_linear_model_of_stiff_contacts_takes_steps_that_are_stable_or_says_so(reference_scene):
     scene = reference_scene("G1", 0.02)
     light = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, inner_mass=1e-3))
-    trace = simulate(light, RATE, model="linear time-varying")
+    trace = simulate(light, RATE, Simpler("linear time-varying"))
     assert trace.step < 1.0 / RATE
     assert np.isfinite(trace.acceleration).all()
     nothing = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, inner_mass=1e-12))
     with pytest.raises(SimulationFailed, match="is stable up to") as failure:
-        simulate(nothing, RATE, model="linear time-varying")
+        simulate(nothing, RATE, Simpler("linear time-varying"))
     assert failure.value.outcome is Outcome.UNSTABLE_STEP
 
 
@@ -73,7 +85,7 @@ def test_no_model_gives_a_trace_where_no_position_carries_the_load(name, referen
     soft = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, load_deflection=1e5))
     crushed = dataclasses.replace(scene, rig=soft, operation=dataclasses.replace(scene.operation, load=1e7))
     with pytest.raises(SimulationFailed, match=r"of 1e\+07 N") as failure:
-        simulate(crushed, RATE, model=name)
+        simulate(crushed, RATE, Simpler(name))
     assert failure.value.outcome is Outcome.NO_START
 
 
@@ -83,7 +95,7 @@ def test_the_linear_model_is_near_the_nonlinear_one_where_forces_stay_near_the_s
     name, tolerance, reference_scene
 ):
     scene = reference_scene(name, 0.15, slip_seed=3)
-    linear, full = simulate(scene, RATE, model="linear time-varying").acceleration, nonlinear(scene).acceleration
+    linear, full = simulate(scene, RATE, Simpler("linear time-varying")).acceleration, nonlinear(scene).acceleration
     later = slice(round(0.05 * RATE), None)
     assert rms(linear[later] - full[later]) < tolerance * rms(full[later])
 
@@ -93,7 +105,7 @@ def test_the_linear_model_in_time_is_the_one_over_cage_angle(reference_scene):
     in_time = dataclasses.replace(scene, second_cage=scene.cage)  # two cages that turn as one
     assert repeats_with_the_balls(scene)
     assert not repeats_with_the_balls(in_time)
-    one, other = (simulate(each, RATE, model="linear time-varying") for each in (scene, in_time))
+    one, other = (simulate(each, RATE, Simpler("linear time-varying")) for each in (scene, in_time))
     assert rms(one.acceleration - other.acceleration) < 0.05 * rms(
         one.acceleration
     )  # kinks of the stiffness lie between other nodes
@@ -106,7 +118,7 @@ def test_the_linear_model_follows_loads_that_turn_with_the_shaft(operation, refe
     scene = reference_scene("G0", 0.15)
     scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, **operation))
     assert not repeats_with_the_balls(scene)
-    linear, full = (simulate(scene, RATE, model="linear time-varying"), nonlinear(scene, keep_state=True))
+    linear, full = (simulate(scene, RATE, Simpler("linear time-varying")), nonlinear(scene, Kept(state=True)))
     later = slice(round(0.05 * RATE), None)
     moved = full.state[later, 0:4] - full.state[0, 0:4]
     assert rms(linear.state[later, 0:4] - full.state[later, 0:4]) < 0.02 * rms(moved)  # hardening of the contacts
@@ -114,7 +126,7 @@ def test_the_linear_model_follows_loads_that_turn_with_the_shaft(operation, refe
 
 def test_the_quasi_static_model_has_the_stiffness_and_loads_of_statics_and_no_vibration(reference_scene):
     scene = reference_scene("G1", 0.05)
-    trace = simulate(scene, RATE, model="quasi-static")
+    trace = simulate(scene, RATE, Simpler("quasi-static"))
     assert np.all(trace.acceleration == 0.0)
     displacement = trace.state[:, 0:2] - trace.state[:, 2:4]
     stiffness = stiffness_at(scene, trace.time, displacement)
@@ -135,14 +147,14 @@ def test_the_quasi_static_support_follows_an_unbalance(reference_scene):
     scene = reference_scene("G0", 0.1)
     force, speed = 100.0, scene.operation.shaft_speed
     scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, unbalance_force=force))
-    trace = simulate(scene, RATE, model="quasi-static")
+    trace = simulate(scene, RATE, Simpler("quasi-static"))
     expected = -(speed**2) * force / scene.rig.support_stiffness_x * np.cos(speed * trace.time)
     assert trace.acceleration[:, 0] == pytest.approx(expected, rel=1e-9)
 
 
 def test_quasi_static_contact_changes_are_those_of_motion_to_a_sample_where_nothing_rings(reference_scene):
     scene = reference_scene("G0", 0.15)
-    found, exact = simulate(scene, RATE, model="quasi-static").changes, nonlinear(scene).changes
+    found, exact = simulate(scene, RATE, Simpler("quasi-static")).changes, nonlinear(scene).changes
     found, exact = ([(c.ball[k], c.row[k], c.time[k]) for k in np.flatnonzero(c.time > 0.05)] for c in (found, exact))
     found, exact = np.array(sorted(found)), np.array(sorted(exact))
     assert np.array_equal(found[:, :2], exact[:, :2])
@@ -150,12 +162,12 @@ def test_quasi_static_contact_changes_are_those_of_motion_to_a_sample_where_noth
 
 
 def test_a_healthy_bearing_makes_no_impulses(reference_scene):
-    assert np.all(simulate(reference_scene("G0", 0.05), RATE, model="impulse train").acceleration == 0.0)
+    assert np.all(simulate(reference_scene("G0", 0.05), RATE, Simpler("impulse train")).acceleration == 0.0)
 
 
 def test_impulses_start_when_the_cage_says_slip_included(reference_scene):
     scene = reference_scene("F1", 0.3, slip_seed=5)
-    trace, edges = simulate(scene, RATE, model="impulse train"), edges_of(scene)
+    trace, edges = simulate(scene, RATE, Simpler("impulse train")), edges_of(scene)
     entries = edges.change < 0.0
     half = scene.spalls[0].extent / 2.0
     expected = passages(scene, 0, -half, 0.0, scene.duration).time[: entries.sum()]
@@ -169,7 +181,7 @@ def test_impulses_ring_at_the_coupled_resonator_and_decay(reference_scene):
     scene = reference_scene("F1", 0.3)
     sharp = dataclasses.replace(scene.spalls[0], entry_taper=0.0, exit_taper=0.0)  # tapers blunt the steps
     scene = dataclasses.replace(scene, spalls=(sharp,))
-    trace = simulate(scene, RATE, model="impulse train")
+    trace = simulate(scene, RATE, Simpler("impulse train"))
     spectrum = np.abs(np.fft.rfft(trace.acceleration[:, 1] * np.hanning(trace.time.size)))
     frequency = np.fft.rfftfreq(trace.time.size, 1.0 / RATE)
     above = frequency > 5000.0
@@ -202,7 +214,7 @@ def test_the_impulse_train_has_the_size_of_the_nonlinear_response(name, taper, r
     if taper is not None:  # so long that a ball is released in the first part of it
         changes = {"extent": 0.05, "depth": 60e-6, "entry_taper": taper, "exit_taper": taper}
         scene = dataclasses.replace(scene, spalls=(dataclasses.replace(scene.spalls[0], **changes),))
-    ratio = rms(simulate(scene, RATE, model="impulse train").acceleration) / rms(nonlinear(scene).acceleration)
+    ratio = rms(simulate(scene, RATE, Simpler("impulse train")).acceleration) / rms(nonlinear(scene).acceleration)
     assert 0.5 < ratio < 2.0  # within 6 dB, as the model states
 
 
@@ -244,7 +256,7 @@ def test_impulses_of_an_inner_spall_are_modulated_by_the_load_zone(reference_sce
 def test_the_quasi_static_state_moves_as_the_cage_turns_it(reference_scene):
     """Without slip a position depends on the cage's angle alone: its rate is the cage's speed times the slope there."""
     scene = reference_scene("G0", 0.02)
-    trace = simulate(scene, RATE, model="quasi-static", keep_state=True)
+    trace = simulate(scene, RATE, Simpler("quasi-static"), keep=Kept(state=True))
     velocity = trace.state[:, 6:8] - trace.state[:, 8:10]  # of the inner relative to the outer ring
     turned = 1e-5  # rad
     ahead, behind = (

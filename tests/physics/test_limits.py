@@ -9,10 +9,12 @@ from variants import changed
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
+from physics.request import FixedSteps
 from physics.rms import rms
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
+from physics.trace import Kept
 
 RATE = 65536.0
 MORE_SUBSTEPS = 16
@@ -72,8 +74,8 @@ LIMITS = {
 def test_one_step_a_sample_agrees_with_sixteen(rig_scene, limit, reference_scene):
     change, tolerance = LIMITS[limit]
     scene = change(reference_scene(rig_scene, 0.1))
-    once = simulate(scene, RATE, substeps=1, estimate_error=False)
-    often = simulate(scene, RATE, substeps=MORE_SUBSTEPS, estimate_error=False)
+    once = simulate(scene, RATE, FixedSteps(1))
+    often = simulate(scene, RATE, FixedSteps(MORE_SUBSTEPS))
     assert np.all(np.isfinite(once.acceleration))
     assert rms(often.acceleration) > 1e-4
     assert rms(once.acceleration - often.acceleration) < tolerance * rms(often.acceleration)
@@ -85,7 +87,7 @@ def test_one_step_a_sample_agrees_with_sixteen(rig_scene, limit, reference_scene
 @pytest.mark.parametrize("machine", ["G", "F"])
 def test_ten_times_the_rated_speed_agrees_with_more_steps(machine, kind, tolerance, reference_scene):
     scene = reference_scene(machine + kind, 0.1, speed_factor=10.0)
-    once, often = (simulate(scene, RATE, substeps=n, estimate_error=False).acceleration for n in (1, MORE_SUBSTEPS))
+    once, often = (simulate(scene, RATE, FixedSteps(n)).acceleration for n in (1, MORE_SUBSTEPS))
     assert rms(once - often) < tolerance * rms(often)
 
 
@@ -95,7 +97,7 @@ def test_at_ten_times_the_speed_a_spall_shorter_than_a_step_agrees_with_more_ste
     fast = reference_scene("G1", 0.1, speed_factor=10.0)
     scene = changed(fast, spall={"extent": extent, "entry_taper": 0.2 * extent, "exit_taper": 0.2 * extent})
     assert extent / scene.cage.mean_speed < 1.0 / RATE
-    once, often = (simulate(scene, RATE, substeps=n, estimate_error=False).acceleration for n in (1, MORE_SUBSTEPS))
+    once, often = (simulate(scene, RATE, FixedSteps(n)).acceleration for n in (1, MORE_SUBSTEPS))
     assert rms(once - often) < 3e-3 * rms(often)  # edges of some microseconds, film forces of hundreds of newtons
 
 
@@ -109,7 +111,7 @@ def test_without_load_and_preload_nothing_moves(rig_scene, reference_scene):
 @pytest.mark.parametrize("rig_scene", ["G1", "F1"])
 def test_a_spall_over_half_the_race_with_every_loaded_ball_inside_stays_finite(rig_scene, reference_scene):
     wide = {"extent": math.pi, "depth": 20e-6}
-    trace = simulate(changed(reference_scene(rig_scene, 0.1), spall=wide), RATE, keep_state=True)
+    trace = simulate(changed(reference_scene(rig_scene, 0.1), spall=wide), RATE, keep=Kept(state=True))
     assert np.all(np.isfinite(trace.state))
     assert trace.error_estimate < 1e-3  # the goal of the reference scenes
 
@@ -124,5 +126,5 @@ def test_three_spalls_on_two_rows_agree_with_more_steps(reference_scene):
             Spall("outer", 1, scene.spalls[0].angle - 0.26, 0.02, 8e-6, 0.004, 0.002),
         ),
     )
-    once, often = (simulate(both, RATE, substeps=n, estimate_error=False).acceleration for n in (1, MORE_SUBSTEPS))
+    once, often = (simulate(both, RATE, FixedSteps(n)).acceleration for n in (1, MORE_SUBSTEPS))
     assert rms(once - often) < 1e-3 * rms(often)  # the goal of the reference scenes

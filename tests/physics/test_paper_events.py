@@ -88,7 +88,7 @@ def test_the_other_balls_take_over_and_let_the_ball_be_released_a_little_later(u
 
 def test_release_and_regain_of_the_simulated_ball_are_the_quasi_static_ones(unloaded_share, reference_scene):
     scene = reference_scene("G1p")
-    entry, leave, release, regain = complete_passes(scene, simulate(scene, RATE, estimate_error=False))
+    entry, leave, release, regain = complete_passes(scene, simulate(scene, RATE))
     share = (regain - release) / (leave - entry)
     assert share.size >= 10
     assert share == pytest.approx(unloaded_share, abs=0.005)  # the 2.2 kHz mode has 12 periods in the time between
@@ -142,7 +142,7 @@ def level(amplitude, frequency, low, high):
 
 
 def test_a_gradual_entry_excites_0_90_and_1_99_khz_and_hardly_the_resonator(postponed_exit):
-    trace = simulate(postponed_exit, RATE, estimate_error=False)
+    trace = simulate(postponed_exit, RATE)
     entry, leave, _, _ = complete_passes(postponed_exit, trace)
     length = int(np.mean(leave - entry) * RATE) - 20
     amplitude, frequency = mean_spectrum(trace.acceleration[:, 1], entry, length)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from physics.imperfections import Imperfections, Waviness
+from physics.request import FixedSteps, Reference
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
 
@@ -48,14 +49,14 @@ def test_any_roughness_is_within_1e_3_of_the_converged_response(name, seed, true
 @pytest.mark.parametrize("name", SCENES)
 def test_eight_steps_a_sample_are_converged(name, reference_scene, reference_trace):
     scene = reference_scene(name, 0.15)
-    often = simulate(scene, RATE, substeps=32, estimate_error=False).acceleration[SCORED_FROM:]
+    often = simulate(scene, RATE, FixedSteps(32)).acceleration[SCORED_FROM:]
     eight = reference_trace(name, 0.15, 8).acceleration[SCORED_FROM:]
     assert rms(eight - often) < 5e-5 * rms(often)  # a twentieth of what is to be told apart
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_error_estimate_is_within_a_factor_of_five_of_the_true_error(name, reference_scene, true_error):
-    estimate = simulate(reference_scene(name, 0.5), RATE, substeps=1).error_estimate
+    estimate = simulate(reference_scene(name, 0.5), RATE, FixedSteps(1, estimate_error=True)).error_estimate
     assert 0.2 < estimate / true_error(name) < 5.0
 
 
@@ -74,8 +75,8 @@ def test_the_error_estimate_waits_for_a_rotating_load_to_reach_the_spall(referen
 
 
 def assert_estimate_holds(scene):
-    once = simulate(scene, RATE, substeps=1)
-    truth = simulate(scene, RATE, substeps=8, estimate_error=False).acceleration[SCORED_FROM:]
+    once = simulate(scene, RATE, FixedSteps(1, estimate_error=True))
+    truth = simulate(scene, RATE, FixedSteps(8)).acceleration[SCORED_FROM:]
     error = relative_error(once.acceleration[SCORED_FROM:], truth)
     assert 0.2 < once.error_estimate / error < 5.0
 
@@ -92,7 +93,7 @@ def test_every_short_window_agrees_with_the_reference_method(name, reference_sce
 
 
 def assert_agrees_with_reference(name, reference_scene, reference_trace):
-    truth = simulate(reference_scene(name, WINDOW), RATE, method="reference")
+    truth = simulate(reference_scene(name, WINDOW), RATE, Reference())
     assert_same(reference_trace(name, WINDOW, 1), reference_trace(name, WINDOW, 16), truth)
 
 
@@ -110,8 +111,8 @@ def assert_same(once, often, truth):
 @pytest.mark.parametrize("law", ["paper", "no_tension"])
 def test_a_scene_with_everything_in_it_agrees_with_the_reference_method(law, reference_scene):
     scene = scene_with_everything(reference_scene("F1", WINDOW, slip_seed=5), law)
-    once, often = (simulate(scene, RATE, substeps=n, estimate_error=False) for n in (1, 16))
-    assert_same(once, often, simulate(scene, RATE, method="reference"))
+    once, often = (simulate(scene, RATE, FixedSteps(n)) for n in (1, 16))
+    assert_same(once, often, simulate(scene, RATE, Reference()))
 
 
 def scene_with_everything(scene, law):

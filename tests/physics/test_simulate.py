@@ -6,12 +6,13 @@ import math
 import numpy as np
 import pytest
 
-import physics.response.march
-import physics.response.modal_case
+from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
+from physics.request import Accurate, FixedSteps, HalvedSteps, LeadIn, Reference
 from physics.rms import rms
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 
@@ -25,33 +26,44 @@ def with_bearing(scene, **changes):
 
 
 @pytest.mark.parametrize(
-    ("request_made", "told"),
+    ("kind", "choice", "told"),
     [
-        ({"method": "euler"}, 'method = "euler"; allowed: modal, exponential_rk4, '),
-        ({"rate": 0.0}, r"rate = 0\.0 Hz; it must be above 0"),
-        ({"rate": -5.0}, r"rate = -5\.0 Hz"),
-        ({"rate": math.nan}, "rate = nan Hz"),
-        ({"rate": math.inf}, "rate = inf Hz"),
-        ({"rate": 10.0}, r"a duration of 0\.02 s holds no sample at 10 Hz"),
-        ({"substeps": 0}, "substeps = 0; it must be"),
-        ({"substeps": -3}, "substeps = -3; it must be"),
-        ({"substeps": 1.5}, r"substeps = 1\.5; it must be"),
-        ({"substeps": math.nan}, "substeps = nan; it must be"),
-        ({"least_error": math.nan}, r"least_error = nan m/s²; it must be 0 or more"),
-        ({"least_error": -1.0}, r"least_error = -1\.0 m/s²"),
-        ({"least_error": math.inf}, r"least_error = inf m/s²"),
-        ({"fastest_path": math.nan}, r"fastest_path = nan Hz; it must be 0 or more"),
-        (
-            {"model": "impulse train", "method": "runge_kutta4"},
-            'method = "runge_kutta4"; the model "impulse train" has',
-        ),
-        ({"model": "quasi-static", "substeps": 7}, 'substeps = 7; the model "quasi-static" takes no'),
+        (FixedSteps, {"method": "euler"}, 'method = "euler"; allowed: exponential_rk4, '),
+        (FixedSteps, {"method": "modal"}, 'method = "modal"; allowed: exponential_rk4, '),
+        (FixedSteps, {"substeps": 0}, "substeps = 0; allowed: whole numbers 1 to 1024"),
+        (FixedSteps, {"substeps": -3}, "substeps = -3; allowed"),
+        (FixedSteps, {"substeps": 1.5}, r"substeps = 1\.5; allowed"),
+        (FixedSteps, {"substeps": math.nan}, "substeps = nan; allowed"),
+        (HalvedSteps, {"method": "reference"}, 'method = "reference"; allowed: exponential_rk4, '),
+        (HalvedSteps, {"accuracy": 0.2}, r"accuracy = 0\.2; allowed: 1e-06 to 0\.1"),
+        (Accurate, {"accuracy": 0.0}, r"accuracy = 0\.0; allowed: 1e-06 to 0\.1"),
+        (Accurate, {"accuracy": 1e-7}, "accuracy = 1e-07; allowed"),
+        (Accurate, {"accuracy": 0.2}, r"accuracy = 0\.2; allowed"),
+        (Accurate, {"accuracy": math.nan}, "accuracy = nan; allowed"),
+        (Accurate, {"least_error": math.nan}, r"least_error = nan m/s²; it must not be below 0"),
+        (Accurate, {"least_error": -1.0}, r"least_error = -1\.0 m/s²"),
+        (Accurate, {"least_error": math.inf}, r"least_error = inf m/s²"),
+        (Kept, {"fastest_path": math.nan}, r"fastest_path = nan Hz; it must not be below 0"),
+        (Kept, {"fastest_path": 9000.0}, r"fastest_path = 9000\.0 Hz; without the outer ring's motion nothing"),
+        (LeadIn, {"seconds": -0.1}, r"lead-in = -0\.1 s; it must not be below 0"),
+        (LeadIn, {"seconds": math.nan}, "lead-in = nan s"),
+        (LeadIn, {"seconds": math.inf}, "lead-in = inf s"),
     ],
 )
-def test_a_bad_request_is_refused_with_the_argument_and_its_value(request_made, told, reference_scene):
-    chosen = {"rate": RATE} | request_made
-    with pytest.raises(SimulationFailed, match=told) as caught:
-        simulate(reference_scene("G1", 0.02), **chosen)
+def test_a_choice_out_of_range_is_refused_with_its_value(kind, choice, told):
+    with pytest.raises(InvalidParameter, match=told):
+        kind(**choice)
+
+
+@pytest.mark.parametrize("rate", [0.0, -5.0, math.nan, math.inf])
+def test_a_rate_that_is_none_is_refused(rate, reference_scene):
+    with pytest.raises(InvalidParameter, match=f"rate = {rate} Hz; it must be above 0"):
+        simulate(reference_scene("G1", 0.02), rate)
+
+
+def test_a_scene_without_a_sample_is_refused_with_duration_and_rate(reference_scene):
+    with pytest.raises(SimulationFailed, match=r"a duration of 0\.02 s holds no sample at 10 Hz") as caught:
+        simulate(reference_scene("G1", 0.02), 10.0)
     assert caught.value.outcome is Outcome.BAD_REQUEST
     assert str(caught.value).endswith(Outcome.BAD_REQUEST.value)
 
@@ -69,26 +81,24 @@ def test_a_load_that_no_position_carries_is_told_with_the_load(reference_scene):
 @pytest.mark.parametrize("absurd", [{"film_damping": 1e6}, {"inner_mass": 1e-5}])
 def test_a_step_that_would_blow_up_is_refused_with_the_one_it_takes(absurd, reference_scene):
     with pytest.raises(SimulationFailed, match=r"stable up to .* takes \d+ steps a sample") as caught:
-        simulate(with_rig(reference_scene("G1", 0.05), **absurd), RATE, substeps=1, estimate_error=False)
+        simulate(with_rig(reference_scene("G1", 0.05), **absurd), RATE, FixedSteps(1))
     assert caught.value.outcome is Outcome.UNSTABLE_STEP
 
 
-@pytest.mark.parametrize("steps", [{}, {"substeps": 1, "estimate_error": False}])
-def test_more_contact_changes_than_can_be_logged_are_told(steps, reference_scene, monkeypatch):
-    for module in (physics.response.march, physics.response.modal_case):
-        monkeypatch.setattr(module, "FIRST_CHANGE_LOG", 4)
-        monkeypatch.setattr(module, "LARGEST_CHANGE_LOG", 32)
+@pytest.mark.parametrize("solution", [Accurate(), FixedSteps(1)])
+def test_more_contact_changes_than_can_be_logged_are_told(solution, reference_scene, monkeypatch):
+    monkeypatch.setattr("physics.response.change_log.FIRST_ROOM", 4)
+    monkeypatch.setattr("physics.response.change_log.LARGEST_ROOM", 32)
     with pytest.raises(SimulationFailed, match=r"more than 32 changes of contact in 0\.5 s") as caught:
-        simulate(reference_scene("G1", 0.5), RATE, **steps)
+        simulate(reference_scene("G1", 0.5), RATE, solution)
     assert caught.value.outcome is Outcome.TOO_MANY_CHANGES
 
 
 def test_a_log_that_was_too_short_at_first_changes_nothing(reference_scene, reference_trace, monkeypatch):
     once = reference_trace("G1", 0.5)
     chosen = simulate(reference_scene("G1", 0.5), RATE)
-    for module in (physics.response.march, physics.response.modal_case):
-        monkeypatch.setattr(module, "FIRST_CHANGE_LOG", 4)
-    again = simulate(reference_scene("G1", 0.5), RATE, substeps=1, estimate_error=False)
+    monkeypatch.setattr("physics.response.change_log.FIRST_ROOM", 4)
+    again = simulate(reference_scene("G1", 0.5), RATE, FixedSteps(1))
     assert np.array_equal(again.acceleration, once.acceleration)
     assert np.array_equal(again.changes.time, once.changes.time)
     assert np.array_equal(simulate(reference_scene("G1", 0.5), RATE).acceleration, chosen.acceleration)
@@ -96,8 +106,8 @@ def test_a_log_that_was_too_short_at_first_changes_nothing(reference_scene, refe
 
 def test_states_and_forces_are_kept_only_when_asked_for_and_do_not_touch_the_response(reference_scene):
     scene = reference_scene("F1", 0.03)
-    bare = simulate(scene, RATE, estimate_error=False)
-    full = simulate(scene, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    bare = simulate(scene, RATE)
+    full = simulate(scene, RATE, keep=Kept(state=True, force=True))
     samples = round(0.03 * RATE)
     assert bare.state is None
     assert bare.contact_force is None
@@ -118,7 +128,7 @@ def test_the_same_scene_gives_the_same_bits_again(reference_scene):
 @pytest.mark.parametrize("name", ["G1", "F1s"])
 def test_the_start_is_at_rest_in_static_equilibrium(name, reference_scene):
     scene = reference_scene(name, 0.001)
-    trace = simulate(scene, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    trace = simulate(scene, RATE, keep=Kept(state=True, force=True))
     assert np.all(np.abs(trace.state[0, 6:]) < 1e-18)  # m/s: the sum of the modes' round-off
     assert np.all(np.abs(trace.acceleration[0]) < 1e-9)  # m/s²: round-off of two springs' forces
     support = scene.rig.support_stiffness_y * trace.state[0, 3]
@@ -132,7 +142,7 @@ def test_the_start_is_at_rest_in_static_equilibrium(name, reference_scene):
 def test_a_low_rate_is_simulated_at_a_higher_one_and_lowered_without_aliasing(reference_scene, reference_trace):
     high = reference_trace("G1", 0.5).acceleration[:, 1]
     low_rate = RATE / 8.0
-    low = simulate(reference_scene("G1", 0.5), low_rate, estimate_error=False).acceleration[:, 1]
+    low = simulate(reference_scene("G1", 0.5), low_rate).acceleration[:, 1]
     assert low.size == high.size // 8
     # Both records keep what lies below 3 kHz; the resonator at 10.5 kHz, far stronger, would alias to 2.3 kHz.
     spectra = [np.fft.rfft(signal * np.hanning(signal.size)) / signal.size for signal in (high, low)]
@@ -143,8 +153,8 @@ def test_a_low_rate_is_simulated_at_a_higher_one_and_lowered_without_aliasing(re
 
 def test_a_low_rate_gives_the_states_and_forces_of_its_own_instants(reference_scene):
     scene = reference_scene("G1", 0.0625)
-    low = simulate(scene, RATE / 4.0, keep_state=True, keep_force=True, estimate_error=False)
-    high = simulate(scene, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    low = simulate(scene, RATE / 4.0, keep=Kept(state=True, force=True))
+    high = simulate(scene, RATE, keep=Kept(state=True, force=True))
     assert np.array_equal(low.time, high.time[::4])
     for kept in ("state", "contact_force"):
         here, there = getattr(low, kept), getattr(high, kept)[::4]
@@ -155,9 +165,9 @@ def test_a_low_rate_gives_the_states_and_forces_of_its_own_instants(reference_sc
 
 def test_without_a_number_of_steps_they_are_doubled_until_the_response_meets_the_accuracy(reference_scene):
     scene = reference_scene("F1", 0.1)
-    fixed = simulate(scene, RATE, substeps=1)
-    free = simulate(scene, RATE, method="exponential_rk4", accuracy=1e-5)
-    truth = simulate(scene, RATE, substeps=64, estimate_error=False).acceleration
+    fixed = simulate(scene, RATE, FixedSteps(1, estimate_error=True))
+    free = simulate(scene, RATE, HalvedSteps(1e-5))
+    truth = simulate(scene, RATE, FixedSteps(64)).acceleration
     assert fixed.step == 1.0 / RATE
     assert fixed.error_estimate > 1e-5
     assert free.step < fixed.step
@@ -167,8 +177,8 @@ def test_without_a_number_of_steps_they_are_doubled_until_the_response_meets_the
 
 def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_scene):
     scene = reference_scene("G1", 0.125)
-    low, high = (simulate(scene, rate, keep_outer=True, estimate_error=False) for rate in (16384.0, 49152.0))
-    assert simulate(scene, RATE, estimate_error=False).outer_acceleration is None
+    low, high = (simulate(scene, rate, keep=Kept(outer=True)) for rate in (16384.0, 49152.0))
+    assert simulate(scene, RATE).outer_acceleration is None
     assert (low.rate, low.outer_rate, high.outer_rate) == (16384.0, 49152.0, 49152.0)
     assert np.array_equal(low.outer_acceleration, high.outer_acceleration)  # the same march
     assert low.outer_velocity.shape == low.outer_displacement.shape == (3 * low.acceleration.shape[0], 2)
@@ -185,11 +195,12 @@ def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_
     ],
 )
 def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, path, factor):
-    trace = simulate(reference_scene("G0", 0.01), rate, keep_outer=True, fastest_path=path)
+    trace = simulate(reference_scene("G0", 0.01), rate, keep=Kept(outer=True, fastest_path=path))
     assert trace.outer_rate == factor * rate
     assert trace.outer_velocity.shape[0] == factor * trace.acceleration.shape[0]
 
 
-def test_the_reference_method_refuses_to_keep_the_outer_rings_motion(reference_scene):
-    with pytest.raises(SimulationFailed, match="keep_force or keep_outer = True; the reference method keeps no forces"):
-        simulate(reference_scene("G0", 0.02), RATE, method="reference", keep_outer=True)
+@pytest.mark.parametrize("what", ["force", "outer"])
+def test_the_reference_method_refuses_to_keep_what_it_does_not_follow(what, reference_scene):
+    with pytest.raises(InvalidParameter, match=rf"keep\.{what} = True; Reference\(\) keeps state alone"):
+        simulate(reference_scene("G0", 0.02), RATE, Reference(), keep=Kept(**{what: True}))

@@ -6,8 +6,10 @@ import math
 import numpy as np
 import pytest
 
+from physics.request import FixedSteps, Reference, Simpler
 from physics.simulate import simulate
 from physics.spall import Spall
+from physics.trace import Kept
 
 RATE = 65536.0
 LINE = Spall("outer", 1, 4.712388980384690, 0.035, 12e-6, 0.005, 0.005)
@@ -17,7 +19,7 @@ LINE = Spall("outer", 1, 4.712388980384690, 0.035, 12e-6, 0.005, 0.005)
 def trace(gearbox, build_scene):
     scene = build_scene(gearbox, LINE, start_angle=0.1)
     short = dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, duration=0.1))
-    return simulate(short, RATE, keep_state=True, keep_force=True, estimate_error=False)
+    return simulate(short, RATE, keep=Kept(state=True, force=True))
 
 
 def test_a_trace_holds_one_row_a_sample(trace):
@@ -59,22 +61,19 @@ def test_replaying_the_changes_from_the_first_contact_set_gives_the_balls_that_c
     assert np.array_equal(contact, trace.contact_force != 0.0)
 
 
-FIXED = {"substeps": 2, "estimate_error": False}
-
-
 @pytest.mark.parametrize(
-    ("choice", "samples"),
+    ("solution", "samples"),
     [
-        ({"method": "exponential_adams2"} | FIXED, 0.5),
-        ({"method": "dormand_prince"} | FIXED, 0.5),
-        ({"method": "reference"}, math.nan),
-        ({"model": "impulse train"}, math.nan),
-        ({"model": "quasi-static"}, math.nan),
-        ({"model": "linear time-varying"}, 1.0),
+        (FixedSteps(2, "exponential_adams2"), 0.5),
+        (FixedSteps(2, "dormand_prince"), 0.5),
+        (Reference(), math.nan),
+        (Simpler("impulse train"), math.nan),
+        (Simpler("quasi-static"), math.nan),
+        (Simpler("linear time-varying"), 1.0),
     ],
 )
-def test_the_step_is_what_the_trace_says_it_is_for_each_kind_of_method(choice, samples, reference_scene):
-    trace = simulate(reference_scene("G0", 0.01), RATE, **choice)
+def test_the_step_is_what_the_trace_says_it_is_for_each_kind_of_method(solution, samples, reference_scene):
+    trace = simulate(reference_scene("G0", 0.01), RATE, solution)
     assert trace.step * RATE == pytest.approx(samples, rel=1e-12, nan_ok=True)
 
 
@@ -84,14 +83,14 @@ def test_the_step_of_the_modal_method_is_the_mean_over_the_march(reference_scene
 
 
 @pytest.mark.parametrize(
-    ("choice", "share"),
+    ("solution", "share"),
     [
-        ({"model": "quasi-static"}, 0.0),  # without a film no ball pulls
-        ({"model": "impulse train"}, math.nan),
-        ({"model": "linear time-varying"}, math.nan),
-        ({"method": "reference"}, math.nan),
+        (Simpler("quasi-static"), 0.0),  # without a film no ball pulls
+        (Simpler("impulse train"), math.nan),
+        (Simpler("linear time-varying"), math.nan),
+        (Reference(), math.nan),
     ],
 )
-def test_the_share_of_tension_is_only_known_where_the_forces_of_balls_are_followed(choice, share, reference_scene):
-    trace = simulate(reference_scene("G1", 0.01), RATE, **choice)
+def test_the_share_of_tension_is_only_known_where_the_forces_of_balls_are_followed(solution, share, reference_scene):
+    trace = simulate(reference_scene("G1", 0.01), RATE, solution)
     assert trace.tension_share == pytest.approx(share, nan_ok=True)

@@ -39,10 +39,11 @@ ONE_MARCH = """
 from physics.integrators.modal.march import march_modal
 from physics.reference_scenes import reference_scene
 from physics.simulate import simulate
+from physics.trace import Kept
 from physics.warming import compile_march
 
 compile_march()
-simulate(reference_scene("G1", 0.01), 65536.0, keep_state=True)
+simulate(reference_scene("G1", 0.01), 65536.0, keep=Kept(state=True))
 print(len(march_modal.signatures))
 """
 

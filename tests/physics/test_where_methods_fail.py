@@ -12,12 +12,14 @@ from physics.integrators.methods import MARCHES, METHODS
 from physics.integrators.output import Grid
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
+from physics.request import Accurate, FixedSteps, HalvedSteps, Reference
 from physics.response.march import respond
 from physics.response.stability import limiting_modes, longest_stable_step, stable_substeps
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
+from physics.trace import Kept
 
 RATE = 65536.0
 # Steps a sample at which each method is within its tolerance below on ordinary scenes.
@@ -67,8 +69,8 @@ DEFAULT_CORNERS = CORNERS | {
 @pytest.mark.parametrize("method", MARCHES)
 def test_in_every_corner_every_method_agrees_with_a_finer_run(method, corner, reference_scene):
     scene = CORNERS[corner](reference_scene)
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False).acceleration
-    trace = simulate(scene, RATE, method=method, substeps=STEPS[method], estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(16)).acceleration
+    trace = simulate(scene, RATE, FixedSteps(STEPS[method], method))
     assert trace.unlocated_changes == 0
     # Coarser than the goal of rated speed: edges here last a fraction of a step.
     assert rms(trace.acceleration - exact) < TOLERANCE[method] * rms(exact)
@@ -77,7 +79,7 @@ def test_in_every_corner_every_method_agrees_with_a_finer_run(method, corner, re
 @pytest.mark.parametrize("corner", DEFAULT_CORNERS)
 def test_in_every_corner_the_default_keeps_the_accuracy_asked_for(corner, reference_scene):
     scene = DEFAULT_CORNERS[corner](reference_scene)
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=32, estimate_error=False).acceleration
+    exact = simulate(scene, RATE, FixedSteps(32)).acceleration
     trace = simulate(scene, RATE)
     assert not trace.chaotic
     assert rms(trace.acceleration - exact) < 1e-3 * rms(exact)
@@ -87,8 +89,8 @@ def test_no_change_of_contact_is_lost_at_a_spall_as_narrow_as_a_tenth_of_a_milli
     """Its ball changes sides at 67 m/s of compression, where one digit of time is more than a step may be wrong by."""
     scene = reference_scene("F1", 0.05, speed_factor=3.0, slip_seed=1)
     narrow = changed(scene, spall={"extent": 1e-4, "depth": 3e-6, "entry_taper": 3e-5, "exit_taper": 3e-5})
-    exact = simulate(narrow, RATE, method="reference")
-    trace = simulate(narrow, RATE, accuracy=1e-6)
+    exact = simulate(narrow, RATE, Reference())
+    trace = simulate(narrow, RATE, Accurate(1e-6))
     assert trace.unlocated_changes == 0
     assert trace.changes.time.size == exact.changes.time.size
     assert rms(trace.acceleration - exact.acceleration) < 1e-4 * rms(exact.acceleration)
@@ -109,7 +111,7 @@ def test_contact_that_is_made_at_a_vertical_wall_is_located_and_logged(speed, lo
 
 def test_what_the_film_does_before_a_vertical_wall_is_no_error_behind_it(reference_scene):
     wall = changed(reference_scene("F1", 1.0, slip_seed=1), spall={"exit_taper": 0.0})
-    exact = simulate(wall, RATE, method="exponential_rk4", substeps=8, estimate_error=False).acceleration
+    exact = simulate(wall, RATE, FixedSteps(8)).acceleration
     trace = simulate(wall, RATE)
     assert rms(trace.acceleration - exact) < trace.error_estimate * rms(exact) < 1e-3 * rms(exact)
 
@@ -119,7 +121,7 @@ def test_a_free_ball_that_touches_the_lip_of_a_measured_spall_within_a_step_is_n
     lip = {"table_angle": (-0.005, -0.002, 0.001, 0.005), "table_depth": (3e-5, 3e-5, -1e-6, 3e-5)}
     spall = Spall("inner", 1, 0.0, 0.012, 3e-5, profile="table", **lip)
     scene = changed(reference_scene("F0", 0.13, speed_factor=speed, slip_seed=1), spalls=(spall,))
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=64, estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(64))
     trace = simulate(scene, RATE)
     assert trace.changes.time.size == exact.changes.time.size > 40
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
@@ -130,7 +132,7 @@ def test_a_ball_that_is_pressed_and_let_go_of_within_a_step_is_not_missed(refere
     spall = Spall("inner", 1, 0.0, 0.040385, 19e-6, 0.004038, 0.003444)
     scene = reference_scene("F0", 0.1, speed_factor=5.5, slip_seed=1)
     scene = changed(scene, operation={"load": 60.5}, spalls=(spall,), contact_law="no_tension")
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=64, estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(64))
     trace = simulate(scene, RATE)
     assert trace.changes.time.size == exact.changes.time.size > 100
     # The fixed steps are right to 1e-5; the estimate is told to be kept.
@@ -161,7 +163,7 @@ def test_a_free_ball_that_touches_a_ridge_between_two_spalls_within_a_step_is_no
     (name, speed, seed, load), *spalls = RIDGES[place]
     scene = reference_scene(name, 0.1, speed_factor=speed, slip_seed=seed)
     scene = changed(scene, operation={"load": load}, spalls=tuple(spalls))
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=64, estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(64))
     trace = simulate(scene, RATE)
     assert trace.changes.time.size == exact.changes.time.size > 100
     # The fixed steps are right to 1e-5; the estimate is told to be kept.
@@ -174,7 +176,7 @@ def test_a_ball_that_rolls_slowly_over_a_taper_meets_no_jump_of_its_path(race, r
     spall = Spall(race, 1, 4.712, 0.017, 36e-6, 0.0017, 0.0037, profile="ball_path")
     cage = CagePath(scene.rig.bearing.cage_speed(speed), 0.12, 0.1)
     scene = changed(scene, operation={"shaft_speed": speed, "load": 90.0}, cage=cage, spalls=(spall,))
-    exact, trace = simulate(scene, RATE, accuracy=1e-6), simulate(scene, RATE)
+    exact, trace = simulate(scene, RATE, Accurate(1e-6)), simulate(scene, RATE)
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
 
 
@@ -185,7 +187,7 @@ def test_the_tables_of_waves_ring_no_mode(rpm, race, reference_scene):
     waves = Imperfections((Waviness(race, 28, 1e-6, 0.3),))
     cage = CagePath(scene.rig.bearing.cage_speed(speed), 0.05, 0.1)
     scene = changed(scene, operation={"shaft_speed": speed}, cage=cage, imperfections=waves)
-    exact, trace = simulate(scene, RATE, method="reference"), simulate(scene, RATE, accuracy=1e-4)
+    exact, trace = simulate(scene, RATE, Reference()), simulate(scene, RATE, Accurate(1e-4))
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
     assert trace.error_estimate < 1e-4
 
@@ -196,7 +198,7 @@ def test_errors_that_grow_from_impact_to_impact_after_a_quiet_beginning_are_seen
     spall = Spall("outer", 1, 4.712, 0.083, 10e-6, 0.0166, 0.0166)
     scene = reference_scene("F0", 0.4, speed_factor=4009.5 / 800.0, slip_seed=seed)
     scene = changed(scene, operation={"load": 36.4}, spalls=(spall,))
-    trace, finer = simulate(scene, RATE), simulate(scene, RATE, accuracy=1e-6)
+    trace, finer = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-6))
     assert trace.chaotic or rms(trace.acceleration - finer.acceleration) < 1e-3 * rms(finer.acceleration)
     assert trace.sensitivity > 10.0
 
@@ -204,7 +206,7 @@ def test_errors_that_grow_from_impact_to_impact_after_a_quiet_beginning_are_seen
 @pytest.mark.parametrize("method", MARCHES)
 def test_without_load_nothing_moves_by_any_method(method, reference_scene):
     scene = changed(reference_scene("F1", 0.02), operation={"load": 0.0})
-    trace = simulate(scene, RATE, method=method, substeps=2, estimate_error=False)
+    trace = simulate(scene, RATE, FixedSteps(2, method))
     assert np.all(trace.acceleration == 0.0)
 
 
@@ -212,7 +214,7 @@ def test_without_load_nothing_moves_by_any_method(method, reference_scene):
 def test_balls_that_rattle_in_a_bearing_without_damping_stay_finite_and_bounded(method, reference_scene):
     """A shaft thrown about by an unbalance of ten times its load touches and leaves most balls."""
     scene = changed(reference_scene("F1", 0.05), **RATTLING)
-    trace = simulate(scene, RATE, method=method, substeps=2, estimate_error=False, keep_state=True)
+    trace = simulate(scene, RATE, FixedSteps(2, method), keep=Kept(state=True))
     assert np.all(np.isfinite(trace.state))
     assert trace.changes.time.size > 20
     assert rms(trace.acceleration) < 100.0  # m/s²; 5.5 N on 2.5 kg make 2
@@ -222,7 +224,7 @@ def test_no_method_hangs_where_a_strong_film_makes_contact_chatter(reference_sce
     """Film forces of hundreds of times the load switch on and off with each other's changes of contact."""
     scene = changed(reference_scene("F1", 0.02), rig={"film_damping": 3e4}, contact_law="no_tension")
     for method in MARCHES:
-        ended = outcome(lambda method=method: simulate(scene, RATE, method=method, substeps=8, estimate_error=False))
+        ended = outcome(lambda method=method: simulate(scene, RATE, FixedSteps(8, method)))
         assert ended in ("finite", Outcome.UNSTABLE_STEP, Outcome.TOO_MANY_STEPS, Outcome.TOO_MANY_CHANGES)
 
 
@@ -245,8 +247,8 @@ def test_a_resonator_too_light_for_the_rate_is_refused_before_anything_is_made(m
 
 def test_a_resonator_just_light_enough_is_simulated_at_a_multiple_of_the_rate(reference_scene):
     scene = changed(reference_scene("F1", 0.02), rig={"resonator_mass": 1e-3, "resonator_damping": 5.0})
-    once = simulate(scene, RATE, method="exponential_rk4", estimate_error=False).acceleration
-    often = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False).acceleration
+    once = simulate(scene, RATE, FixedSteps()).acceleration
+    often = simulate(scene, RATE, FixedSteps(16)).acceleration
     assert rms(once - often) < 3e-3 * rms(often)  # contact changes an order n + 1 below the smooth error
 
 
@@ -295,7 +297,7 @@ def quarters(response):
 @pytest.mark.parametrize("method", LIMITED)
 def test_just_inside_the_stability_limit_a_push_dies_away(method, reference_scene):
     scene = stiffened(reference_scene("G0", 1.0), method, 1.06)
-    simulate(scene, RATE, method=method, substeps=1, estimate_error=False)
+    simulate(scene, RATE, FixedSteps(1, method))
     first, last = quarters(unchecked(scene, method, SECOND))
     assert last < first
 
@@ -304,7 +306,7 @@ def test_just_inside_the_stability_limit_a_push_dies_away(method, reference_scen
 def test_just_outside_the_stability_limit_the_step_is_refused_and_would_have_run_away(method, reference_scene):
     scene = stiffened(reference_scene("G0", 1.0), method, 0.7)  # nearer, the last damping still holds it for a while
     with pytest.raises(SimulationFailed, match=f"{method} is stable up to") as failure:
-        simulate(scene, RATE, method=method, substeps=1, estimate_error=False)
+        simulate(scene, RATE, FixedSteps(1, method))
     assert failure.value.outcome is Outcome.UNSTABLE_STEP
     assert ran_away(lambda: unchecked(scene, method, SECOND))
 
@@ -321,7 +323,7 @@ def ran_away(run):
 @pytest.mark.parametrize("method", LIMITED)
 def test_without_steps_given_the_method_takes_as_many_as_it_is_stable_with(method, reference_scene):
     scene = stiffened(reference_scene("G0", 0.02), method, 0.3)
-    trace = simulate(scene, RATE, method=method, estimate_error=False)
+    trace = simulate(scene, RATE, FixedSteps(method=method))
     rest = equilibrium(scene, np.zeros(1))
     least = math.ceil(1.0 / (RATE * longest(scene, method)))
     assert round(1.0 / (RATE * trace.step)) == stable_substeps(scene, METHODS[method], rest, RATE) == least > 2
@@ -331,7 +333,7 @@ def test_without_steps_given_the_method_takes_as_many_as_it_is_stable_with(metho
 def test_contacts_far_too_stiff_for_an_explicit_method_are_refused_and_named(reference_scene):
     scene = changed(reference_scene("G0", 0.02), bearing={"load_deflection": 1e24})
     with pytest.raises(SimulationFailed, match="of the contact modes") as failure:
-        simulate(scene, RATE, method="exponential_rk4")
+        simulate(scene, RATE, HalvedSteps())
     assert failure.value.outcome is Outcome.UNSTABLE_STEP
 
 

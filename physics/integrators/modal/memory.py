@@ -90,13 +90,13 @@ class Stride(NamedTuple):
 def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shape: tuple[int, ...]) -> Memory:
     """Memory for a march from the amplitudes `start` (12,) of contacts whose balls are an array of this `shape`.
 
-    `tables` (modal/tables.py) may serve several marches, one after the other.
+    `tables` (modal/tables.py) may serve several marches at once: the row BETWEEN is the memory's own.
     """
     (weights, inside), (cages, _, balls) = tables, shape
     return Memory(
         states=np.stack([start, np.zeros_like(start)]),
         between=np.zeros_like(start),
-        weights=weights,
+        weights=weights.copy(),
         inside=inside,
         course=np.zeros((2, POWERS)),
         phi=np.zeros((2, POWERS + 1, AMPLITUDES)),

@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.integrate import DOP853, RK45
 
-from physics._jit import CCallback, c_callback, njit, specialise
+from physics._jit import njit, specialise
+from physics._jit.c_callback import CCallback, c_callback
 from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.contact_set import count_changes, reset_contact

@@ -18,8 +18,10 @@ from physics.integrators.rivals.general_purpose import (
     integrate_compiled,
 )
 from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps
 from physics.rms import relative_error
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 
@@ -28,7 +30,7 @@ RATE = 65536.0
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(pair, kind_of_slope):
     scene = reference_scene("F1", 0.03)
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(16))
     samples = exact.time.size
     start = entrants.start_of(scene)
     states, evaluations = integrate_compiled(scene, pair, kind_of_slope, start, RATE, samples, 1e-8)
@@ -43,7 +45,7 @@ def test_the_compiled_rivals_reach_the_same_response_without_locating_anything(p
 @pytest.mark.parametrize("kind_of_slope", [BALL_BY_BALL, CONTACT_KERNEL])
 def test_fixed_steps_through_changes_of_contact_reach_the_same_response_slowly(kind_of_slope):
     scene = reference_scene("F1", 0.03)
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(16))
     start = entrants.start_of(scene)
 
     def error(substeps):
@@ -69,7 +71,7 @@ def test_every_rival_has_a_colour_and_a_style():
 def test_numbalsoda_reaches_the_same_response_where_it_is_installed(solver, kind_of_slope):
     pytest.importorskip("numbalsoda", reason="numbalsoda needs a Fortran compiler to install")
     scene = reference_scene("F1", 0.03)
-    exact = simulate(scene, RATE, method="exponential_rk4", substeps=16, estimate_error=False)
+    exact = simulate(scene, RATE, FixedSteps(16))
     name = f"numbalsoda {solver}, {kind_of_slope}"
     finest = [one for one in entrants.contestants(scene, quick=False) if one.name == name][-1]
     found = finest.read(scene, RATE, finest.run(scene, RATE))
@@ -85,7 +87,7 @@ def test_numbalsoda_takes_part_only_where_it_is_installed(monkeypatch):
 
 def test_the_default_has_an_error_of_its_stiffness_and_is_timed_without_keeping_its_state():
     scene = reference_scene("F1", 0.2)
-    exact = of_trace(simulate(scene, RATE, method="exponential_rk4", substeps=4, estimate_error=False, keep_state=True))
+    exact = of_trace(simulate(scene, RATE, FixedSteps(4), keep=Kept(state=True)))
     chosen = [one for one in entrants.contestants(scene, quick=True) if one.name.startswith("modal")]
     for one in chosen:
         result = one.run(scene, RATE)

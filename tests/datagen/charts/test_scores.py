@@ -9,7 +9,9 @@ import pytest
 from datagen.charts.response import of_trace
 from datagen.charts.scores import Score, score
 from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 
@@ -18,7 +20,7 @@ RATE = 65536.0
 def response():
     """The fan rig's line spall over 0.2 s with its states."""
     scene = reference_scene("F1", 0.2)
-    trace = simulate(scene, RATE, method="exponential_rk4", substeps=2, estimate_error=False, keep_state=True)
+    trace = simulate(scene, RATE, FixedSteps(2), keep=Kept(state=True))
     return scene, trace
 
 

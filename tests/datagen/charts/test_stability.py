@@ -9,6 +9,7 @@ from command_line import run
 from datagen.charts import stability
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps
 from physics.simulate import simulate
 
 RATE = 65536.0
@@ -49,7 +50,7 @@ def test_a_step_is_refused_on_the_map_where_simulate_refuses_it():
     assert 1.0 / 16.0 < limit < 1.0
     for steps in stability.STEPS_A_SAMPLE:
         try:
-            simulate(soft, stability.RATE, method="exponential_rk4", substeps=steps, estimate_error=False)
+            simulate(soft, stability.RATE, FixedSteps(steps))
             outcome = None
         except SimulationFailed as failure:
             outcome = failure.outcome

@@ -44,7 +44,7 @@ def made_portrait(name, clean=True, noise=0.05, **changes):
     rig = catalog.rig(rig_name)
     cage = CagePath(rig.bearing.cage_speed(rig.rated_speed), DURATION, 0.2)
     scene = Scene(rig, Operation(rig.rated_speed, rig.rated_load), cage, tuple(spalls), Imperfections(waves))
-    trace = simulate(scene, RATE, estimate_error=False)
+    trace = simulate(scene, RATE)
     measured = trace.acceleration + noise * np.random.default_rng(1).standard_normal(trace.acceleration.shape)
     band = default_band(rig, RATE)
     time = np.linspace(0.0, DURATION, 2001)

@@ -8,7 +8,10 @@ from datagen.recipes.recipe import load_recipe
 from datagen.records.record import make_record
 from datagen.scenarios.sampling import draw_scenario
 from labels.description import label_values
-from physics.response.modal_case import March
+from physics.request import FixedSteps
+from physics.response.adaptive import respond_accurately
+from physics.response.modal_case import resting
+from physics.response.oversampling import oversampling
 from physics.rms import rms
 from physics.simulate import simulate
 
@@ -23,9 +26,7 @@ def scenario():
 
 
 def test_two_step_sizes_of_another_method_end_far_apart(scenario):
-    one, other = (
-        simulate(scenario.scene, scenario.rate, substeps=count, estimate_error=False).acceleration for count in (16, 32)
-    )
+    one, other = (simulate(scenario.scene, scenario.rate, FixedSteps(count)).acceleration for count in (16, 32))
     assert ((one - other) ** 2).mean() > 0.01 * (other**2).mean()  # a hundred times the accuracy asked for
 
 
@@ -39,27 +40,23 @@ def test_the_record_is_called_chaotic_and_its_points_unknown(scenario):
 def test_chaos_that_begins_after_the_pilots_is_seen_by_a_finer_response():
     late = draw_scenario(load_recipe("corpus").model_copy(update={"seed": 20261201}), 5900)
     trace = simulate(late.scene, late.rate)
-    one, other = (
-        simulate(late.scene, late.rate, substeps=count, estimate_error=False).acceleration for count in (16, 64)
-    )
+    one, other = (simulate(late.scene, late.rate, FixedSteps(count)).acceleration for count in (16, 64))
     assert ((one - other) ** 2).mean() > 0.01 * (other**2).mean()
     assert trace.chaotic
     assert trace.error_estimate == 1.0
 
 
-@pytest.fixture
-def marches(monkeypatch):
-    """The samples of every march that a simulation makes."""
-    made = []
+def respond(record):
+    """The trace of a record of the wide corpus, and how many responses were made after the first."""
+    drawn, made = draw_scenario(load_recipe("corpus"), record), []
 
-    class Counted(March):
-        def __post_init__(self):
-            made.append(self.samples)
-            super().__post_init__()
+    def counted(march, grid):
+        made.append(march)
+        return march.go_on(grid)
 
-    for module in ("adaptive", "goal"):
-        monkeypatch.setattr(f"physics.response.{module}.March", Counted)
-    return made
+    scene, factor = drawn.scene, oversampling(drawn.scene, drawn.rate)
+    rate, samples = drawn.rate * factor, drawn.samples * factor
+    return respond_accurately(scene, resting(scene), rate, samples, 1e-3, 0.0, go_on=counted), len(made)
 
 
 @pytest.mark.parametrize(
@@ -67,19 +64,16 @@ def marches(monkeypatch):
     [(110, 0, True), (291, 1, True), (289, 2, False)],
     ids=["parted in the first tenth", "parted in the first third", "parted near the middle, and confirmed at last"],
 )
-def test_a_response_is_confirmed_as_often_as_that_can_help(record, confirmations, chaotic, marches):
-    drawn = draw_scenario(load_recipe("corpus"), record)
-    trace = simulate(drawn.scene, drawn.rate)
+def test_a_response_is_confirmed_as_often_as_that_can_help(record, confirmations, chaotic):
+    trace, made = respond(record)
     assert trace.chaotic is chaotic
-    # Before them: the response and a finer one, and two coarse pilots, the first of which is short.
-    assert len(marches) == 4 + confirmations
+    assert made == 1 + confirmations  # a finer one before them
 
 
-def test_a_response_is_not_confirmed_after_one_that_took_too_many_steps(marches, monkeypatch):
+def test_a_response_is_not_confirmed_after_one_that_took_too_many_steps(monkeypatch):
     monkeypatch.setattr("physics.response.attempts.MUCH_WORK", 1)
-    drawn = draw_scenario(load_recipe("corpus"), 289)
-    trace = simulate(drawn.scene, drawn.rate)
-    assert len(marches) == 5  # one fewer than above
+    trace, made = respond(289)
+    assert made == 2  # one fewer than above
     assert not trace.chaotic
     assert trace.error_estimate > 1e-3  # and the record says that it may be so far off
 

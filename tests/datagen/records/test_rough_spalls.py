@@ -7,6 +7,7 @@ import numpy as np
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
 from physics.integrators.modal.memory import STRIDES, Stride
+from physics.request import Accurate, FixedSteps
 from physics.response.modal_case import March, case_of, resting
 from physics.rms import relative_error
 from physics.simulate import simulate
@@ -34,10 +35,10 @@ def _shortened(drawn, seconds=0.1):
 def test_a_change_of_contact_that_comes_after_the_next_sample_does_not_pass_it_over():
     drawn = _drawn(20270101, 3074)  # a ball that is to let go just before a sample does so 30 ns behind it
     scene = _shortened(drawn)
-    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    exact = simulate(scene, drawn.rate, FixedSteps(64))
     # At 2730.7 samples a ball touches 0.16 samples before a trial step, wrong by millions of tolerances, said it would.
     for accuracy in (3e-3, 1e-3, 3e-4, 1e-4):
-        trace = simulate(scene, drawn.rate, accuracy=accuracy)
+        trace = simulate(scene, drawn.rate, Accurate(accuracy))
         error = relative_error(trace.acceleration, exact.acceleration)
         assert error <= trace.error_estimate <= accuracy
         assert trace.acceleration.any(axis=1).all()
@@ -47,7 +48,7 @@ def test_steps_to_the_end_of_a_contact_follow_the_bumps_behind_an_edge():
     drawn = _drawn(20261229, 4033)  # the film's force changes sides thrice between the edge and the loss of contact
     scene = _shortened(drawn)
     trace = simulate(scene, drawn.rate)
-    exact = simulate(scene, drawn.rate, substeps=32, estimate_error=False)
+    exact = simulate(scene, drawn.rate, FixedSteps(32))
     error = relative_error(trace.acceleration, exact.acceleration)
     assert error <= trace.error_estimate <= 1e-3
 
@@ -70,7 +71,7 @@ def test_a_ball_that_is_held_again_at_a_corner_of_the_path_is_taken_at_its_word(
     drawn = _drawn(20270105, 5695)  # without tension the force of a ball jumps past zero there, and is never near it
     scene = _shortened(drawn, 0.02)
     trace = simulate(scene, drawn.rate)
-    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    exact = simulate(scene, drawn.rate, FixedSteps(64))
     error = relative_error(trace.acceleration, exact.acceleration)
     assert error <= trace.error_estimate <= 1e-3
     assert trace.unlocated_changes == 0
@@ -79,8 +80,8 @@ def test_a_ball_that_is_held_again_at_a_corner_of_the_path_is_taken_at_its_word(
 def test_bumps_between_the_instants_of_a_step_are_not_passed_over():
     drawn = _drawn(777, 3075)  # rolled over bumps some cells of its path long, where steps are as long
     scene = _shortened(drawn)
-    exact = simulate(scene, drawn.rate, substeps=64, estimate_error=False)
+    exact = simulate(scene, drawn.rate, FixedSteps(64))
     for accuracy in (1e-3, 1e-4):  # 1.1e-3 and 4.1e-4 wrong if only the force at three instants is looked at
-        trace = simulate(scene, drawn.rate, accuracy=accuracy)
+        trace = simulate(scene, drawn.rate, Accurate(accuracy))
         error = relative_error(trace.acceleration, exact.acceleration)
         assert error <= trace.error_estimate <= accuracy

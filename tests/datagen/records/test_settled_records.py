@@ -15,10 +15,12 @@ from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.records.record import Record, make_record
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from physics.request import LeadIn
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.mode import SensorMode
 from physics.sensor.mounting import Mounting
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE, DURATION, SETTLE = 32768.0, 0.1, 0.1
 STORED = ("acceleration_clean", "acceleration_sensor", "cage_angle", "contact_force")
@@ -80,7 +82,7 @@ def test_a_settled_record_begins_at_its_first_sample_in_motion(scenario: Scenari
 
 
 def test_the_simulation_is_that_of_the_scene_with_a_lead_in(scenario: Scenario, record: Record) -> None:
-    trace = simulate(scenario.scene, scenario.rate, lead_in=scenario.settle, keep_force=True)
+    trace = simulate(scenario.scene, scenario.rate, keep=Kept(force=True), lead_in=LeadIn(scenario.settle))
     assert np.array_equal(record.acceleration_clean, trace.acceleration.astype(np.float32))
     assert record.labels["error_estimate"] == trace.error_estimate <= 1e-3
 
@@ -109,7 +111,7 @@ def test_the_chain_has_settled_too(scenario: Scenario) -> None:
     chain = SensorChain((SensorMode(900.0, 0.003),), 0.5, Mounting(8000.0))
     record = make_record(replace(scenario, chain=chain), ("acceleration_sensor",))
     longer = simulate(
-        scenario.scene, RATE, lead_in=scenario.settle, keep_lead_in=True, keep_outer=True, fastest_path=900.0
+        scenario.scene, RATE, keep=Kept(outer=True, fastest_path=900.0), lead_in=LeadIn(scenario.settle, kept=True)
     )
     expected = sensed(chain, longer)[-scenario.samples :]
     np.testing.assert_array_equal(record.acceleration_sensor, expected.astype(np.float32))

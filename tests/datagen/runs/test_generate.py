@@ -56,6 +56,15 @@ def test_the_dask_backend_gives_the_arrays_that_one_worker_gives(
     assert contents(tmp_path / "dask") == expected
 
 
+def test_whoever_makes_records_keeps_freed_memory(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[bool] = []
+    monkeypatch.setattr("datagen.runs.task.keep_freed_memory", lambda: asked.append(True))
+    assert generate(tiny, tmp_path / "one", limit=1, engine=ALONE).made == 1
+    assert asked
+
+
 def test_a_backend_set_by_the_caller_is_used(
     tiny: Recipe, expected: dict[int, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, contents: Contents
 ) -> None:

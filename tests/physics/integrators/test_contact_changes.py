@@ -5,7 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
+from physics.request import FixedSteps
 from physics.simulate import simulate
+from physics.trace import Kept
 
 FINE_RATE = 2.0**20
 RATE = 65536.0
@@ -60,13 +62,13 @@ def states_between_samples(trace, time):
 def fine_fan(reference_scene):
     """The fan rig's line spall at a rate that lets states between samples be interpolated."""
     scene = reference_scene("F1", 0.06)
-    return scene, simulate(scene, FINE_RATE, substeps=1, keep_state=True, keep_force=True, estimate_error=False)
+    return scene, simulate(scene, FINE_RATE, FixedSteps(1), keep=Kept(state=True, force=True))
 
 
 @pytest.fixture(scope="module")
 def fine_fan_without_tension(reference_scene):
     scene = dataclasses.replace(reference_scene("F1", 0.06, speed_factor=3.0), contact_law="no_tension")
-    return scene, simulate(scene, FINE_RATE, substeps=1, keep_state=True, keep_force=True, estimate_error=False)
+    return scene, simulate(scene, FINE_RATE, FixedSteps(1), keep=Kept(state=True, force=True))
 
 
 def test_every_located_change_is_where_the_compression_is_zero(fine_fan):
@@ -128,7 +130,7 @@ def test_forces_are_those_of_the_contact_law(law, fine_fan, fine_fan_without_ten
 
 
 def test_the_paper_law_pulls_while_a_ball_unloads(reference_scene):
-    force = simulate(reference_scene("F1", 0.1), RATE, keep_force=True, estimate_error=False).contact_force
+    force = simulate(reference_scene("F1", 0.1), RATE, keep=Kept(force=True)).contact_force
     assert force.min() < -1.0  # N: the film's 150 N s/m at some cm/s
 
 
@@ -137,11 +139,11 @@ def test_the_no_tension_law_never_pulls(fine_fan_without_tension, reference_scen
     assert trace.contact_force.min() >= 0.0
     assert trace.tension_share == 0.0
     coarse = dataclasses.replace(reference_scene("F1", 0.1), contact_law="no_tension")
-    assert simulate(coarse, RATE, keep_force=True, estimate_error=False).contact_force.min() >= 0.0
+    assert simulate(coarse, RATE, keep=Kept(force=True)).contact_force.min() >= 0.0
 
 
 def test_the_tension_share_is_the_share_of_contact_time_in_which_forces_pull(reference_scene):
-    trace = simulate(reference_scene("F1", 0.2), RATE, substeps=1, keep_force=True, estimate_error=False)
+    trace = simulate(reference_scene("F1", 0.2), RATE, FixedSteps(1), keep=Kept(force=True))
     in_contact = np.count_nonzero(trace.contact_force)
     assert trace.tension_share == pytest.approx(np.sum(trace.contact_force < 0.0) / in_contact, rel=1e-12)
 
@@ -150,7 +152,7 @@ def test_the_tension_share_is_the_share_of_contact_time_in_which_forces_pull(ref
 def test_strides_know_how_long_forces_pull_between_samples(name, reference_scene):
     scene = reference_scene(name, 0.1)
     strides = simulate(scene, RATE)
-    counted = simulate(scene, 32.0 * RATE, substeps=1, estimate_error=False)  # at every step, 0.5 µs apart
+    counted = simulate(scene, 32.0 * RATE, FixedSteps(1))  # at every step, 0.5 µs apart
     assert strides.tension_share == pytest.approx(counted.tension_share, rel=0.01)  # some 10 counts a pass
 
 
@@ -164,6 +166,6 @@ def test_on_the_fan_rig_some_ball_pulls_in_under_one_step_in_a_hundred_when_slow
     That gives 0.94 % and 7.2 %; of the reference scenes F1p lies as near, F0 lower when fast, F2 higher when slow.
     """
     scene = reference_scene("F1", 0.5, speed_factor=rpm / 800.0)
-    force = simulate(scene, RATE, keep_force=True, estimate_error=False).contact_force[round(0.1 * RATE) :]
+    force = simulate(scene, RATE, keep=Kept(force=True)).contact_force[round(0.1 * RATE) :]
     share = np.mean((force < 0.0).any(axis=(1, 2)))
     assert share == pytest.approx(expected, rel=0.7)  # 1.57 and 1.43 times: neither scene nor count is known

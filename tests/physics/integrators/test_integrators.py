@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from smooth import always_in_contact
 
+from physics.request import FixedSteps
 from physics.rms import relative_error
 from physics.simulate import simulate
 
@@ -16,8 +17,8 @@ FINEST = 96
 
 def errors(scene, substeps):
     """Relative RMS error of the acceleration for each number of steps a sample, against a much finer run."""
-    finest = simulate(scene, RATE, substeps=FINEST, estimate_error=False).acceleration
-    runs = [simulate(scene, RATE, substeps=count, estimate_error=False).acceleration for count in substeps]
+    finest = simulate(scene, RATE, FixedSteps(FINEST)).acceleration
+    runs = [simulate(scene, RATE, FixedSteps(count)).acceleration for count in substeps]
     return np.array([relative_error(run, finest) for run in runs])
 
 
@@ -95,7 +96,7 @@ def test_ten_times_the_rated_speed_leaves_the_error_of_the_fan_rigs_line_spall_b
 
 def test_half_the_step_of_one_run_is_the_step_of_the_other(reference_scene):
     scene = reference_scene("G1", 0.02)
-    one, two = (simulate(scene, RATE, substeps=count, estimate_error=False) for count in (1, 2))
+    one, two = (simulate(scene, RATE, FixedSteps(count)) for count in (1, 2))
     assert one.step == 1.0 / RATE
     assert two.step == one.step / 2.0
     assert math.isnan(one.error_estimate)

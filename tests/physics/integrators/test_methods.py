@@ -9,8 +9,10 @@ from smooth import always_in_contact
 from physics.integrators.generalised_alpha import ALPHA_F, ALPHA_M, BETA, GAMMA, RADIUS_AT_INFINITY
 from physics.integrators.methods import MARCHES, METHODS, MODAL, REFERENCE
 from physics.outcome import Outcome, SimulationFailed
+from physics.request import FixedSteps, Reference
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 # Steps a sample between which each method is past its first, coarse steps and above round-off.
@@ -35,7 +37,7 @@ ON_LINE_SPALLS = {
 
 
 def response(scene, method, substeps):
-    return simulate(scene, RATE, method=method, substeps=substeps, estimate_error=False).acceleration
+    return simulate(scene, RATE, FixedSteps(substeps, method)).acceleration
 
 
 def order(scene, method, substeps, finest):
@@ -78,8 +80,8 @@ OF_ORDER_2 = ("exponential_adams2", "generalised_alpha")
 @pytest.mark.parametrize("method", sorted(set(MARCHES) - set(OF_ORDER_2)))
 def test_every_method_finds_the_same_contact_changes(method, reference_scene):
     scene = reference_scene("F1", 0.06)
-    expected = simulate(scene, RATE, method=REFERENCE).changes
-    found = simulate(scene, RATE, method=method, substeps=6, estimate_error=False).changes
+    expected = simulate(scene, RATE, Reference()).changes
+    found = simulate(scene, RATE, FixedSteps(6, method)).changes
     assert np.array_equal(found.ball, expected.ball)
     assert np.array_equal(found.made, expected.made)
     assert np.abs(found.time - expected.time).max() < 2e-8  # s; the loosest pair has an error of 1e-5 of the RMS
@@ -88,8 +90,8 @@ def test_every_method_finds_the_same_contact_changes(method, reference_scene):
 @pytest.mark.parametrize("method", OF_ORDER_2)
 def test_methods_of_order_2_find_the_contact_changes_of_their_order(method, reference_scene):
     scene = reference_scene("F1", 0.06)
-    expected = simulate(scene, RATE, method=REFERENCE).changes
-    found = simulate(scene, RATE, method=method, substeps=16, estimate_error=False).changes
+    expected = simulate(scene, RATE, Reference()).changes
+    found = simulate(scene, RATE, FixedSteps(16, method)).changes
     assert np.array_equal(found.ball, expected.ball)
     assert np.abs(found.time - expected.time).max() < 2e-6  # s; its error of acceleration is 0.3 % at this step
 
@@ -98,7 +100,7 @@ def test_methods_of_order_2_find_the_contact_changes_of_their_order(method, refe
 def test_every_method_obeys_both_contact_laws(method, reference_scene):
     scene = dataclasses.replace(reference_scene("F1", 0.05), contact_law="no_tension")
     exact = response(scene, "exponential_rk4", 32)
-    trace = simulate(scene, RATE, method=method, substeps=16, estimate_error=False, keep_force=True)
+    trace = simulate(scene, RATE, FixedSteps(16, method), keep=Kept(force=True))
     assert trace.contact_force.min() >= 0.0
     assert trace.unlocated_changes == 0
     assert rms(trace.acceleration - exact) < 1e-2 * rms(exact)  # the implicit method's 0.5 % at 16 steps a sample
@@ -130,8 +132,8 @@ def test_the_adaptive_method_takes_shorter_steps_where_asked_for_more_accuracy(r
 
 def test_samples_of_the_adaptive_method_do_not_depend_on_where_its_steps_end(reference_scene):
     scene = reference_scene("F1", 0.02)
-    rare = simulate(scene, RATE, method="dormand_prince", substeps=8, estimate_error=False, keep_state=True)
-    often = simulate(scene, 3 * RATE, method="dormand_prince", substeps=8, estimate_error=False, keep_state=True)
+    rare = simulate(scene, RATE, FixedSteps(8, "dormand_prince"), keep=Kept(state=True))
+    often = simulate(scene, 3 * RATE, FixedSteps(8, "dormand_prince"), keep=Kept(state=True))
     assert rms(rare.state[:, 4] - often.state[::3, 4]) < 1e-5 * rms(rare.state[:, 4] - rare.state[0, 4])
 
 
@@ -139,5 +141,5 @@ def test_a_scene_too_stiff_for_the_adaptive_method_ends_with_a_typed_outcome(ref
     scene = reference_scene("G1", 0.02)
     rig = dataclasses.replace(scene.rig, film_damping=1e7)  # decays at 1e8 a second, so steps of 30 ns
     with pytest.raises(SimulationFailed) as failure:
-        simulate(dataclasses.replace(scene, rig=rig), RATE, method="dormand_prince", substeps=1, estimate_error=False)
+        simulate(dataclasses.replace(scene, rig=rig), RATE, FixedSteps(1, "dormand_prince"))
     assert failure.value.outcome is Outcome.TOO_MANY_STEPS

@@ -10,9 +10,11 @@ import pytest
 from physics.checks import InvalidParameter
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps, HalvedSteps, LeadIn, Reference, Simpler
 from physics.response.lead_in import from_start, respond_behind, started_earlier
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 LEAD_IN = 0.1
@@ -41,7 +43,7 @@ def quiet_scene():
 @pytest.mark.parametrize("name", ["G1", "F2"])
 def test_what_comes_before_a_long_lead_in_is_forgotten(name):
     scene = reference_scene(name, 0.2)
-    plain, once, twice = (simulate(scene, RATE, lead_in=lead_in).acceleration for lead_in in (0.0, 0.4, 0.8))
+    plain, once, twice = (simulate(scene, RATE, lead_in=LeadIn(lead_in)).acceleration for lead_in in (0.0, 0.4, 0.8))
     # Each has an error of at most 1e-3 of its own.
     assert rms(once - twice) < 2e-3 * rms(twice)
     assert rms(plain - twice) > 0.05 * rms(twice)
@@ -57,9 +59,9 @@ def test_a_scene_that_started_earlier_does_the_same_later():
 
 def test_the_modal_method_keeps_its_accuracy_behind_a_start_that_is_much_louder():
     scene = quiet_scene()
-    trace = simulate(scene, RATE, lead_in=LEAD_IN)
-    whole = simulate(scene, RATE, lead_in=LEAD_IN, keep_lead_in=True)
-    fine = simulate(scene, RATE, lead_in=LEAD_IN, substeps=8, estimate_error=False)
+    trace = simulate(scene, RATE, lead_in=LeadIn(LEAD_IN))
+    whole = simulate(scene, RATE, lead_in=LeadIn(LEAD_IN, kept=True))
+    fine = simulate(scene, RATE, FixedSteps(8), lead_in=LeadIn(LEAD_IN))
     assert rms(whole.acceleration[: round(0.02 * RATE)]) > 5.0 * rms(trace.acceleration)
     error = relative_error(trace.acceleration, fine.acceleration)
     assert error <= trace.error_estimate <= 1e-3
@@ -98,10 +100,8 @@ def test_a_chaotic_response_stays_one():
 
 def test_the_instants_before_the_record_are_there_if_wanted():
     scene = slipping("G1", 0.05)
-    kept = {"lead_in": LEAD_IN, "keep_state": True, "keep_force": True, "keep_outer": True}
-    whole, recorded = (
-        simulate(scene, RATE, keep_lead_in=before, fastest_path=9000.0, **kept) for before in (True, False)
-    )
+    keep = Kept(state=True, force=True, outer=True, fastest_path=9000.0)
+    whole, recorded = (simulate(scene, RATE, keep=keep, lead_in=LeadIn(LEAD_IN, kept)) for kept in (True, False))
     before, factor = round(LEAD_IN * RATE), round(whole.outer_rate / RATE)
     assert whole.time[0] == -before / RATE
     assert recorded.time[0] == 0.0
@@ -116,8 +116,8 @@ def test_the_instants_before_the_record_are_there_if_wanted():
 
 def test_the_balls_that_touch_when_the_record_begins_are_those_that_carry_then():
     scene = slipping("G1", 0.05, seed=3)
-    trace = simulate(scene, RATE, lead_in=LEAD_IN, keep_force=True)
-    start = simulate(scene, RATE, lead_in=LEAD_IN, keep_lead_in=True)
+    trace = simulate(scene, RATE, keep=Kept(force=True), lead_in=LeadIn(LEAD_IN))
+    start = simulate(scene, RATE, lead_in=LeadIn(LEAD_IN, kept=True))
     np.testing.assert_array_equal(trace.changes.initial, trace.contact_force[0] != 0.0)
     assert np.any(trace.changes.initial != start.changes.initial)
     assert trace.changes.time.min() >= 0.0
@@ -126,7 +126,7 @@ def test_the_balls_that_touch_when_the_record_begins_are_those_that_carry_then()
 
 def test_changes_of_contact_stay_with_the_forces_that_they_change():
     scene = slipping("G1", 0.1, seed=3)
-    trace = simulate(scene, RATE, lead_in=LEAD_IN, keep_force=True)
+    trace = simulate(scene, RATE, keep=Kept(force=True), lead_in=LeadIn(LEAD_IN))
     touching = trace.changes.initial.copy()
     instants = np.searchsorted(trace.changes.time, trace.time)
     done = 0
@@ -138,17 +138,10 @@ def test_changes_of_contact_stay_with_the_forces_that_they_change():
     assert done > 10
 
 
-@pytest.mark.parametrize("lead_in", [-0.1, math.nan, math.inf])
-def test_a_lead_in_that_is_no_time_is_refused(lead_in):
-    with pytest.raises(SimulationFailed, match=r"lead_in = .*; it must be 0 or more, and finite") as caught:
-        simulate(reference_scene("G1", 0.02), RATE, lead_in=lead_in)
-    assert caught.value.outcome is Outcome.BAD_REQUEST
-
-
 def test_a_lead_in_of_which_the_slip_is_not_known_is_refused():
     scene = reference_scene("G1", 0.02, slip_seed=1)
-    with pytest.raises(SimulationFailed, match=r"lead_in = 0.1 s; the cage's slip is known from -0.0\d+ s on"):
-        simulate(scene, RATE, lead_in=0.1)
+    with pytest.raises(SimulationFailed, match=r"a lead-in of 0.1 s; the cage's slip is known from -0.0\d+ s on"):
+        simulate(scene, RATE, lead_in=LeadIn(0.1))
     with pytest.raises(InvalidParameter, match="slip knots cover"):
         started_earlier(scene, 0.1)
 
@@ -158,20 +151,20 @@ def test_a_lead_in_whose_whole_samples_begin_before_the_slip_is_known_is_refused
     known = -scene.cage.knot_start
     rate = (math.floor(known * RATE) + 0.6) / known
     with pytest.raises(SimulationFailed, match="the cage's slip is known from") as caught:
-        simulate(scene, rate, lead_in=known)
+        simulate(scene, rate, lead_in=LeadIn(known))
     assert caught.value.outcome is Outcome.BAD_REQUEST
 
 
-@pytest.mark.parametrize("method", ["exponential_rk4", "reference"])
-def test_other_methods_have_a_lead_in_too(method):
+@pytest.mark.parametrize("solution", [HalvedSteps(), Reference()])
+def test_other_methods_have_a_lead_in_too(solution):
     scene = slipping("G1", 0.01, lead_in=0.01)
-    trace = simulate(scene, RATE, lead_in=0.01)
-    other = simulate(scene, RATE, method=method, lead_in=0.01)
+    trace = simulate(scene, RATE, lead_in=LeadIn(0.01))
+    other = simulate(scene, RATE, solution, lead_in=LeadIn(0.01))
     assert trace.time.size == other.time.size == round(0.01 * RATE)
     assert rms(trace.acceleration - other.acceleration) < 2e-3 * rms(other.acceleration)
 
 
 def test_the_quasi_static_model_knows_no_start():
     scene = slipping("G1", 0.02)
-    at_rest, run_in = (simulate(scene, RATE, model="quasi-static", lead_in=lead) for lead in (0.0, LEAD_IN))
+    at_rest, run_in = (simulate(scene, RATE, Simpler("quasi-static"), lead_in=LeadIn(lead)) for lead in (0.0, LEAD_IN))
     np.testing.assert_allclose(run_in.contact_force, at_rest.contact_force, atol=1e-6)

@@ -38,16 +38,16 @@ def test_no_period_of_the_stiffness_hides_between_the_resting_positions(referenc
     assert swing.mean() == pytest.approx(long.mean(), rel=0.01)
 
 
-def test_a_march_cannot_go_on_after_another_of_its_case_has_set_out(case):
-    first, second = March(case, SAMPLES), March(case, SAMPLES)
-    first.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
-    second.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
-    with pytest.raises(RuntimeError, match="another march of this case has set out"):
-        first.go_on(steady(case, SAMPLES, 1e-3, SIZE))
-    second.go_on(steady(case, SAMPLES, 1e-3, SIZE))
-
-
-def test_a_march_may_wait_while_another_runs_before_it_sets_out(case):
-    waiting = March(case, SAMPLES)
-    March(case, SAMPLES).go_on(steady(case, SAMPLES, 1e-3, SIZE))
-    waiting.go_on(steady(case, SAMPLES, 1e-3, SIZE))
+@pytest.mark.parametrize("done", [0, 1000])
+def test_a_march_is_the_same_while_another_of_its_case_runs(done, reference_scene):
+    scene, samples = reference_scene("G1", 0.05), 3000
+    alone, disturbed = (March(case_of(scene, resting(scene), RATE), samples) for _ in range(2))
+    for march in (alone, disturbed):
+        if done:
+            march.go_on(steady(march.case, done, 1e-3, SIZE))
+        if march is disturbed:
+            # It ends where other balls touch.
+            March(march.case, samples).go_on(steady(march.case, samples, 1e-4, SIZE))
+        march.go_on(steady(march.case, samples, 1e-3, SIZE))
+    np.testing.assert_array_equal(disturbed.output.acceleration, alone.output.acceleration)
+    np.testing.assert_array_equal(disturbed.output.change_time, alone.output.change_time)

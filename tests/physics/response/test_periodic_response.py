@@ -9,10 +9,12 @@ from variants import changed
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.methods import MODAL
+from physics.request import Accurate
 from physics.response.periodic import METHOD, balls_a_period, period_of
 from physics.response.resampling import read_at
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 
@@ -27,7 +29,7 @@ def _without_slip(scene, duration):
 
 
 def test_what_is_repeated_is_what_a_march_to_the_end_gives(steady):
-    trace, exact = simulate(steady, RATE), simulate(steady, RATE, accuracy=1e-5)
+    trace, exact = simulate(steady, RATE), simulate(steady, RATE, Accurate(1e-5))
     assert trace.method == METHOD
     assert exact.method == MODAL
     assert trace.acceleration.shape == exact.acceleration.shape
@@ -36,7 +38,7 @@ def test_what_is_repeated_is_what_a_march_to_the_end_gives(steady):
 
 
 def test_the_same_balls_touch_and_part_at_the_same_times(steady):
-    trace, exact = simulate(steady, RATE), simulate(steady, RATE, accuracy=1e-5)
+    trace, exact = simulate(steady, RATE), simulate(steady, RATE, Accurate(1e-5))
     for ball in range(1, steady.rig.bearing.balls + 1):
         for made in (True, False):
             own, other = (_times(one.changes, ball, made) for one in (trace, exact))
@@ -49,11 +51,11 @@ def _times(changes, ball, made):
 
 
 def test_a_finer_accuracy_than_can_be_read_is_marched_to_the_end(steady):
-    assert simulate(steady, RATE, accuracy=1e-4).method == MODAL
+    assert simulate(steady, RATE, Accurate(1e-4)).method == MODAL
 
 
 def test_states_are_kept_by_marching_to_the_end(steady):
-    trace = simulate(steady, RATE, keep_state=True)
+    trace = simulate(steady, RATE, keep=Kept(state=True))
     assert trace.method == MODAL
     assert trace.state is not None
 
@@ -99,7 +101,7 @@ def test_unequal_balls_repeat_themselves_once_all_have_passed(reference_scene):
 
 def test_waves_of_the_outer_race_repeat_themselves_with_the_balls(reference_scene):
     scene = _imperfect(reference_scene("F0"), waviness=(Waviness("outer", 7, 2e-7),))
-    trace, exact = simulate(scene, RATE), simulate(scene, RATE, accuracy=1e-5)
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
     assert trace.method == METHOD
     error = relative_error(trace.acceleration, exact.acceleration)
     assert error <= trace.error_estimate <= 1e-3
@@ -107,14 +109,14 @@ def test_waves_of_the_outer_race_repeat_themselves_with_the_balls(reference_scen
 
 def test_a_response_that_repeats_itself_only_after_two_periods_is_not_read_from_one(reference_scene):
     scene = changed(_without_slip(reference_scene("F1p", speed_factor=2.0), 0.4), operation={"load": 50.0})
-    trace, exact = simulate(scene, RATE), simulate(scene, RATE, accuracy=1e-5)
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
     assert rms(trace.acceleration - exact.acceleration) <= trace.error_estimate * rms(exact.acceleration)
     assert trace.error_estimate <= 1e-3
 
 
 def test_a_response_of_which_a_low_rate_leaves_little_is_not_repeated(reference_scene):
     scene = _without_slip(reference_scene("F1s"), 0.4)
-    low, exact = simulate(scene, 1000.0), simulate(scene, 1000.0, accuracy=1e-6)
+    low, exact = simulate(scene, 1000.0), simulate(scene, 1000.0, Accurate(1e-6))
     assert rms(low.acceleration - exact.acceleration) <= low.error_estimate * rms(exact.acceleration)
     assert low.method == MODAL
     assert simulate(scene, 8000.0).method == METHOD

@@ -6,19 +6,21 @@ import pytest
 from scipy.signal import firwin, lsim, upfirdn
 
 from physics.checks import InvalidParameter
+from physics.request import Accurate
 from physics.rms import relative_error
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
 from physics.simulate import simulate
 from physics.spall import Spall
+from physics.trace import Kept
 
 MODES = (SensorMode(2500.0, 0.02, 1.5), SensorMode(7100.0, 0.04, 0.6))
 
 
 @pytest.fixture(scope="module")
 def trace(reference_scene):
-    return simulate(reference_scene("F1", 0.05), 65536.0, keep_outer=True, estimate_error=False)
+    return simulate(reference_scene("F1", 0.05), 65536.0, keep=Kept(outer=True))
 
 
 def test_by_default_the_sensor_shows_the_resonators_acceleration_alone(trace):
@@ -34,13 +36,13 @@ def test_modes_add_to_the_resonator_and_the_mounting_comes_last(trace):
 
 
 def test_modes_do_not_push_back(trace, reference_scene):
-    alone = simulate(reference_scene("F1", 0.05), 65536.0, estimate_error=False)
+    alone = simulate(reference_scene("F1", 0.05), 65536.0)
     assert np.array_equal(alone.acceleration, trace.acceleration)
 
 
 def test_a_trace_without_the_outer_rings_motion_is_refused_with_the_remedy(reference_scene):
-    bare = simulate(reference_scene("F0", 0.01), 65536.0, estimate_error=False)
-    with pytest.raises(ValueError, match=r"simulate\(\.\.\., keep_outer=True\)"):
+    bare = simulate(reference_scene("F0", 0.01), 65536.0)
+    with pytest.raises(ValueError, match=r"keep=Kept\(outer=True\)"):
         sensed(SensorChain(MODES), bare)
 
 
@@ -61,8 +63,8 @@ def knocking(fan, build_scene):
 def test_a_mode_near_half_the_rate_is_followed_through_sharp_knocks(knocking):
     rate, finer, mode = 25600.0, 64, SensorMode(10200.0, 0.01, 0.7)
     chain = SensorChain((mode,), resonator_gain=0.0)
-    trace = simulate(knocking, rate, accuracy=1e-4, keep_outer=True, fastest_path=chain.fastest)
-    fine = simulate(knocking, rate * finer, accuracy=1e-4, keep_outer=True)
+    trace = simulate(knocking, rate, Accurate(1e-4), keep=Kept(outer=True, fastest_path=chain.fastest))
+    fine = simulate(knocking, rate * finer, Accurate(1e-4), keep=Kept(outer=True))
     # A mass on spring and damper whose foot is moved: velocity has no jumps where the acceleration has.
     pull, drag = (2.0 * math.pi * mode.frequency) ** 2, 4.0 * math.pi * mode.damping * mode.frequency
     carried = ([[0.0, 1.0], [-pull, -drag]], [[0.0, 0.0], [pull, drag]], [[-pull, -drag]], [[pull, drag]])

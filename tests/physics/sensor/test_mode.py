@@ -9,6 +9,7 @@ from physics.checks import InvalidParameter
 from physics.rms import relative_error, rms
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
+from physics.trace import Kept
 
 RATE = 65536.0
 
@@ -51,7 +52,7 @@ def test_a_step_of_acceleration_rings_at_the_damped_frequency_from_rest():
 
 def test_a_mode_of_a_spall_at_one_step_a_sample_agrees_with_an_adaptive_solver_on_a_finer_run(reference_scene):
     scene = reference_scene("G1", 0.03)
-    fine, coarse = (simulate(scene, rate, keep_outer=True, estimate_error=False) for rate in (16.0 * RATE, RATE))
+    fine, coarse = (simulate(scene, rate, keep=Kept(outer=True)) for rate in (16.0 * RATE, RATE))
     mode = SensorMode(6000.0, 0.03)
     omega = 2.0 * math.pi * mode.frequency
 

@@ -1,0 +1,24 @@
+"""The only door to numba: kernels compiled on first call, and kept on the disk.
+
+- `decorators`: the ways to compile a kernel
+- `cache`: where compiled kernels lie; importing this package points all of numba's caches there
+- `c_callback`: a kernel as a C function, for solvers in other languages
+"""
+
+from physics._jit.cache import CACHE_FOLDER, discard_cache, fingerprint, nothing_cached, raised_by_cache
+from physics._jit.decorators import njit, njit_inline, njit_inner, njit_lean, njit_pasted, specialise, uncompiled
+
+__all__ = [
+    "CACHE_FOLDER",
+    "discard_cache",
+    "fingerprint",
+    "njit",
+    "njit_inline",
+    "njit_inner",
+    "njit_lean",
+    "njit_pasted",
+    "nothing_cached",
+    "raised_by_cache",
+    "specialise",
+    "uncompiled",
+]

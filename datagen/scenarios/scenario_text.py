@@ -101,9 +101,9 @@ SCENE_RULES = {
     "start": "at rest in equilibrium under the load vector of t = 0, velocities zero",
 }
 SETTLED_START = (
-    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero, and so are the resonances of the "
-    "chain; the simulated instants begin there, and whatever depends on t holds for negative t too; the record has the "
-    "samples from t = 0 on"
+    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero, and so are the modes and the "
+    "mounting of the chain; the simulated instants begin there, and whatever depends on t holds for negative t too; "
+    "the record has the samples from t = 0 on"
 )
 
 

@@ -28,7 +28,8 @@ PEAK_INSTANTS = 256
 def assess(scene: Scene) -> tuple[str, ...]:
     """Sentences with numbers on where `scene` leaves the range of the model; empty where it holds."""
     peak = peak_ball_load(scene)
-    forces, run = (_centrifugal(scene, peak), _ball_inertia(scene, peak)), (_speed(scene), _cage_speed(scene))
+    forces = (_centrifugal(scene, peak), _ball_inertia(scene, peak), _steps(scene))
+    run = (_speed(scene), _cage_speed(scene))
     notes = (*forces, *run, _load(scene, peak), _contact_angle(scene))
     return tuple(note for note in notes if note)
 
@@ -116,6 +117,21 @@ def _ball_inertia(scene: Scene, peak: float) -> str:
     return (
         f"The inertia of a ball on its way over the spall ({force:.3g} N) is left out but is {_share(force, peak)} "
         f"the peak ball load ({peak:.3g} N)."
+    )
+
+
+def _steps(scene: Scene) -> str:
+    damping = scene.rig.film_damping
+    steps = [
+        spall.depth
+        for spall in scene.spalls
+        if spall.profile == "tukey" and min(spall.entry_taper, spall.exit_taper) == 0.0
+    ]
+    if damping == 0.0 or max(steps, default=0.0) == 0.0:
+        return ""
+    return (
+        f"An edge without taper is a step that the film does not feel, though over any taper, however short, it gives "
+        f"an impulse of {damping * max(steps):.3g} N s (damping times depth): a short taper has another response."
     )
 
 

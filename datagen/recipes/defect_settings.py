@@ -46,11 +46,13 @@ class SpallSettings(Table):
     depth_um: Annotated[Distribution, Between(0.0, 1e4)] | None = None
     """Depth of the floor, µm."""
     entry_taper_deg: TaperArc | None = None
-    """Arc of the taper that a ball meets first, degrees."""
+    """Arc of the taper that a ball meets first, degrees. At 0 the film does not feel the edge of profile tukey; short
+    tapers have the limit of 0.001."""
     entry_taper_share: Share | None = None
     """The same as a share of the spall. If neither is given: 0.1 for profile tukey, 0 for ball_path."""
     exit_taper_deg: TaperArc | None = None
-    """Arc of the taper that a ball meets last, degrees."""
+    """Arc of the taper that a ball meets last, degrees. At 0 the film does not feel the edge of profile tukey; short
+    tapers have the limit of 0.001."""
     exit_taper_share: Share | None = None
     """The same as a share of the spall. If neither is given: 0.1 for profile tukey, 0 for ball_path."""
     roughness_um: Annotated[Distribution, Between(0.0, 1e3)] | None = None

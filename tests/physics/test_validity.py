@@ -169,8 +169,15 @@ def test_the_worst_of_several_spalls_is_named(fan):
 
 
 def test_an_edge_without_taper_is_out_of_range(gearbox):
-    (note,) = assess(scene_of(gearbox, (line(2.0, 0.0, 0.0),)))
-    assert "inertia of a ball" in note
+    inertia, film = assess(scene_of(gearbox, (line(2.0, 0.0, 0.0),)))
+    assert "inertia of a ball" in inertia
+    # 100 N s/m of the gearbox rig times 12 µm
+    assert film.startswith("An edge without taper is a step that the film does not feel")
+    assert "an impulse of 0.0012 N s (damping times depth)" in film
+    dry = dataclasses.replace(gearbox, film_damping=0.0)
+    assert not [note for note in assess(scene_of(dry, (line(2.0, 0.0, 0.3),))) if "film" in note]
+    gap = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-4, profile="ball_path")
+    assert not [note for note in assess(scene_of(gearbox, (gap,))) if "film" in note]
 
 
 def test_a_bearing_turned_faster_than_grease_allows_is_noted(gearbox):

@@ -199,6 +199,11 @@ def test_the_text_tells_how_to_remake_the_record() -> None:
     assert {key: data[key] for key in identity} == identity
 
 
+def test_the_rule_of_a_tapered_spall_says_what_the_film_makes_of_a_step() -> None:
+    rules = [defect["rule"] for defect in json.loads(full_scenario().to_json())["defects"]]
+    assert "a zero taper is a step of no slope: the film damping c_d feels nothing of it" in rules[0]
+
+
 def test_the_rule_of_the_seeds_names_each_number_as_the_text_does() -> None:
     seeds = json.loads(full_scenario().to_json())["seeds"]
     rule = seeds["rule"]

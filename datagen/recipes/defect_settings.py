@@ -58,7 +58,8 @@ class SpallSettings(Table):
     roughness_um: Annotated[Distribution, Between(0.0, 1e3)] | None = None
     """Standard deviation of the roughness inside the spall, µm; 0 if not given."""
     table: Annotated[ProfileTable, WithJsonSchema(FILE_SCHEMA)] | None = None
-    """CSV file of a measured surface (angle_deg, depth_um), which gives extent, depth and tapers of profile table."""
+    """CSV file of a measured surface (angle_deg, depth_um) for profile table, which alone gives its extent, depth,
+    tapers and roughness: those settings have no effect on it."""
 
     @model_validator(mode="after")
     def _one_of_each(self) -> SpallSettings:

@@ -137,7 +137,7 @@ SIGNALS: tuple[Variable, ...] = (
         "m",
         "depth of the ball's path",
         "Drop of the ball's centre by the defective race, its spalls and its waviness together; read by periodic "
-        "linear interpolation.",
+        "linear interpolation, which is too coarse for tapers below 0.03 degrees and gaps of some 10 um.",
         stored="profile",
     ),
     Variable(

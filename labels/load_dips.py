@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -13,9 +12,6 @@ from physics.scene import Scene
 from physics.statics.ball_load import ball_load
 
 SAMPLES_PER_PASS = 400
-# The load without spalls has no edges: a tenth of the instants tells it, unless waves are shorter than that.
-SAMPLES_WITHOUT_SPALLS = 40
-SAMPLES_PER_WAVE = 16.0
 SHARE = 0.5
 
 
@@ -23,26 +19,18 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     """First fall and last rise (N,), s, of the load of `ball` (N,), from 1, of `row` in its passes `entry` to `leave`.
 
     Through half of what the ball would carry at that instant without spalls; NaN where that never happens between both
-    edges. The load is solved at 400 equal steps of each pass, so times are exact to about a thousandth of it; over a
-    rough floor a dip shorter than a step may be missed, and times be a fortieth of the pass away.
+    edges. A ball that comes into the load zone, or goes out of it, inside the spall neither falls nor rises there.
+    Both loads are solved at 400 equal steps of each pass, so times are exact to about a thousandth of it; over a rough
+    floor a dip shorter than a step may be missed, and the times then are those of a dip beside it.
     """
     fall, rise = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
     if entry.size == 0:
         return fall, rise
-    step, rare = (np.linspace(0.0, 1.0, 1 + count) for count in (SAMPLES_PER_PASS, _rare_samples(scene, leave - entry)))
-    time, rare_time = (entry[:, None] + (leave - entry)[:, None] * share for share in (step, rare))
-    pressed = _loads(scene, time, row, ball)
-    due = _loads(replace(scene, spalls=()), rare_time, row, ball)
+    time = entry[:, None] + (leave - entry)[:, None] * np.linspace(0.0, 1.0, 1 + SAMPLES_PER_PASS)
+    pressed, due = (_loads(one, time, row, ball) for one in (scene, replace(scene, spalls=())))
     for k in range(entry.size):
-        fall[k], rise[k] = first_and_last_crossing(time[k], pressed[k] - SHARE * np.interp(step, rare, due[k]))
+        fall[k], rise[k] = first_and_last_crossing(time[k], pressed[k] - SHARE * due[k])
     return fall, rise
-
-
-def _rare_samples(scene: Scene, lasting: Array) -> int:
-    """Steps of the passes, `lasting` (N,) s, in which the load without spalls is told, by its waves if it has any."""
-    order = max((wave.order for wave in scene.imperfections.waviness), default=0)
-    waves = order * scene.operation.shaft_speed * lasting.max() / (2.0 * math.pi)
-    return round(min(max(SAMPLES_PER_WAVE * waves, SAMPLES_WITHOUT_SPALLS), SAMPLES_PER_PASS))
 
 
 def _loads(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Array:
@@ -54,10 +42,13 @@ def _loads(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Ar
 
 
 def first_and_last_crossing(time: Array, excess: Array) -> tuple[float, float]:
-    """First change of `excess` (S,) from above to below zero and last one back, interpolated linearly; NaN if none."""
-    below = excess < 0.0
-    falls = np.flatnonzero(~below[:-1] & below[1:])
-    rises = np.flatnonzero(below[:-1] & ~below[1:])
+    """First change of `excess` (S,) from above to below zero and last one back, interpolated linearly; NaN if none.
+
+    Zero, where a ball neither carries nor should, is neither above nor below.
+    """
+    above, below = excess > 0.0, excess < 0.0
+    falls = np.flatnonzero(above[:-1] & below[1:])
+    rises = np.flatnonzero(below[:-1] & above[1:])
     if falls.size == 0 or rises.size == 0 or rises[-1] < falls[0]:
         return np.nan, np.nan
     return _crossing(time, excess, int(falls[0])), _crossing(time, excess, int(rises[-1]))

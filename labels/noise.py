@@ -16,17 +16,15 @@ ROUNDING = 1e-26
 
 
 def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None = None) -> float:
-    """Power of `signal` (T,) over that of `noise` (T,), dB, each without its mean; NaN if there is no noise.
+    """Power of `signal` (T,) over that of `noise` (T,), dB, each without its mean; NaN if either has none.
 
     Over `band` (Hz, edges included), or from 0 to half the `rate` (Hz) if None.
     """
-    if not noise.any():
+    parts = (signal, noise)
+    powers = [float(part.var()) if band is None else band_power(part, rate, band) for part in parts]
+    if any(power <= ROUNDING * float(np.mean(part**2)) for power, part in zip(powers, parts, strict=True)):
         return math.nan
-    powers = [float(part.var()) if band is None else band_power(part, rate, band) for part in (signal, noise)]
-    tiny = float(np.finfo(np.float64).tiny)
-    if powers[1] <= ROUNDING * float(np.mean(noise**2)):
-        return math.nan
-    return 10.0 * math.log10(max(powers[0], tiny) / powers[1])
+    return 10.0 * math.log10(powers[0] / powers[1])
 
 
 def with_white_noise(signal: Array, snr_db: float, generator: np.random.Generator) -> Array:

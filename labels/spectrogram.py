@@ -22,8 +22,9 @@ def spectrogram(signal: Array, rate: float, start: float, stop: float) -> tuple[
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * (np.arange(size) + 0.5) / size)
     centres = np.linspace(start, stop, COLUMNS)
     first = np.round(centres * rate).astype(np.int64) - size // 2
-    padded = np.concatenate([np.zeros(size), np.asarray(signal, dtype=np.float64), np.zeros(size)])
-    rows = padded[first[:, None] + size + np.arange(size)]
+    place = first[:, None] + np.arange(size)
+    signal = np.asarray(signal, dtype=np.float64)
+    rows = np.where((place >= 0) & (place < signal.size), signal[np.clip(place, 0, signal.size - 1)], 0.0)
     length = fft.next_fast_len(4 * size, real=True)
     coefficients = fft.rfft(rows * window, length, axis=1) * (2.0 / window.sum())
     return centres, np.arange(length // 2 + 1) * (rate / length), np.abs(coefficients.T) ** 2 / 2.0

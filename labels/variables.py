@@ -137,7 +137,7 @@ SIGNALS: tuple[Variable, ...] = (
         "m",
         "depth of the ball's path",
         "Drop of the ball's centre by the defective race, its spalls and its waviness together; read by periodic "
-        "linear interpolation.",
+        "linear interpolation, which is too coarse for tapers below 0.03 degrees and gaps of some 10 um.",
         stored="profile",
     ),
     Variable(
@@ -258,7 +258,8 @@ PASSES: tuple[Variable, ...] = (
         "time of the falling load",
         "First fall of the ball's quasi-static load through half of what it would be without spalls, seen in 400 equal "
         "steps from entry to exit: over a rough floor a shorter dip may lie before.",
-        missing="contact is lost, the pass is cut by an end of the record, or the load stays above half",
+        missing="contact is lost, the pass is cut by an end of the record, or the load does not fall from above half "
+        "and rise again",
     ),
     _simulated(
         "rise_time",
@@ -267,7 +268,8 @@ PASSES: tuple[Variable, ...] = (
         "s",
         "time of the rising load",
         "Last rise of the ball's quasi-static load through half of what it would be without spalls, seen likewise.",
-        missing="contact is lost, the pass is cut by an end of the record, or the load stays above half",
+        missing="contact is lost, the pass is cut by an end of the record, or the load does not fall from above half "
+        "and rise again",
     ),
 )
 

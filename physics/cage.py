@@ -65,6 +65,15 @@ class CagePath:
         return self.nominal_speed * (1.0 - self.mean_slip)
 
     @cached_property
+    def fastest(self) -> float:
+        """Largest cage speed between 0 and `duration`, rad/s: at an end, or where the speed turns from rising."""
+        if not self.knot_values:
+            return self.mean_speed
+        turns = self.polynomial.derivative(2).roots(discontinuity=False, extrapolate=False)
+        inside = turns[(turns > 0.0) & (turns < self.duration)]
+        return float(self.speed(np.concatenate([[0.0, self.duration], inside])).max())
+
+    @cached_property
     def knot_times(self) -> NDArray[np.float64]:
         """Times of the knots, shape (K,), s."""
         return self.knot_start + self.knot_step * np.arange(len(self.knot_values), dtype=np.float64)

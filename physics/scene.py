@@ -23,8 +23,12 @@ class Scene:
     All spalls lie on one race.
 
     The balls turn as the cage says and the inner race as `operation` says. Nothing makes the two agree: a cage may be
-    braked, dragged or held for a study, so whoever changes the shaft's speed gives a new `cage` as well. `validity`
-    tells where they differ from pure rolling.
+    braked, or dragged along, for a study, so whoever changes the shaft's speed gives a new `cage` as well. `validity`
+    tells where they differ from pure rolling. Only over a spall of the inner race a cage may not be faster than the
+    shaft, not even for a moment: balls would come from behind, through the edge that is called the exit. A cage that
+    turns with the shaft all the time is allowed; no ball passes then.
+
+    Raises InvalidParameter, which names the field, the value and what is allowed.
     """
 
     rig: Rig
@@ -48,6 +52,7 @@ class Scene:
             )
         require_apart(self.spalls)
         self._check_second_cage()
+        self._check_direction()
         deviation = self.imperfections.ball_deviation
         require(
             not deviation or [len(row) for row in deviation] == [bearing.balls] * bearing.rows,
@@ -65,6 +70,20 @@ class Scene:
             f"the cages last {self.cage.duration:g} s and {self.second_cage.duration:g} s; they must last equally long",
             "second_cage",
         )
+
+    def _check_direction(self) -> None:
+        """Balls meet the entry edge of an inner spall first only while the shaft overtakes them."""
+        shaft = self.operation.shaft_speed
+        for row in sorted({spall.row for spall in self.spalls if spall.race == "inner"}):
+            cage, field = self.cage_of(row), "cage" if row == 1 or self.second_cage is None else "second_cage"
+            fastest = max(cage.fastest, cage.mean_speed)
+            steady = fastest == shaft and not cage.knot_values
+            require(
+                fastest < shaft or steady,
+                f"{field} = {fastest:.6g} rad/s at its fastest; allowed over an inner spall: below the shaft's "
+                f"{shaft:.6g} rad/s, or that speed without slip",
+                field,
+            )
 
     @property
     def duration(self) -> float:

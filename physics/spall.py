@@ -35,6 +35,9 @@ class Spall:
                  (m) are a measured surface, over which the ball is rolled.
     `roughness` is the standard deviation (m) of the surface inside the spall, `roughness_values` its samples at equal
     steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth).
+    A taper of zero is a step without slope, so the film, whose force is c_d times the rate of compression, gives none
+    of the impulse c_d `depth` that it gives over any taper however short: tukey's response to ever shorter tapers does
+    not end in that to none. A taper of 0.001 degrees has their limit.
     Beside tapers the path follows them to 1e-10 m if they vary as smoothly as drawn ones, else to some 1e-8 m.
     """
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,18 +14,23 @@ from physics.paths.profile import build_path, is_rough
 from physics.rating import static_load_rating
 from physics.scene import Scene
 from physics.spall import Spall
+from physics.statics.load_distribution import equilibrium, instants_without_period, load_range
+from physics.statics.rest import NO_EQUILIBRIUM
 
 STEEL_DENSITY = 7850.0  # kg/m³, assumed for every rolling element
 NEGLIGIBLE_SHARE = 0.2  # the paper's own fan rig reaches 0.19 over the sharp exit that its response needs
 LIMITING_SPEED_FACTOR = 5e5  # rpm · mm, shaft speed times pitch diameter: usual limit of greased bearings
 SAME_SPEED = 1e-6  # a nominal cage speed rounded to seven digits is still that of pure rolling
 PATH_SAMPLES, SAMPLES_PER_KNOT = 4001, 8
+PEAK_INSTANTS = 256
 
 
 def assess(scene: Scene) -> tuple[str, ...]:
     """Sentences with numbers on where `scene` leaves the range of the model; empty where it holds."""
-    forces, run = (_centrifugal(scene), _ball_inertia(scene)), (_speed(scene), _cage_speed(scene), _load(scene))
-    notes = (*forces, *run, _contact_angle(scene))
+    peak = peak_ball_load(scene)
+    forces = (_centrifugal(scene, peak), _ball_inertia(scene, peak), _steps(scene))
+    run = (_speed(scene), _cage_speed(scene))
+    notes = (*forces, *run, _load(scene, peak), _contact_angle(scene))
     return tuple(note for note in notes if note)
 
 
@@ -82,12 +88,18 @@ def _steepest_way(spall: Spall, bearing: Bearing) -> tuple[float, float]:
     return float(drop[steepest]), float(way[steepest])
 
 
-def _peak_load(scene: Scene) -> float:
-    return abs(scene.rig.bearing.stribeck_peak_load(scene.operation.load))
+def peak_ball_load(scene: Scene) -> float:
+    """Largest quasi-static load of a ball while the scene lasts, as if there were no spalls, N.
+
+    Over 256 instants; those at which no position carries the load are left out.
+    """
+    healthy = replace(scene, spalls=())
+    rest = equilibrium(healthy, instants_without_period(scene.duration, PEAK_INSTANTS))
+    return float(rest.ball_load[rest.status != NO_EQUILIBRIUM].max(initial=0.0))
 
 
-def _centrifugal(scene: Scene) -> str:
-    force, peak = centrifugal_force(scene), _peak_load(scene)
+def _centrifugal(scene: Scene, peak: float) -> str:
+    force = centrifugal_force(scene)
     if force <= NEGLIGIBLE_SHARE * peak:
         return ""
     return (
@@ -96,15 +108,30 @@ def _centrifugal(scene: Scene) -> str:
     )
 
 
-def _ball_inertia(scene: Scene) -> str:
+def _ball_inertia(scene: Scene, peak: float) -> str:
     if not scene.spalls:
         return ""
-    force, peak = max(inertia_force(scene, spall) for spall in scene.spalls), _peak_load(scene)
+    force = max(inertia_force(scene, spall) for spall in scene.spalls)
     if force <= NEGLIGIBLE_SHARE * peak:
         return ""
     return (
         f"The inertia of a ball on its way over the spall ({force:.3g} N) is left out but is {_share(force, peak)} "
         f"the peak ball load ({peak:.3g} N)."
+    )
+
+
+def _steps(scene: Scene) -> str:
+    damping = scene.rig.film_damping
+    steps = [
+        spall.depth
+        for spall in scene.spalls
+        if spall.profile == "tukey" and min(spall.entry_taper, spall.exit_taper) == 0.0
+    ]
+    if damping == 0.0 or max(steps, default=0.0) == 0.0:
+        return ""
+    return (
+        f"An edge without taper is a step that the film does not feel, though over any taper, however short, it gives "
+        f"an impulse of {damping * max(steps):.3g} N s (damping times depth): a short taper has another response."
     )
 
 
@@ -130,15 +157,22 @@ def _cage_speed(scene: Scene) -> str:
     )
 
 
-def _load(scene: Scene) -> str:
-    load = scene.operation.load
-    if load == 0.0:
-        return "There is no static load (0 N): balls touch only by chance and no quasi-static position is defined."
-    rating = static_load_rating(scene.rig.bearing)
-    if abs(load) > rating:
+def _load(scene: Scene, peak: float) -> str:
+    bearing, load = scene.rig.bearing, scene.operation.load
+    _, largest = load_range(scene)
+    if largest == 0.0 and peak == 0.0:
+        return "There is no load (0 N): balls touch only by chance and no quasi-static position is defined."
+    rating = static_load_rating(bearing)
+    dents = bearing.stribeck_peak_load(rating)
+    if largest > rating:
         return (
-            f"The static load ({load:.4g} N) exceeds the static rating of the bearing ({rating:.4g} N), where elements "
-            "and races are dented."
+            f"The load on the shaft ({largest:.4g} N at its largest) exceeds the static rating of the bearing "
+            f"({rating:.4g} N), where elements and races are dented."
+        )
+    if peak > dents:
+        return (
+            f"The most loaded ball carries {peak:.4g} N, more than at the static rating of the bearing ({dents:.4g} "
+            f"N), where elements and races are dented."
         )
     if load < 0.0:
         return f"The static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270."

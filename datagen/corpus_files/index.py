@@ -59,7 +59,8 @@ def _in_order_of_records(sidecars: Iterator[Sidecar], folder: Path) -> Iterator[
     for sidecar in sidecars:
         if not sidecar.records:
             continue
-        while open_shards and open_shards[0][0] < sidecar.records[0]:
+        # Shards follow one another by the first record they were asked for, which may be one that could not be made.
+        while open_shards and open_shards[0][0] < min(sidecar.settled):
             yield _next_row(open_shards)
         rows = _rows(sidecar, folder)
         heapq.heappush(open_shards, (sidecar.records[0], sidecar.shard, rows, next(rows)))

@@ -114,9 +114,16 @@ def summary(portrait: Portrait) -> str:
         f"{labels['rig']} rig, bearing {labels['bearing']}",
         f"{labels['speed_rpm']:.4g} rpm",
         f"{labels['load_n']:.4g} N",
-        f"SNR {labels['snr_db']:.1f} dB" if math.isfinite(labels["snr_db"]) else "no background",
+        _noise(portrait),
         f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
     ]
     if math.isfinite(labels["error_estimate"]):
         parts.append(f"estimated error {labels['error_estimate'] * 100.0:.2g} %")
     return "  ·  ".join(parts)
+
+
+def _noise(portrait: Portrait) -> str:
+    labels = portrait.labels
+    if math.isfinite(labels["snr_db"]):
+        return f"SNR {labels['snr_db']:.1f} dB"
+    return "no signal" if labels["background_layers"] else "no background"

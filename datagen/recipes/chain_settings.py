@@ -37,10 +37,10 @@ class ChainSettings(Table):
     mounting_cutoff_hz: Positive | None = None
     """Frequency at which the mounting passes half the power, Hz; no low-pass if not given."""
     mounting_order: Annotated[Distribution, Whole(1, HIGHEST_ORDER)] = Fixed(6)
-    """Order of the mounting's Butterworth low-pass."""
+    """Order of the mounting's Butterworth low-pass; no effect without mounting_cutoff_hz."""
     recorder_range_m_s2: Positive | None = None
     """Largest acceleration that the recorder holds, m/s²; no rounding and no clipping if not given."""
     recorder_bits: Annotated[Distribution, Whole(2, 32)] = Fixed(16)
-    """Bits of the recorder over its range on both sides of zero."""
+    """Bits of the recorder over its range on both sides of zero; no effect without recorder_range_m_s2."""
     modes: tuple[ModeSettings, ...] = Field(default=(), strict=False)
     """Resonances driven by the outer ring, added to the resonator's acceleration."""

@@ -46,17 +46,20 @@ class SpallSettings(Table):
     depth_um: Annotated[Distribution, Between(0.0, 1e4)] | None = None
     """Depth of the floor, µm."""
     entry_taper_deg: TaperArc | None = None
-    """Arc of the taper that a ball meets first, degrees."""
+    """Arc of the taper that a ball meets first, degrees. At 0 the film does not feel the edge of profile tukey; short
+    tapers have the limit of 0.001."""
     entry_taper_share: Share | None = None
     """The same as a share of the spall. If neither is given: 0.1 for profile tukey, 0 for ball_path."""
     exit_taper_deg: TaperArc | None = None
-    """Arc of the taper that a ball meets last, degrees."""
+    """Arc of the taper that a ball meets last, degrees. At 0 the film does not feel the edge of profile tukey; short
+    tapers have the limit of 0.001."""
     exit_taper_share: Share | None = None
     """The same as a share of the spall. If neither is given: 0.1 for profile tukey, 0 for ball_path."""
     roughness_um: Annotated[Distribution, Between(0.0, 1e3)] | None = None
     """Standard deviation of the roughness inside the spall, µm; 0 if not given."""
     table: Annotated[ProfileTable, WithJsonSchema(FILE_SCHEMA)] | None = None
-    """CSV file of a measured surface (angle_deg, depth_um), which gives extent, depth and tapers of profile table."""
+    """CSV file of a measured surface (angle_deg, depth_um) for profile table, which alone gives its extent, depth,
+    tapers and roughness: those settings have no effect on it."""
 
     @model_validator(mode="after")
     def _one_of_each(self) -> SpallSettings:

@@ -127,7 +127,7 @@ class MachineSettings(Table):
     film_damping_n_s_per_m: NotNegative | None = None
     """Viscous damping of one loaded contact, N s/m."""
     separate_cages: Annotated[Distribution, OneOf((False, True))] = Fixed(False)
-    """True gives each row of a two-row bearing its own cage, with its own slip."""
+    """True gives each row of a two-row bearing its own cage, with its own slip; no effect on one row."""
     inner_conformity: Conformity | None = None
     """Groove radius of the inner race over ball diameter."""
     outer_conformity: Conformity | None = None

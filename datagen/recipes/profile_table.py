@@ -41,8 +41,9 @@ class ProfileTable(Table):
             raise _refused("angle_deg and depth_um must be finite")
         if any(after <= before for before, after in pairwise(self.angle_deg)):
             raise _refused("angle_deg must rise")
-        if min(self.depth_um) < 0.0 or max(self.depth_um) > DEEPEST_UM:
-            raise _refused(f"depth_um must lie from 0 to {DEEPEST_UM:g}")
+        for depth in self.depth_um:
+            if not 0.0 <= depth <= DEEPEST_UM:
+                raise _refused(_wrong_depth(depth))
         if max(self.depth_um) == 0.0:
             raise _refused("depth_um is 0 throughout: this is no spall")
         if self.extent_deg > 180.0:
@@ -83,7 +84,13 @@ def _numbers(path: Path, line: int, row: list[str]) -> tuple[float, float]:
         angle, depth = (float(cell) for cell in row)
     except ValueError:
         raise _refused(f"{path}, line {line}: {','.join(row)} is not two numbers") from None
+    if depth < 0.0 or depth > DEEPEST_UM:
+        raise _refused(f"{path}, line {line}: {_wrong_depth(depth)}")
     return angle, depth
+
+
+def _wrong_depth(depth: float) -> str:
+    return f"depth_um = {depth:g}; allowed: 0 to {DEEPEST_UM:g}"
 
 
 def _refused(problem: str) -> PydanticCustomError:

@@ -40,7 +40,7 @@ def noise_along_y(layers: Layers, samples: int) -> Array:
 def _scale(scenario: Scenario, signal: Array, layers: Layers) -> float:
     target = scenario.noise_target
     # Where there is nothing to compare with, noise keeps the machine's own level.
-    if target is None or not layers or not np.ptp(signal[:, 1]) > 0.0:
+    if target is None or not layers:
         return 1.0
     band = None if target.whole else scenario.noise_band
     ratio = signal_to_noise(signal[:, 1], noise_along_y(layers, len(signal)), scenario.rate, band)

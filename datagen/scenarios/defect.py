@@ -113,8 +113,9 @@ def _require_condition(condition: str, extent: float, bearing: Bearing) -> None:
     extended = is_extended(extent, bearing)
     if extended != (condition == "extended"):
         relation = "reaches" if extended else "is shorter than"
+        spacing = f"{math.degrees(bearing.spacing):.4g} degrees"
         raise InvalidParameter(
             f"condition = {condition}, but the spall of {math.degrees(extent):.4g} degrees {relation} the ball spacing "
-            f"of {math.degrees(bearing.spacing):.4g} degrees",
+            f"of {spacing}; allowed: {'at least' if condition == 'extended' else 'below'} {spacing}",
             "extent",
         )

@@ -72,7 +72,8 @@ TRAVEL = (
 )
 WINDOW = (
     "depth * w(u) + r(u): w rises as (1 - cos(pi (u + extent/2) / entry_taper)) / 2 over the entry taper, is 1, and "
-    "falls likewise over the exit taper (a zero taper is a step); r is the natural cubic spline through "
+    "falls likewise over the exit taper (a zero taper is a step of no slope: "
+    "the film damping c_d feels nothing of it, unlike of ever shorter tapers); r is the natural cubic spline through "
     "roughness_values at equal steps of u over the spall; zero outside the spall"
 )
 ROLLED = (
@@ -101,9 +102,9 @@ SCENE_RULES = {
     "start": "at rest in equilibrium under the load vector of t = 0, velocities zero",
 }
 SETTLED_START = (
-    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero, and so are the resonances of the "
-    "chain; the simulated instants begin there, and whatever depends on t holds for negative t too; the record has the "
-    "samples from t = 0 on"
+    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero, and so are the modes and the "
+    "mounting of the chain; the simulated instants begin there, and whatever depends on t holds for negative t too; "
+    "the record has the samples from t = 0 on"
 )
 
 

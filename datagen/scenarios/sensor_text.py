@@ -24,9 +24,10 @@ CHAIN_RULES = {
     "sum": "the sensor signal is resonator_gain times the resonator's acceleration plus every mode's, both lowered to "
     "rate_hz as sampling says, after the mounting",
     "modes": "on each axis z'' + 2 damping w z' + w^2 z = -a, a being the outer ring's acceleration, w = 2 pi "
-    "frequency_hz, at rest at t = 0; the mode adds -gain (2 damping w z' + w^2 z)",
-    "mounting": "a causal digital Butterworth low-pass at rate_hz: bilinear transform, exact at cutoff_hz, at rest at "
-    "t = 0",
+    "frequency_hz, at rest where the simulated instants begin (t = 0, or -settle_s if sampling has it); the mode adds "
+    "-gain (2 damping w z' + w^2 z)",
+    "mounting": "a causal digital Butterworth low-pass at rate_hz: bilinear transform, exact at cutoff_hz, at rest "
+    "where the simulated instants begin, as the modes are, so that what came before t = 0 has run through it too",
     "recorder": "step = 2 range_m_s2 / 2^bits; the record is step * clip(round(x / step), -2^(bits-1), 2^(bits-1) - 1) "
     "with halves to even, x being sensor signal plus background",
 }

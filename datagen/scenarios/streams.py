@@ -37,7 +37,11 @@ PURPOSES = (
     "stated_speed",
     "bootstrap",
 )
-RULE = "numpy.random.default_rng(SeedSequence(seed, spawn_key=(scope, index, purpose, attempt, item)))"
+RULE = (
+    "numpy.random.default_rng(SeedSequence(recipe, spawn_key=(scope, index, purpose, attempt, item))), scope and "
+    "purpose being places in the lists of scopes and purposes, from 0; the layers of the background have the scope "
+    "'record', index record, attempt record_attempt and item 0"
+)
 LARGEST_INDEX = 2**32 - 1
 
 

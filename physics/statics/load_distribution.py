@@ -90,6 +90,21 @@ def load_vector(scene: Scene, time: Array) -> Array:
     return load
 
 
+def load_range(scene: Scene) -> tuple[float, float]:
+    """Smallest and largest magnitude of the load on the shaft over a turn of it, N.
+
+    The magnitude squared is a trigonometric polynomial of second order in the shaft's angle, so eight instants tell it
+    and its extremes are among the angles of the four roots of its derivative.
+    """
+    turn = math.tau / scene.operation.shaft_speed
+    instants = np.arange(8) / 8.0 * turn
+    order = np.array([2, 1, 0, -1, -2])
+    squared = np.fft.fft((load_vector(scene, instants) ** 2).sum(axis=1))
+    extremes = np.angle(np.roots(order * squared[order])) / scene.operation.shaft_speed
+    load = np.hypot(*load_vector(scene, np.concatenate([instants, extremes])).T)
+    return float(load.min()), float(load.max())
+
+
 @njit_lean
 def _fill_loads(motion: MotionModel, time: Array, load: Array) -> None:
     for k in range(time.size):

@@ -10,6 +10,7 @@ from physics.imperfections import Imperfections, Waviness
 from physics.paths.passages import passages
 from physics.simulate import simulate
 from physics.spall import Spall
+from physics.statics.load_distribution import carried
 
 DURATION = 0.3
 
@@ -80,11 +81,40 @@ def test_short_waves_under_a_long_spall_are_part_of_the_due_load(make_scene, mon
     waves = Imperfections(waviness=(Waviness("inner", 58, 6e-7), Waviness("inner", 2, 1e-9)))
     scene = replace(make_scene(long, duration=DURATION), imperfections=waves)
     found = dips(scene)
-    monkeypatch.setattr("labels.load_dips.SAMPLES_WITHOUT_SPALLS", 400)  # the due load at every instant of a pass
+    monkeypatch.setattr("labels.load_dips.SAMPLES_PER_PASS", 4000)
     entry, leave, *dense = dips(scene)
     assert np.isfinite(dense).any()
     for times, dense_times in zip(found[2:], dense, strict=True):
         assert times == pytest.approx(dense_times, abs=1e-3 * (leave - entry).max(), nan_ok=True)
+
+
+def searched(scene, ball, entry, leave):
+    """Time of the first fall and the last rise of the load of `ball` of row 1, of all balls' loads at 4001 instants."""
+    time = np.linspace(entry, leave, 4001)
+    pressed, due = (carried(one, time).ball_load[:, 0, ball - 1] for one in (scene, replace(scene, spalls=())))
+    told = due > 0.0
+    time, enough = time[told], (pressed > 0.5 * due)[told]
+    falls, rises = (time[1:][enough[:-1] & ~enough[1:]], time[1:][~enough[:-1] & enough[1:]])
+    return (falls[0], rises[-1]) if falls.size and rises.size and falls[0] < rises[-1] else (np.nan, np.nan)
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "arc_deg", "depth", "dips_there"),
+    [(181.0, 12.0, 1.5e-6, False), (355.0, 12.0, 1.5e-6, False), (190.5, 22.0, 0.8e-6, True)],
+)
+def test_a_load_falls_only_where_it_was_above_half_before(make_scene, angle_deg, arc_deg, depth, dips_there):
+    # Without clearance balls carry load from 180 to 360 degrees, so every spall here has an end of the zone inside.
+    arc = math.radians(arc_deg)
+    spall = Spall("outer", 1, math.radians(angle_deg), arc, depth, 0.8 * arc, 0.2 * arc)
+    scene = make_scene(spall, duration=DURATION)
+    entry, leave, fall, rise = dips(scene)
+    ball = passages(scene, 0, -0.5 * arc, 0.0, DURATION).ball
+    assert entry.size > 5
+    for k in range(entry.size):
+        expected = searched(scene, int(ball[k]), entry[k], leave[k])
+        assert np.isfinite(expected).all() == dips_there
+        close = 1e-3 * (leave[k] - entry[k])  # as documented
+        assert (fall[k], rise[k]) == pytest.approx(expected, rel=0.0, abs=close, nan_ok=True)
 
 
 def test_a_load_that_only_rises_and_then_falls_has_no_dip():

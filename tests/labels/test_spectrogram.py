@@ -30,3 +30,14 @@ def test_beyond_the_ends_of_the_signal_there_is_silence_and_a_short_span_keeps_t
     assert power[0, 0] == pytest.approx(power[0, COLUMNS // 2] / 4.0, rel=0.02)  # one sample more or less of 328
     _, short, _ = spectrogram(np.ones(TIME.size), RATE, 0.5, 0.5 + 10.0 / RATE)
     assert short[1] == RATE / (4.0 * FEWEST_WINDOW_SAMPLES)
+
+
+def test_a_span_far_beyond_both_ends_is_silent_but_for_the_signal_in_it():
+    time, _, power = spectrogram(np.cos(2.0 * np.pi * 1000.0 * TIME), RATE, -2.5, 3.5)
+    half_window = 0.02 * 6.0
+    outside = (time < -half_window - 1.0 / RATE) | (time > 1.0 + half_window + 1.0 / RATE)
+    well_inside = (time > half_window) & (time < 1.0 - half_window)
+    assert not power[:, outside].any()
+    assert power[:, well_inside].max(axis=0) == pytest.approx(0.5, rel=0.02)  # half a bin from the top, as above
+    _, _, nothing = spectrogram(np.ones(TIME.size), RATE, 5.0, 6.0)
+    assert not nothing.any()

@@ -105,3 +105,32 @@ def test_both_cages_last_equally_long(healthy):
     with pytest.raises(InvalidParameter, match=r"0\.5 s and 0\.4 s; they must last equally long"):
         dataclasses.replace(healthy, second_cage=short)
     assert dataclasses.replace(healthy, second_cage=healthy.cage).second_cage is healthy.cage
+
+
+@pytest.mark.parametrize("field", ["cage", "second_cage"])
+def test_a_cage_faster_than_the_shaft_over_an_inner_spall_is_refused_with_both_speeds(healthy, field):
+    inner = dataclasses.replace(SPALL, race="inner", row=1 if field == "cage" else 2)
+    shaft = healthy.operation.shaft_speed
+    fast = CagePath(1.25 * shaft, 0.5)
+    assert dataclasses.replace(healthy, spalls=(SPALL,), **{field: fast}).defective_race == "outer"
+    told = r"54\.9779 rad/s at its fastest; .* below the shaft's 43\.9823"
+    with pytest.raises(InvalidParameter, match=told) as refused:
+        dataclasses.replace(healthy, spalls=(inner,), **{field: fast})
+    assert refused.value.field == field
+    for share in (0.99, 1.0):
+        dataclasses.replace(healthy, spalls=(inner,), **{field: CagePath(share * shaft, 0.5)})
+
+
+def test_a_cage_that_overtakes_the_shaft_between_two_knots_of_its_slip_is_refused(healthy):
+    inner, shaft = dataclasses.replace(SPALL, race="inner"), healthy.operation.shaft_speed
+    # The spline through 0, a, a, 0 (steps of 1, natural ends) peaks half-way, at 1.15 a: by hand, its second derivative
+    # at both inner knots is -6 a / 5, which lifts the middle of the chord by (6 a / 5) / 8 = 0.15 a.
+    for peak, allowed in ((0.999, True), (1.001, False)):
+        slip = (peak / 0.8 - 1.0) / 1.15
+        cage = CagePath(0.8 * shaft, 0.5, knot_step=0.5 / 3.0, knot_values=(0.0, slip, slip, 0.0))
+        assert cage.fastest == pytest.approx(peak * shaft, rel=1e-12)  # rounding
+        if allowed:
+            dataclasses.replace(healthy, cage=cage, spalls=(inner,))
+        else:
+            with pytest.raises(InvalidParameter, match=r"cage = 44\.0263 rad/s at its fastest"):
+                dataclasses.replace(healthy, cage=cage, spalls=(inner,))

@@ -13,7 +13,7 @@ import pytest
 
 from datagen.corpus_files.format import Identity, to_dataset
 from datagen.corpus_files.index import LABEL_COLUMNS, index_path, read_index, write_index
-from datagen.corpus_files.shard import finished_shards, write_shard
+from datagen.corpus_files.shard import Failure, finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.records.record import Record
 from labels.schema import LABELS
@@ -37,6 +37,18 @@ def test_the_index_has_one_row_a_record_in_their_order_with_its_place(folder: Pa
     assert list(plain.columns) == [*LABEL_COLUMNS, "shard", "position"]
     assert list(plain["shard"].str[-5:-3].astype(int)) == [0, 1, 1, 0, 2, 2, 0, 3, 1]
     assert list(plain["position"]) == [0, 0, 1, 1, 0, 1, 2, 0, 2]
+
+
+def test_rows_keep_the_order_of_the_records_where_the_first_ones_of_a_shard_failed(
+    tmp_path: Path, make_plain_record: Maker
+) -> None:
+    (tmp_path / "shards").mkdir()
+    lost = {0: (Failure(0, "lost"),), 1: (Failure(1, "lost"), Failure(3, "lost")), 2: ()}
+    for shard, indices in enumerate([(6, 9), (8,), (2, 4)]):
+        dataset = to_dataset([make_plain_record(index) for index in indices], {})
+        write_shard(tmp_path, shard, Identity("r", "m", "f", "p"), dataset, lost[shard], "zlib", 1.0)
+    write_index(tmp_path, finished_shards(tmp_path))
+    assert list(pandas.read_csv(index_path(tmp_path))["record"]) == [2, 4, 6, 8, 9]
 
 
 def test_the_index_reads_back_with_the_types_of_the_schema(folder: Path) -> None:
@@ -78,7 +90,8 @@ def test_an_index_is_written_row_by_row_whatever_its_length(tmp_path: Path) -> N
     def sidecars() -> Iterator[Any]:
         for shard in range(100):
             records = list(range(50 * shard, 50 * shard + 50))
-            yield SimpleNamespace(shard=shard, records=records, labels=dict.fromkeys(LABEL_COLUMNS, records))
+            columns = dict.fromkeys(LABEL_COLUMNS, records)
+            yield SimpleNamespace(shard=shard, records=records, settled=set(records), labels=columns)
 
     tracemalloc.start()
     try:

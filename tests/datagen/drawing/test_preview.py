@@ -222,6 +222,13 @@ def test_the_heading_says_what_is_drawn(portrait):
         assert part in summary(drawn)
 
 
+@pytest.mark.parametrize(("layers", "told"), [("white", "no signal"), ("", "no background")])
+def test_the_summary_says_why_there_is_no_ratio_of_signal_to_noise(portrait, layers, told):
+    drawn = portrait("healthy")
+    silent = replace(drawn, labels={**drawn.labels, "snr_db": math.nan, "background_layers": layers})
+    assert told in summary(silent)
+
+
 def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file, tmp_path):
     folder = tmp_path / "corpus"
     generate(load_recipe(recipe_file), folder)

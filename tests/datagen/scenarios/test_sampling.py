@@ -299,8 +299,11 @@ def test_an_impossible_machine_is_redrawn_once_for_all_its_records() -> None:
     ("settings", "words"),
     [
         ({"machine": {"rig": "gearbox", "ball_diameter_mm": 20}}, "12 balls of 20.000 mm do not fit"),
-        ({"defect": EXTENDED | {"condition": "line"}}, "reaches the ball spacing"),
-        ({"defect": LINE | {"condition": "extended"}}, "is shorter than the ball spacing"),
+        (
+            {"defect": EXTENDED | {"condition": "line"}},
+            "reaches the ball spacing of 30 degrees; allowed: below 30 degrees",
+        ),
+        ({"defect": LINE | {"condition": "extended"}}, "of 30 degrees; allowed: at least 30 degrees"),
         ({"defect": {"condition": "line", "extent_mm": 1, "depth_um": 9, "entry_taper_deg": 20}}, "entry_taper"),
         ({"defect": LINE | {"count": 2, "angle_deg": 359.5, "separation_deg": 1.5}}, "overlap: 1.5 degrees apart"),
         ({"defect": LINE | {"row": 2}, "machine": {"rig": "cwru"}}, "spall on row 2"),

@@ -199,6 +199,28 @@ def test_the_text_tells_how_to_remake_the_record() -> None:
     assert {key: data[key] for key in identity} == identity
 
 
+def test_the_rule_of_a_tapered_spall_says_what_the_film_makes_of_a_step() -> None:
+    rules = [defect["rule"] for defect in json.loads(full_scenario().to_json())["defects"]]
+    assert "a zero taper is a step of no slope: the film damping c_d feels nothing of it" in rules[0]
+
+
+def test_the_rule_of_the_seeds_names_each_number_as_the_text_does() -> None:
+    seeds = json.loads(full_scenario().to_json())["seeds"]
+    rule = seeds["rule"]
+    assert "SeedSequence(recipe, spawn_key=(scope, index, purpose, attempt, item))" in rule
+    for said in ("index record", "attempt record_attempt", "item 0", "scope 'record'", "places in the lists"):
+        assert said in rule
+    assert {"recipe", "record", "record_attempt", "scopes", "purposes"} <= set(seeds)
+
+
+def test_no_rule_of_a_settled_record_lets_a_filter_begin_at_its_first_sample() -> None:
+    text = json.loads(dataclasses.replace(full_scenario(), settle=0.01).to_json())
+    modes, mounting = text["chain"]["rules"]["modes"], text["chain"]["rules"]["mounting"]
+    assert "at rest where the simulated instants begin (t = 0, or -settle_s" in modes
+    assert "at rest where the simulated instants begin" in mounting
+    assert "modes and the mounting of the chain" in text["rules"]["start"]
+
+
 def test_the_seeds_in_the_text_open_the_records_noise_without_our_code() -> None:
     scenario = full_scenario()
     seeds = json.loads(scenario.to_json())["seeds"]

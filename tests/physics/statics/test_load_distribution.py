@@ -9,9 +9,10 @@ from at_rest import LINE, SOLVED, START, angles
 from scipy.optimize import brentq
 
 from physics.imperfections import Imperfections
+from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.statics.ball_load import ball_load
-from physics.statics.load_distribution import OUTCOMES, carried, equilibrium, load_vector
+from physics.statics.load_distribution import OUTCOMES, carried, equilibrium, load_range, load_vector
 from physics.statics.rest import NO_EQUILIBRIUM
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
@@ -155,6 +156,28 @@ def test_the_load_vector_is_the_static_load_with_its_fluctuation_and_the_unbalan
     expected_y = 7.0 * np.sin(turn + 0.4) - 100.0 * (1 + 0.3 * np.cos(turn + 1.1))
     load = load_vector(build_scene(gearbox, operation=operation), time)
     assert np.allclose(load, np.stack([7.0 * np.cos(turn + 0.4), expected_y], axis=1), rtol=1e-9)  # 7 Hz in rad/s
+
+
+@pytest.mark.parametrize(
+    ("load", "unbalance", "fluctuation", "phase"),
+    [
+        (346.0, 0.0, 0.0, 0.0),
+        (346.0, 50.0, 0.0, 1.0),
+        (346.0, 0.0, 2.0, 0.4),
+        (346.0, 300.0, 0.5, 2.0),
+        (0.0, 5.0, 9.0, 0),
+    ],
+)
+def test_the_range_of_the_load_is_that_of_a_dense_search(gearbox, build_scene, load, unbalance, fluctuation, phase):
+    run = Operation(gearbox.rated_speed, load, unbalance, phase, fluctuation, 0.3)
+    angle = np.linspace(0.0, 2.0 * math.pi, 1_000_001)
+    down = load * (1.0 + fluctuation * np.cos(angle + 0.3))
+    magnitude = np.hypot(unbalance * np.cos(angle + phase), unbalance * np.sin(angle + phase) - down)
+    found = load_range(dataclasses.replace(build_scene(gearbox), operation=run))
+    # The search steps by 6e-6 of the angle, over which a load of 1 kN that passes through zero moves by 6 mN.
+    assert found == pytest.approx((magnitude.min(), magnitude.max()), rel=1e-9, abs=6e-3)
+    if fluctuation > 1.0 and unbalance == 0.0:
+        assert found[0] < 1e-9 * found[1]
 
 
 def test_the_damping_is_that_of_the_loaded_balls(gearbox, build_scene):

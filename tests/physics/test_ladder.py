@@ -15,7 +15,7 @@ from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
 from physics.paths.profile import race_depth
-from physics.request import Accurate, Kept, Simpler
+from physics.request import Accurate, FixedSteps, Simpler
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium

@@ -137,7 +137,7 @@ def _strongest(mean: Array, free: Flags, step: float, known: Kinematics, doubt: 
     best = int(chance.argmin())
     if chance[best] > np.log(CHANCE):
         return None
-    rate = _slowest_part(lines, free, float(rates[best]), known)
+    rate = _slowest_part(lines, free, float(rates[best]), known, doubt)
     return _sharpened(lines, rate, float(every[1] - every[0]), shaft)
 
 
@@ -145,6 +145,9 @@ def _made_by_bearing(orders: Array, known: Kinematics, doubt: float) -> Flags:
     """Which `orders` (N,) of the shaft, a share of `doubt` wrong, are of the bearing or of the shaft itself, halves and
     thirds of them too."""
     made = np.abs(2.0 * orders - np.round(2.0 * orders)) < 2.0 * (OF_BEARING * np.minimum(orders, 1.0) + doubt * orders)
+    # Multiples of a shaft whose speed is exact are taken out before; those of one in doubt lie on combs of a part.
+    turns = np.round(1.0 / np.minimum(orders, 1.0))
+    made |= (turns <= MOST_PARTS) & (np.abs(turns * orders - 1.0) < doubt)
     parts = [part * share for part in (known.bpfo, known.bpfi, 2.0 * known.ball_spin) for share in (0.5, 1.0, 2.0)]
     # Balls that differ mark the cage's turns over the outer race, and those over the inner one.
     cages = (known.ftf, 1.0 - known.ftf)
@@ -184,12 +187,15 @@ def _log_chance(stands: Flags, readable: Flags, elsewhere: tuple[int, int]) -> A
     return least
 
 
-def _slowest_part(lines: Lines, free: Flags, comb: float, known: Kinematics) -> float:
-    """The rate of which `comb` is a multiple, if the lines between those of `comb` stand out as well; else `comb`."""
+def _slowest_part(lines: Lines, free: Flags, comb: float, known: Kinematics, doubt: float) -> float:
+    """The rate of which `comb` is a multiple, if the lines between those of `comb` stand out as well and a shaft whose
+    speed is in `doubt` does not make it; else `comb`."""
     off = np.linspace(-1.0, 1.0, 9) * lines.step / (3.0 * comb)
     for part in range(MOST_PARTS, 1, -1):
         rates = comb / part * (1.0 + off)
         if rates[0] < max(SLOWEST * known.shaft_hz, 4.0 * lines.step):
+            continue
+        if doubt > 0.0 and _made_by_bearing(rates / known.shaft_hz, known, doubt).any():
             continue
         stands, readable = _standing(lines, free, rates, known.shaft_hz)
         between = np.arange(1, LOOKED_AT[-1] + 1) % part != 0

@@ -80,6 +80,16 @@ def test_what_a_bearing_makes_at_another_speed_is_no_comb_where_the_speed_is_in_
     assert combs(excess) == pytest.approx([2.04 * SHAFT], abs=STEP / 10)
 
 
+@pytest.mark.parametrize("part", [3, 5, 8])
+def test_no_comb_holds_every_line_of_a_shaft_whose_speed_is_in_doubt(part):
+    """Every third, fifth or eighth line is one of a shaft that turns 2 % faster than stated."""
+    rate = 1.02 * SHAFT / part
+    excess = spectrum(*multiples(rate, 200))
+    assert combs(excess) == pytest.approx([rate], abs=STEP / 10)
+    turns = 1.02 * SHAFT / np.array(combs(excess, doubt=0.022))  # of the comb in one of the shaft
+    assert np.all(np.abs(turns - np.round(turns)) > 0.1)
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_has_none(seed):
     assert combs(spectrum(seed=seed)) == []

@@ -21,6 +21,8 @@ def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None 
     Over `band` (Hz, edges included), or from 0 to half the `rate` (Hz) if None.
     """
     parts = (signal, noise)
+    if not all(part.any() for part in parts):  # as without background, where no spectrum need be made
+        return math.nan
     powers = [float(part.var()) if band is None else band_power(part, rate, band) for part in parts]
     if any(power <= ROUNDING * float(np.mean(part**2)) for power, part in zip(powers, parts, strict=True)):
         return math.nan

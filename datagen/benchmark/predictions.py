@@ -18,8 +18,9 @@ SAID = ("location", "score", "alarm")
 
 @dataclass(frozen=True)
 class ModelAnswer:
-    """What one model says of a record: a location, its score, and the alarm above which a spall is called; if it gives
-    any, probabilities of LOCATIONS and CONDITIONS by their names. Numbers are NaN without features."""
+    """What one model says of a record: a location, its score, and the alarm above which a spall is called, 0 where the
+    record's lines alone are one; if it gives any, probabilities of LOCATIONS and CONDITIONS by their names. Numbers are
+    NaN without features."""
 
     location: str
     score: float

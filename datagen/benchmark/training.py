@@ -79,9 +79,12 @@ class Model:
         """Probability (N,) of a spall at which each row is called."""
         return self.alarm.at(table) if isinstance(self.alarm, Alarm) else np.full(len(table), self.alarm)
 
-    def plain(self, table: Array) -> Flags:
-        """Whether (N,) each row is called for its lines alone."""
-        return self.alarm.plain(table) if isinstance(self.alarm, Alarm) else np.zeros(len(table), dtype=bool)
+    def by_lines_alone(self, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]) -> Flags:
+        """Whether (R,) each of `records` (R,) is called for its lines alone, by the mean of its rows; `owner` (N,) are
+        the records of the rows."""
+        if not isinstance(self.alarm, Alarm):  # an estimator of the user's, whose table may hold raw windows
+            return np.zeros(len(records), dtype=bool)
+        return self.alarm.by_lines_alone(averaged(table, owner, records))
 
     def probability(self, table: Array) -> Array:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""

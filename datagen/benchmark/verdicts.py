@@ -138,8 +138,8 @@ def vote(
     votes = joined(own, owner, records)
     levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
     margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
-    plain = model.plain(averaged(table, owner, records))
-    return votes, called(votes, (margin > 0.0) | plain), np.where(plain, 0.0, probability_of(alarm))
+    by_lines = model.by_lines_alone(table, owner, records)
+    return votes, called(votes, (margin > 0.0) | by_lines), np.where(by_lines, 0.0, probability_of(alarm))
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

@@ -123,7 +123,7 @@ def verdict_table(predictions: list[Prediction], models: list[str]) -> Table:
     table = Table(
         title="records not scored: their true class is unknown or not one of ours",
         caption="In brackets, if the model gives one: the probability of a spall, and the alarm above which one is "
-        "called (≈: so near that single windows decide).",
+        "called (≈: so near that single windows decide; 0: the lines of a race are an alarm by themselves).",
     )
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")

@@ -32,7 +32,7 @@ SMALLEST = 1e-4
 FEWEST_ROWS = 20
 # Quantile of the healthy records' highest line family above which lines alone are an alarm: a rule that answers less
 # often than the yardstick's, at 0.95.
-PLAIN_QUANTILE = 0.98
+LINES_QUANTILE = 0.98
 
 
 def clearness(table: Array) -> Array:
@@ -57,14 +57,14 @@ class Alarm:
         low, high = logit(np.array([self.in_noise, self.in_clear]))
         return probability_of(low * (1.0 - clear) + high * clear)
 
-    def plain(self, table: Array) -> Flags:
+    def by_lines_alone(self, table: Array) -> Flags:
         """Whether (N,) the lines of each row of the feature table are an alarm by themselves; not in a row of NaN."""
         return np.asarray(strengths(table).max(axis=1) > self.height)
 
 
 def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDArray[np.bool_], share: float) -> Alarm:
     """The alarm that at most a `share` of healthy records pass by their probability, SHARE_IN_NOISE times that of the
-    rows like noise, and 1 − PLAIN_QUANTILE of the records by their lines.
+    rows like noise, and 1 − LINES_QUANTILE of the records by their lines.
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise
@@ -83,5 +83,6 @@ def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDA
     needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
     high = np.sort(needed)[::-1][min(int(share * own.size), own.size - 1)]
     in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
-    heights = [np.bincount(place, column) / rows for column in np.log(strengths(table[~noisy])).T]
-    return Alarm(float(in_noise), float(in_clear), float(np.exp(np.quantile(np.max(heights, axis=0), PLAIN_QUANTILE))))
+    heights = [np.bincount(place, race) / rows for race in np.log(strengths(table[~noisy])).T]
+    height = np.exp(np.quantile(np.max(heights, axis=0), LINES_QUANTILE))
+    return Alarm(float(in_noise), float(in_clear), float(height))

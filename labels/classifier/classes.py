@@ -12,14 +12,6 @@ HEALTHY = "healthy"
 EVEN = 0.5
 
 
-def decide(probability: Array, alarm: float | Array = EVEN) -> NDArray[np.str_]:
-    """The class (N,) that follows from probabilities (N, 5): the likeliest spall if that of any passes `alarm`.
-
-    `alarm` is one probability for all, or one for each (N,).
-    """
-    return called(probability, 1.0 - probability[:, 0] > alarm)
-
-
 def called(probability: Array, alarming: NDArray[np.bool_]) -> NDArray[np.str_]:
     """The class (N,) from probabilities (N, 5): the likeliest spall where `alarming` (N,) is True, else healthy."""
     likeliest = np.asarray(CLASSES[1:])[probability[:, 1:].argmax(axis=1)]

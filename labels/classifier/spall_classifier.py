@@ -106,7 +106,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         """The likeliest class (N,) of the rows whose probability of a spall, or whose lines, pass the alarm; "healthy"
         for others."""
         probability = self.predict_proba(X)
-        return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | self.alarm_.plain(X))
+        return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | self.alarm_.by_lines_alone(X))
 
     def _stage(self, signs: tuple[int, ...] | None = None, divisions: int = 1) -> Stage:
         return Stage(learner(self.kind, self.seed, signs), self.seed, divisions)

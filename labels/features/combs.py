@@ -142,8 +142,8 @@ def _strongest(mean: Array, free: Flags, step: float, known: Kinematics, doubt: 
 
 
 def _made_by_bearing(orders: Array, known: Kinematics, doubt: float) -> Flags:
-    """Which `orders` (N,) of the shaft, a share of `doubt` wrong, are of the bearing or of the shaft itself, halves and
-    thirds of them too."""
+    """Which `orders` (N,) of a shaft whose speed may be wrong by the share `doubt` are of the bearing or of the shaft
+    itself, halves and thirds of them too."""
     made = np.abs(2.0 * orders - np.round(2.0 * orders)) < 2.0 * (OF_BEARING * np.minimum(orders, 1.0) + doubt * orders)
     # Multiples of a shaft whose speed is exact are taken out before; those of one in doubt lie on combs of a part.
     turns = np.round(1.0 / np.minimum(orders, 1.0))

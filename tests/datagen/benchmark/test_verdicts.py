@@ -190,6 +190,11 @@ def test_a_class_is_called_where_the_rows_pass_their_alarm_and_healthy_else():
     assert np.isnan(alarm).tolist() == [False, False, True]
 
 
+def test_an_alarm_must_be_passed_and_not_only_reached():
+    probability = [[0.5, 0.5, 0.0, 0.0, 0.0], [0.49, 0.51, 0.0, 0.0, 0.0]]
+    assert judged(["outer"] * 2, probability).verdicts[1].location.tolist() == ["none", "outer"]
+
+
 def test_the_rows_of_a_record_agree_on_its_alarm():
     model = Model("said", Said([[0.5, 0.5, 0.0, 0.0, 0.0]] * 2), Alarm(0.2, 0.8))
     table = np.zeros((2, len(FEATURE_NAMES)))

@@ -99,5 +99,5 @@ def test_lines_as_high_as_few_healthy_records_have_are_an_alarm_by_themselves():
     assert np.mean(height > np.log(alarm.height)) == pytest.approx(0.02, abs=1e-3)  # one record is a step of 1e-3
     found = np.zeros((3, len(FEATURE_NAMES)))
     found[:, FEATURE_NAMES.index("outer_strength")] = np.log(alarm.height) + np.array([-0.01, 0.01, np.nan])
-    assert alarm.plain(found).tolist() == [False, True, False]
-    assert not Alarm(0.5, 0.9).plain(found).any()
+    assert alarm.by_lines_alone(found).tolist() == [False, True, False]
+    assert not Alarm(0.5, 0.9).by_lines_alone(found).any()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sklearn.base import clone
 
-from labels.classifier.classes import CLASSES, condition_probability, decide, joint_class, location_probability
+from labels.classifier.classes import CLASSES, called, condition_probability, joint_class, location_probability
 from labels.classifier.learners import LEARNERS, learner
 from labels.classifier.reliability import calibration_error, equal_priors
 from labels.classifier.spall_classifier import RISING, SpallClassifier
@@ -106,11 +106,10 @@ def test_the_race_is_told_from_the_families_alone(fitted):
     np.testing.assert_allclose(one[:, 1] / one[:, 2], two[:, 1] / two[:, 2], rtol=1e-9)
 
 
-def test_the_likeliest_spall_is_named_only_above_the_alarm():
+def test_the_likeliest_spall_is_named_only_where_there_is_an_alarm():
     probability = np.array([[0.6, 0.1, 0.3, 0.0, 0.0], [0.2, 0.5, 0.3, 0.0, 0.0]])
-    assert decide(probability, 0.5).tolist() == ["healthy", "line outer"]
-    assert decide(probability, 0.3).tolist() == ["line inner", "line outer"]
-    assert decide(np.array([[0.5, 0.5, 0.0, 0.0, 0.0]]), 0.5).tolist() == ["healthy"]  # it must be passed
+    assert called(probability, np.array([False, True])).tolist() == ["healthy", "line outer"]
+    assert called(probability, np.array([True, True])).tolist() == ["line inner", "line outer"]
 
 
 def test_unknown_classes_and_learners_are_refused():

@@ -18,10 +18,14 @@ class Bearing:
     """A radially loaded bearing with one or more staggered rows of rolling elements (SI units).
 
     `load_deflection` is K of F = K δⁿ for one rolling element between both races (N/mⁿ, δ along the contact normal),
-    `exponent` is n: 3/2 for balls, 10/9 for rollers [P14 Eq. 6].
-    `clearance` is radial: half the diametral play. `row_offset` is the stagger of neighbouring rows (rad);
-    None means half a ball spacing [P14 Eq. 2]. A conformity is groove radius over ball diameter; it sets the width of
-    the contacts, never K, and an outer raceway that is a sphere has raceway radius over ball diameter.
+    `exponent` is n: 3/2 for balls, 10/9 for rollers [P14 Eq. 6]. `clearance` is radial: half the diametral play.
+    `row_offset` is the stagger of neighbouring rows (rad); None means half a ball spacing [P14 Eq. 2]. A conformity is
+    groove radius over ball diameter; it sets the width of the contacts, never K, and an outer raceway that is a sphere
+    has raceway radius over ball diameter.
+
+    InvalidParameter unless there are 3 to 200 balls that fit on the pitch circle, 1 or 2 rows, diameters and K above 0,
+    an exponent from 1 to 2, a contact angle from 0 to 60 degrees, a clearance within ±1 mm and conformities from 0.501
+    to 1000.
     """
 
     name: str
@@ -73,7 +77,7 @@ class Bearing:
         return self.ball_diameter / 2.0
 
     def raceway_radius(self, race: str) -> float:
-        """Radius of the raceway at the contact, m: `race` is "outer" or "inner"."""
+        """Radius of the raceway at the contact, m: `race` is "outer" or "inner". InvalidParameter for another."""
         shift = self.ball_diameter * math.cos(self.contact_angle)
         if race == "outer":
             return (self.pitch_diameter + shift) / 2.0
@@ -115,7 +119,10 @@ class Bearing:
         return ball_spin_order(self.pitch_diameter / self.ball_diameter, self.diameter_ratio)
 
     def conformity(self, race: str) -> float:
-        """Groove radius over ball diameter, dimensionless: `race` is "outer" or "inner"."""
+        """Groove radius over ball diameter, dimensionless: `race` is "outer" or "inner".
+
+        InvalidParameter for another.
+        """
         require_one_of("race", race, RACES)
         return self.outer_conformity if race == "outer" else self.inner_conformity
 

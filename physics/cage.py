@@ -26,8 +26,9 @@ CROSSING_SHARE = 1e-11
 class CagePath:
     """Cage angle φc(t) = φc(0) + ∫ ωc (1 − s̄ + s(t)) dt, rad, from t = 0 to `duration` (s).
 
-    `knot_values` are s at the times `knot_start + k · knot_step`; none means constant slip s̄. This replaces
-    [P14 Eq. 3], whose random step depends on the solver's step.
+    `knot_values` are s at the times `knot_start + k · knot_step`; none means constant slip s̄. This replaces [P14 Eq.
+    3], whose random step depends on the solver's step. InvalidParameter unless speed and duration are above 0, s̄ lies
+    within ±0.2, every knot within ±0.5, and the knots, if any, cover 0 to `duration`.
     """
 
     nominal_speed: float
@@ -145,7 +146,8 @@ def draw_slip_knots(
 
     They cover −`lead_in` to `duration` (s). The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck)
     sequence, four per correlation time, scaled so that the spline through them has the stated deviation on average;
-    they are rounded to 1e-12 so that their decimal text is exact.
+    they are rounded to 1e-12 so that their decimal text is exact. InvalidParameter unless the correlation time is above
+    0 and neither deviation nor lead-in below it.
     """
     require_not_negative("deviation", deviation)
     require_positive("correlation_time", correlation_time, "s")

@@ -23,7 +23,8 @@ MILLIMETRES = 1e3
 class PointContact:
     """Two bodies touching at a point, by the sums of their curvatures (1/m) along and across the rolling direction.
 
-    A concave body counts as negative. `modulus` is E/(1 − ν²) of both bodies alike, Pa.
+    A concave body counts as negative. `modulus` is E/(1 − ν²) of both bodies alike, Pa. InvalidParameter unless all
+    three are above 0.
     """
 
     along: float
@@ -97,7 +98,10 @@ def race_contact(
     conformity: float = DEFAULT_CONFORMITY,
 ) -> PointContact:
     """The contact of a steel ball (m, m, rad) with the groove of one race; `conformity` is groove radius over ball
-    diameter."""
+    diameter.
+
+    InvalidParameter for another race than "outer" and "inner", or a conformity outside 0.501 to 1000.
+    """
     require_one_of("race", race, RACES)
     require_between("conformity", conformity, SMALLEST_CONFORMITY, 1e3)
     towards = math.cos(contact_angle)
@@ -145,6 +149,7 @@ def roller_load_deflection_factor(length: float) -> float:
     """K of F = K δ^(10/9) for a steel roller of effective `length` (m) between both races, N/m^(10/9).
 
     Palmgren's line contact, once at each race: the roller's deflection is shared between two such contacts.
+    InvalidParameter unless the length is above 0.
     """
     require_positive("length", length, "m")
     one = PALMGREN_FACTOR * (length * MILLIMETRES) ** (8.0 / 9.0) * MILLIMETRES**ROLLER_EXPONENT
@@ -152,7 +157,10 @@ def roller_load_deflection_factor(length: float) -> float:
 
 
 def roller_length(load_deflection: float) -> float:
-    """Effective length (m) of the steel roller whose factor between both races is `load_deflection`, N/m^(10/9)."""
+    """Effective length (m) of the steel roller whose factor between both races is `load_deflection`, N/m^(10/9).
+
+    InvalidParameter unless it is above 0.
+    """
     require_positive("load_deflection", load_deflection, "N/m^(10/9)")
     return float((load_deflection / roller_load_deflection_factor(1.0)) ** (9.0 / 8.0))
 
@@ -170,6 +178,7 @@ def contact_width(
     """Width along the rolling direction of the contact with `race` ("outer", "inner") under a normal `load` (N), m.
 
     Balls: the ellipse of the bearing's conformity. Rollers: the line contact of the length that K stands for.
+    InvalidParameter unless the load is above 0, or for another race.
     """
     require_positive("load", load, "N")
     contact = race_contact(

@@ -13,6 +13,8 @@ class Waviness:
     """One harmonic of a race: depth(ψ) = amplitude · cos(order · ψ + phase), ψ the angle on that race at t = 0.
 
     Positive depth is material missing (it relieves the ball), like the depth of a spall. Applies to every row.
+    InvalidParameter unless `race` is "outer" or "inner", `order` a whole number from 1 to 2000 and the amplitude above
+    0.
     """
 
     race: str
@@ -31,8 +33,8 @@ class Waviness:
 class Imperfections:
     """Departures from a perfect healthy bearing; all absent by default.
 
-    `ball_deviation[r][j]` is the diameter of ball j + 1 on row r + 1 minus the nominal one (m), which adds to
-    the compression along the contact normal; empty means equal balls.
+    `ball_deviation[r][j]` is the diameter of ball j + 1 on row r + 1 minus the nominal one (m), which adds to the
+    compression along the contact normal; empty means equal balls. InvalidParameter if a deviation is beyond ±1 mm.
     """
 
     waviness: tuple[Waviness, ...] = ()

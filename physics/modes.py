@@ -33,7 +33,10 @@ class Modes:
 
 
 def coupled_matrix(rig_matrix: Array, bearing: Array) -> Array:
-    """A rig's stiffness or damping matrix (6, 6) with the bearing's (2, 2) between the two rings [P14 Eq. 29]."""
+    """A rig's stiffness or damping matrix (6, 6) with the bearing's (2, 2) between the two rings [P14 Eq. 29].
+
+    InvalidParameter if that has another shape or holds a value that is not finite.
+    """
     bearing = np.asarray(bearing, dtype=np.float64)
     require(bearing.shape == (2, 2), f"bearing matrix has the shape {bearing.shape}; it must be (2, 2)")
     require(bool(np.all(np.isfinite(bearing))), "bearing matrix holds a value that is not finite")

@@ -15,8 +15,9 @@ RPM = 2.0 * math.pi / 60.0
 class Operation:
     """Constant shaft speed (rad/s) and static load W along −y (N), with optional loads of shaft order.
 
-    `unbalance_force` (N) turns with the shaft at angle ωs t + `unbalance_phase`;
-    `load_fluctuation` (share of W) scales the static load by 1 + share · cos(ωs t + `fluctuation_phase`).
+    `unbalance_force` (N) turns with the shaft at angle ωs t + `unbalance_phase`; `load_fluctuation` (share of W) scales
+    the static load by 1 + share · cos(ωs t + `fluctuation_phase`). InvalidParameter unless the speed is above 0, the
+    load within ±1e7 N, the unbalance force not below 0 and the fluctuation from 0 to 10.
     """
 
     shaft_speed: float

@@ -16,8 +16,11 @@ from physics.checks import require_not_negative, require_positive
 class Rig:
     """The lumped machine of [P14 Fig. 1] in SI units: inner ring + shaft, outer ring + support, resonator.
 
-    `film_damping` is c_d, the viscous damping of one loaded contact (N s/m) [P14 Eq. 9].
-    `rated_speed` (rad/s) and `rated_load` (N) are the operating point of the source, used as defaults.
+    `film_damping` is c_d, the viscous damping of one loaded contact (N s/m) [P14 Eq. 9]. `rated_speed` (rad/s) and
+    `rated_load` (N) are the operating point of the source, used as defaults. Masses are in kg, stiffnesses in N/m,
+    dampings in N s/m.
+
+    InvalidParameter unless masses, stiffnesses, rated speed and rated load are above 0 and no damping is below it.
     """
 
     name: str

@@ -16,7 +16,8 @@ class Kinematics:
     """Ball pass orders of a bearing and the speed of its shaft.
 
     `balls` in a row, `diameter_ratio` = Db cos α / Dp, `ball_spin` the spin of a ball in orders of the shaft,
-    `shaft_hz` the shaft's speed in Hz, which may be off by 2 %.
+    `shaft_hz` the shaft's speed in Hz, which may be off by 2 %. ValueError unless there are 3 balls or more, the ratio
+    lies between 0 and 1, and spin and speed are above 0.
     """
 
     balls: int

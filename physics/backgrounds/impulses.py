@@ -15,7 +15,10 @@ MOST_PER_SECOND = 10_000.0
 
 @dataclass(frozen=True)
 class Resonance:
-    """A resonance of the machine: `frequency` (Hz) at which it rings and `damping` (share of critical)."""
+    """A resonance of the machine: `frequency` (Hz) at which it rings and `damping` (share of critical).
+
+    InvalidParameter unless the frequency is above 0 and the damping above 0, 0.7 at most.
+    """
 
     frequency: float
     damping: float
@@ -34,7 +37,8 @@ class Resonance:
 class Impulses:
     """Knocks that come `per_second` on average, independent of one another, and ring `resonances`.
 
-    `amplitude` (m/s²) is their median height; its natural logarithm scatters by `spread`.
+    `amplitude` (m/s²) is their median height; its natural logarithm scatters by `spread`. InvalidParameter unless there
+    are 0 to 10 000 a second, the amplitude is not below 0, the spread lies between 0 and 5 and there is a resonance.
     """
 
     per_second: float

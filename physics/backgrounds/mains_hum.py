@@ -13,7 +13,10 @@ from physics.checks import require_not_negative, require_positive
 
 @dataclass(frozen=True)
 class MainsHum:
-    """Tones at whole multiples of the mains `frequency` (Hz), of `amplitudes` (m/s²) on each axis, the first at it."""
+    """Tones at whole multiples of the mains `frequency` (Hz), of `amplitudes` (m/s²) on each axis, the first at it.
+
+    InvalidParameter unless the frequency is above 0 and no amplitude below it.
+    """
 
     frequency: float
     amplitudes: tuple[float, ...]

@@ -15,7 +15,10 @@ STEEPEST = 3.0
 
 @dataclass(frozen=True)
 class PinkNoise:
-    """Noise whose power density falls as frequency to −`slope`, of `rms` (m/s²) from `lowest` (Hz) to half the rate."""
+    """Noise whose power density falls as frequency to −`slope`, of `rms` (m/s²) from `lowest` (Hz) to half the rate.
+
+    InvalidParameter unless `rms` is not below 0, `lowest` above 0 and `slope` from 0 to 3.
+    """
 
     rms: float
     lowest: float = 1.0

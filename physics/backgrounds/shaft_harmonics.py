@@ -14,7 +14,10 @@ from physics.checks import require_count, require_not_negative
 
 @dataclass(frozen=True)
 class ShaftHarmonics:
-    """Tones at whole multiples of the shaft's frequency from `first_order` on, of `amplitudes` (m/s²) on each axis."""
+    """Tones at whole multiples of the shaft's frequency from `first_order` on, of `amplitudes` (m/s²) on each axis.
+
+    InvalidParameter unless the first order is a whole number from 1 to 1000 and no amplitude below 0.
+    """
 
     amplitudes: tuple[float, ...]
     first_order: int = 1

@@ -17,7 +17,7 @@ from physics.trace import Trace
 class SensorChain:
     """`resonator_gain` times the resonator plus `modes`, through `mounting`, into `recorder` (None: without).
 
-    The default is the paper's: the resonator's acceleration alone.
+    The default is the paper's: the resonator's acceleration alone. InvalidParameter if the gain is below 0.
     """
 
     modes: tuple[SensorMode, ...] = ()

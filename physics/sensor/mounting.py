@@ -14,7 +14,10 @@ HIGHEST_ORDER = 12
 
 @dataclass(frozen=True)
 class Mounting:
-    """A Butterworth low-pass of `order` with −3 dB at `cutoff` (Hz); the fan rig's: order 6 at 11 kHz [P14 §6.2]."""
+    """A Butterworth low-pass of `order` with −3 dB at `cutoff` (Hz); the fan rig's: order 6 at 11 kHz [P14 §6.2].
+
+    InvalidParameter unless the cutoff is above 0 and the order a whole number from 1 to 12.
+    """
 
     cutoff: float
     order: int = 6

@@ -12,7 +12,10 @@ from physics.checks import require_count, require_positive
 
 @dataclass(frozen=True)
 class Recorder:
-    """A converter of `bits` over −`full_scale` to `full_scale` (m/s²)."""
+    """A converter of `bits` over −`full_scale` to `full_scale` (m/s²).
+
+    InvalidParameter unless the full scale is above 0 and there are 2 to 32 bits.
+    """
 
     full_scale: float
     bits: int = 16

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from scipy import fft
 
+from labels.band import Band, components_in
 from labels.spectrum import amplitude_spectrum
 from physics.arrays import Array
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.rig import Rig
-
-Band = tuple[float, float]
 
 BAND_SHARE = 0.05
 FALLBACK_SHARES = (0.3, 0.45)
@@ -40,17 +37,6 @@ def default_band(rig: Rig, rate: float) -> Band:
     return FALLBACK_SHARES[0] * rate, FALLBACK_SHARES[1] * rate
 
 
-def holds_a_line(band: Band, samples: int, rate: float) -> bool:
-    """Whether the spectrum of so many `samples` at `rate` (Hz) has a component above 0 Hz in `band` (Hz, with edges).
-
-    A band at least rate / samples wide, the distance of the components, always holds one.
-    """
-    low, high = band
-    spacing = 1.0 / (samples * (1.0 / rate))  # rounded as numpy rounds the frequencies that band_envelope compares
-    first = max(math.ceil(low / spacing) - 1, 1)
-    return any(low <= line * spacing <= high for line in range(first, min(first + 2, samples // 2) + 1))
-
-
 def band_envelope(signal: Array, rate: float, band: Band) -> Array:
     """Envelope (T,), in the unit of the `signal` (T,): magnitude of its analytic signal in `band` (Hz, edges included).
 
@@ -59,19 +45,16 @@ def band_envelope(signal: Array, rate: float, band: Band) -> Array:
     ValueError unless 0 ≤ low < high ≤ rate / 2 and the band holds at least one component.
     """
     signal = np.asarray(signal, dtype=np.float64)
-    low, high = band
-    if not 0.0 <= low < high <= rate / 2.0:
-        raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
-    frequency = np.fft.rfftfreq(signal.size, 1.0 / rate)
-    first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")
-    if first == end:
+    inside = components_in(band, signal.size, rate)
+    if inside.start == inside.stop:
         raise ValueError(
-            f"band {low:g} to {high:g} Hz holds no component of {signal.size} samples at {rate:g} Hz, "
+            f"band {band[0]:g} to {band[1]:g} Hz holds no component of {signal.size} samples at {rate:g} Hz, "
             f"which lie {rate / signal.size:g} Hz apart"
         )
-    both_signs = (frequency[first:end] > 0.0) & (frequency[first:end] < rate / 2.0)
+    place = np.arange(inside.start, inside.stop)
+    both_signs = (place > 0) & (2 * place < signal.size)
     analytic = np.zeros(signal.size, dtype=np.complex128)
-    analytic[first:end] = fft.rfft(signal)[first:end] * np.where(both_signs, 2.0, 1.0)
+    analytic[inside] = fft.rfft(signal)[inside] * np.where(both_signs, 2.0, 1.0)
     return np.abs(fft.ifft(analytic))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy import fft
 
-from labels.envelope import Band
+from labels.band import Band
 from labels.features.conditioning import COMMON_BANDWIDTH, SHARE_OF_NYQUIST
 from labels.features.envelopes import band_edges
 from physics.arrays import Array

@@ -7,9 +7,8 @@ import math
 import numpy as np
 from scipy import fft
 
+from labels.band import Band, components_in
 from physics.arrays import Array
-
-Band = tuple[float, float]
 
 # Share of a signal's power that rounding leaves in a band where it has none.
 ROUNDING = 1e-26
@@ -39,12 +38,8 @@ def band_power(signal: Array, rate: float, band: Band) -> float:
 
     ValueError unless 0 ≤ low < high ≤ rate / 2.
     """
-    low, high = band
-    if not 0.0 <= low < high <= rate / 2.0:
-        raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
-    frequency = np.arange(signal.size // 2 + 1) * (rate / signal.size)
-    first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")
-    power = 2.0 * np.abs(fft.rfft(signal)[max(first, 1) : end] / signal.size) ** 2
-    if signal.size % 2 == 0 and end == frequency.size:
+    inside = components_in(band, signal.size, rate)
+    power = 2.0 * np.abs(fft.rfft(signal)[max(inside.start, 1) : inside.stop] / signal.size) ** 2
+    if signal.size % 2 == 0 and inside.stop == signal.size // 2 + 1:
         power[-1:] /= 2.0
     return float(power.sum())

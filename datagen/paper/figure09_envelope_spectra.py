@@ -12,6 +12,7 @@ from datagen.paper.panels import cursor, heading, legend_below, letter, spread
 from datagen.paper.published import published_value
 from datagen.paper.scenes import RATE, SEEDS, bpfo_hz, machine
 from datagen.paper.simulated import CONDITIONS, SAME_FOR_ALL, shown, simulated
+from labels.band import Band
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import line_amplitude
 from physics.arrays import Array
@@ -19,8 +20,6 @@ from physics.arrays import Array
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-Band = tuple[float, float]
 
 NAME = "figure9"
 PAPER_BAND = (10200.0, 10400.0)

@@ -12,7 +12,8 @@ from datagen.drawing.style import BLUE, GREEN, INK, ORANGE, VERMILLION, faint_gr
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, letter
 from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, machine, scene, signal
-from labels.envelope import Band, band_envelope, squared_envelope_spectrum
+from labels.band import Band
+from labels.envelope import band_envelope, squared_envelope_spectrum
 from physics.arrays import Array
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.reference_scenes import gradual_line_spall

@@ -28,7 +28,7 @@ from datagen.recipes.sampling_limits import require_sampled_fast_enough
 from datagen.settings.problems import bad_settings
 from datagen.settings.table import Between, OneOf, Table, refuse
 from datagen.settings.toml_file import read_toml
-from labels.envelope import holds_a_line
+from labels.band import holds_a_line
 from physics.words import CONTACT_LAWS
 
 FEWEST_STORED_SAMPLES = 16

@@ -23,8 +23,8 @@ from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds
 from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
+from labels.band import holds_a_line
 from labels.dead_sensor import is_dead
-from labels.envelope import holds_a_line
 from labels.kurtogram import most_impulsive_band
 from labels.variables import AXES
 

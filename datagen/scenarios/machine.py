@@ -16,7 +16,8 @@ from datagen.scenarios.imperfections import draw_imperfections
 from datagen.scenarios.picker import Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
 from datagen.scenarios.turns import Turn
-from labels.envelope import holds_a_line, resonance_band
+from labels.band import holds_a_line
+from labels.envelope import resonance_band
 from labels.schema import SPLITS
 from physics.checks import InvalidParameter, require
 from physics.imperfections import Imperfections

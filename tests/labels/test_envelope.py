@@ -3,7 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from labels.envelope import FALLBACK_SHARES, band_envelope, default_band, holds_a_line, squared_envelope_spectrum
+from labels.band import holds_a_line
+from labels.envelope import FALLBACK_SHARES, band_envelope, default_band, squared_envelope_spectrum
 from physics import catalog
 
 RATE = 65536.0

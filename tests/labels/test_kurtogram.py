@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from labels.envelope import holds_a_line
+from labels.band import holds_a_line
 from labels.kurtogram import most_impulsive_band
 
 RATE, SIZE = 25_600.0, 51_200

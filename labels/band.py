@@ -1,0 +1,34 @@
+"""A band of frequencies, and the Fourier components of a signal in it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+Band = tuple[float, float]
+"""Lower and upper edge, Hz; both belong to it."""
+
+
+def components_in(band: Band, samples: int, rate: float) -> slice:
+    """Which of the components that `numpy.fft.rfft` gives of so many `samples` at `rate` (Hz) lie in `band`.
+
+    ValueError unless 0 ≤ low < high ≤ rate / 2.
+    """
+    low, high = band
+    if not 0.0 <= low < high <= rate / 2.0:
+        raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
+    frequency = np.fft.rfftfreq(samples, 1.0 / rate)
+    first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")
+    return slice(int(first), int(end))
+
+
+def holds_a_line(band: Band, samples: int, rate: float) -> bool:
+    """Whether the spectrum of so many `samples` at `rate` (Hz) has a component above 0 Hz in `band`.
+
+    A band at least rate / samples wide, the distance of the components, always holds one.
+    """
+    low, high = band
+    spacing = 1.0 / (samples * (1.0 / rate))  # rounded as numpy rounds the frequencies of `components_in`
+    first = max(math.ceil(low / spacing) - 1, 1)
+    return any(low <= line * spacing <= high for line in range(first, min(first + 2, samples // 2) + 1))

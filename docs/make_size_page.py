@@ -93,7 +93,7 @@ def sentences(known: dict[str, Any]) -> list[str]:
     """What the tables do not hold, in words."""
     long, size, events = known["long"], known["known_size_of_another_record"], known["events"]
     lines = [
-        f"- Beyond 0.9 ball spacings {long['told']} of {long['records']} records were given a size; the nearest "
+        f"- Beyond 0.9 ball spacings {long['answered']} of {long['records']} records were given a size; the nearest "
         f"candidate was off by {percent(long['error_of_nearest_candidate'])} on average, "
         f"{percent(long['median'])} in the median.",
         f"- With the known size of one other record of the same machine the arc error of {size['records']} records "

@@ -1,4 +1,4 @@
-"""`spallgen size`: how long the spalls of a corpus are, told from its vibration and scored where the truth is known."""
+"""`spallgen size`: how long the spalls of a corpus are, from vibration alone, scored where the truth is known."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Estimator = Annotated[
     str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator: a class or a function.")
 ]
 LoadKnown = Annotated[
-    bool, typer.Option("--load-known/--blind", help="Whether the estimator is told the load and the Hertz factor.")
+    bool, typer.Option("--load-known/--blind", help="Whether the estimator is given the load and the Hertz factor.")
 ]
 Split = Annotated[
     str | None,
@@ -74,12 +74,12 @@ def size(
 def _tell(scores: SizeScores) -> None:
     from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 
-    told, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)
+    answered, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)
     silent = (
         "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be given to the estimator"
     )
-    print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {told} with an estimate{silent}")
-    if scores.load_known and not scores.load_told:
+    print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {answered} with an estimate{silent}")
+    if scores.load_known and not scores.load_given:
         print("blind: the load or the Hertz factor of these records is unknown")
     if scores.stated is not None:
         print(stated_sentence(scores.stated))
@@ -90,5 +90,5 @@ def _tell(scores: SizeScores) -> None:
         return
     for one in scores.records:
         if not one.asked:
-            print(f"record {one.truth.record}: no estimate, {one.told.reason}")
+            print(f"record {one.truth.record}: no estimate, {one.answer.reason}")
     show_tables([summary_table(scores.summary)])

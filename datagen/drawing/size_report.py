@@ -37,25 +37,25 @@ def draw_size_report(scores: SizeScores, summary: SizeSummary) -> Figure:
     dependences = {name: rows for name, rows in summary.by.items() if name != "size, mm"}
     figure, axes = with_panels(4, 3, figsize=(11.5, 13.0), layout="constrained")
     panels = axes.ravel()
-    told = [one for one in scores.records if one.truth.known and one.scorable and one.found]
-    _against_truth(panels[0], told, "lag")
-    _against_truth(panels[1], told, "extent")
-    _rules(panels[2], told)
+    answered = [one for one in scores.records if one.truth.known and one.scorable and one.found]
+    _against_truth(panels[0], answered, "lag")
+    _against_truth(panels[1], answered, "extent")
+    _rules(panels[2], answered)
     for panel, (name, rows) in zip(panels[3:11], dependences.items(), strict=True):
         _bars(panel, rows, name[0].upper() + name[1:])
     _abstention(panels[11], scores.records)
     return figure
 
 
-def _against_truth(axes: Axes, told: list[ScoredRecord], what: str) -> None:
+def _against_truth(axes: Axes, answered: list[ScoredRecord], what: str) -> None:
     for clean, colour, name in ((True, BLUE, "clean"), (False, ORANGE, "noisy")):
-        own = [one for one in told if math.isinf(noise_level(one)) == clean]
+        own = [one for one in answered if math.isinf(noise_level(one)) == clean]
         scale = 1e3 if what == "lag" else math.degrees(1.0)
         true = np.array([getattr(one.truth, what) for one in own]) * scale
         axes.loglog(
-            true, np.array([getattr(one.told, what) for one in own]) * scale, ".", color=colour, ms=4, label=name
+            true, np.array([getattr(one.answer, what) for one in own]) * scale, ".", color=colour, ms=4, label=name
         )
-    if told:
+    if answered:
         low, high = axes.get_xlim()
         axes.plot([low, high], [low, high], color=GREY, lw=0.8)
     else:
@@ -65,18 +65,18 @@ def _against_truth(axes: Axes, told: list[ScoredRecord], what: str) -> None:
     axes.legend()
 
 
-def _rules(axes: Axes, told: list[ScoredRecord]) -> None:
+def _rules(axes: Axes, answered: list[ScoredRecord]) -> None:
     place = np.arange(len(NOISE_LEVELS))
     methods = {"this estimator": extent_error} | RULES
     width = 0.8 / len(methods)
     for k, ((name, error), colour) in enumerate(zip(methods.items(), (BLUE, *RULE_COLOURS), strict=True)):
-        means = [_mean([error(one) for one in told if noise_level(one) == level]) for level in NOISE_LEVELS]
+        means = [_mean([error(one) for one in answered if noise_level(one) == level]) for level in NOISE_LEVELS]
         axes.bar(place + (k - (len(methods) - 1) / 2) * width, means, width, color=colour, label=name)
     axes.set_xticks(place, [noise_name(level) for level in NOISE_LEVELS])
     axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
     axes.set_xlim(-0.6, len(NOISE_LEVELS) - 0.4)
     axes.margins(y=0.35)  # room for the legend
-    if not told:
+    if not answered:
         axes.set_ylim(0.0, 1.0)
         _say_empty(axes)
     axes.legend(ncols=2, fontsize=6.5, loc="upper left")
@@ -89,7 +89,7 @@ def _mean(values: list[float]) -> float:
 
 
 def _say_empty(axes: Axes) -> None:
-    axes.text(0.5, 0.5, "no record was told a size", transform=axes.transAxes, ha="center", va="center", color=GREY)
+    axes.text(0.5, 0.5, "no record was given a size", transform=axes.transAxes, ha="center", va="center", color=GREY)
 
 
 def _bars(axes: Axes, rows: list[ErrorRow], title: str) -> None:
@@ -130,8 +130,8 @@ def _name_bins(axes: Axes, table: list[ErrorRow]) -> None:
 
 def _abstention(axes: Axes, records: list[ScoredRecord]) -> None:
     kinds = (
-        ([one.told.trust for one in records if one.truth.known and one.without_event], VERMILLION, "no event"),
-        ([one.told.trust for one in records if one.truth.known and one.scorable], BLUE, "to be told a size"),
+        ([one.answer.trust for one in records if one.truth.known and one.without_event], VERMILLION, "no event"),
+        ([one.answer.trust for one in records if one.truth.known and one.scorable], BLUE, "to be given a size"),
     )
     for values, colour, name in (kind for kind in kinds if kind[0]):
         axes.hist(values, bins=[k / 20.0 for k in range(21)], histtype="step", color=colour, label=name, density=True)

@@ -40,8 +40,8 @@ def summarise(records: list[ScoredRecord], load_known: bool) -> SizeSummary:
         long=_long(records),
         known_size_of_another_record=_known_size(records),
         seconds_per_record=Seconds(
-            mean=_mean([one.told.seconds for one in records]),
-            largest_after_first=max((one.told.seconds for one in records[1:]), default=math.nan),
+            mean=_mean([one.answer.seconds for one in records]),
+            largest_after_first=max((one.answer.seconds for one in records[1:]), default=math.nan),
         ),
     )
 
@@ -55,12 +55,12 @@ def noise_level(one: ScoredRecord) -> float:
 
 def lag_error(one: ScoredRecord) -> float:
     """|error| of the lag over its true value."""
-    return abs(one.told.lag - one.truth.lag) / one.truth.lag
+    return abs(one.answer.lag - one.truth.lag) / one.truth.lag
 
 
 def extent_error(one: ScoredRecord) -> float:
     """|error| of the extent over its true value."""
-    return abs(one.told.extent - one.truth.extent) / one.truth.extent
+    return abs(one.answer.extent - one.truth.extent) / one.truth.extent
 
 
 def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], float]:
@@ -68,8 +68,8 @@ def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], floa
 
 
 RULES: dict[str, Callable[[ScoredRecord], float]] = {
-    "full size, own lag": _rule(lambda one: one.told.lag_arc),
-    "half size, own lag": _rule(lambda one: 2.0 * one.told.lag_arc),
+    "full size, own lag": _rule(lambda one: one.answer.lag_arc),
+    "half size, own lag": _rule(lambda one: 2.0 * one.answer.lag_arc),
     "plain envelope lag": _rule(lambda one: one.envelope_arc),
     "own lag and static release": _rule(lambda one: one.static_arc),
 }
@@ -77,11 +77,11 @@ RULES: dict[str, Callable[[ScoredRecord], float]] = {
 
 def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     scorable = [one for one in records if one.scorable]
-    told = [one for one in scorable if one.found]
+    answered = [one for one in scorable if one.found]
     figures: list[Figure] = []
     for level in NOISE_LEVELS:
         name = noise_name(level) + ("" if level == math.inf else " dB")
-        own = [one for one in told if noise_level(one) == level]
+        own = [one for one in answered if noise_level(one) == level]
         asked = [one for one in scorable if noise_level(one) == level]
         figures.append(_figure(f"lag error, {name}", own, lag_error, {math.inf: 0.05, 10.0: 0.10}.get(level)))
         arc_target = {math.inf: 0.10, 10.0: 0.15}.get(level) if load_known else None
@@ -90,8 +90,8 @@ def _figures(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
         figures.append(_figure(f"no estimate, {name}", asked, _silent, 0.05 if level == math.inf else None))
     eventless = [one for one in records if one.without_event]
     figures.append(_figure("abstention where there is no event", eventless, _silent, 0.95, at_least=True))
-    figures.append(_coverage("lag", told, lambda one: _holds(one.told.lag_interval, one.truth.lag)))
-    figures.append(_coverage("arc", told, lambda one: _holds(one.told.extent_interval, one.truth.extent)))
+    figures.append(_coverage("lag", answered, lambda one: _holds(one.answer.lag_interval, one.truth.lag)))
+    figures.append(_coverage("arc", answered, lambda one: _holds(one.answer.extent_interval, one.truth.extent)))
     return figures
 
 
@@ -124,8 +124,8 @@ def _figure(
     return Figure(name, mean, count, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
 
 
-def _coverage(what: str, told: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
-    plain = _figure(f"90 % interval of the {what} holds the truth", told, inside)
+def _coverage(what: str, answered: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
+    plain = _figure(f"90 % interval of the {what} holds the truth", answered, inside)
     return replace(plain, target="0.85 to 0.95", met=0.85 <= plain.mean.value <= 0.95)
 
 
@@ -169,15 +169,15 @@ def _table(records: list[ScoredRecord], key: Callable[[ScoredRecord], Bin]) -> l
 
 
 def _row(value: str, records: list[ScoredRecord]) -> ErrorRow:
-    told = [one for one in records if one.found]
-    lag, arc = [lag_error(one) for one in told], [extent_error(one) for one in told]
+    answered = [one for one in records if one.found]
+    lag, arc = [lag_error(one) for one in answered], [extent_error(one) for one in answered]
     return ErrorRow(
         value=value,
         records=len(records),
         no_estimate=mean_with_interval([_silent(one) for one in records], records),
-        lag_error=mean_with_interval(lag, told),
+        lag_error=mean_with_interval(lag, answered),
         lag_error_median=_median(lag),
-        arc_error=mean_with_interval(arc, told),
+        arc_error=mean_with_interval(arc, answered),
         arc_error_median=_median(arc),
     )
 
@@ -191,33 +191,33 @@ def _median(values: list[float]) -> float:
 
 
 def _long(records: list[ScoredRecord]) -> LongSpalls:
-    """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was told."""
+    """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was given."""
     own = [one for one in records if one.has_events and not one.scorable]
-    told = [one for one in own if one.found]
-    near = [one for one in told if one.told.candidates]
-    errors = [min(abs(c - one.truth.extent) for c in one.told.candidates) / one.truth.extent for one in near]
+    answered = [one for one in own if one.found]
+    near = [one for one in answered if one.answer.candidates]
+    errors = [min(abs(c - one.truth.extent) for c in one.answer.candidates) / one.truth.extent for one in near]
     return LongSpalls(
         records=len(own),
-        told=len(told),
+        answered=len(answered),
         error_of_nearest_candidate=mean_with_interval(errors, near),
         median=_median(errors),
     )
 
 
 def _known_size(records: list[ScoredRecord]) -> KnownSizeErrors:
-    """Arc error of told records before and after correction by one other told record of the same virtual bearing."""
-    told = [one for one in records if one.scorable and one.found]
+    """Arc error of answered records before and after correction by one other of the same virtual bearing."""
+    answered = [one for one in records if one.scorable and one.found]
     of_bearing: dict[tuple[str, str], list[ScoredRecord]] = {}
-    for one in told:
+    for one in answered:
         of_bearing.setdefault(one.bearing_group, []).append(one)
     known_for = {bearing: _two_surest(own) for bearing, own in of_bearing.items()}
     before, after = [], []
-    for one in told:
+    for one in answered:
         known = next((other for other in known_for[one.bearing_group] if other.truth.record != one.truth.record), None)
         if known is not None:
-            factor = known_size_factor(known.told.extent, known.truth.extent)
+            factor = known_size_factor(known.answer.extent, known.truth.extent)
             before.append(extent_error(one))
-            after.append(abs(one.told.extent * factor - one.truth.extent) / one.truth.extent)
+            after.append(abs(one.answer.extent * factor - one.truth.extent) / one.truth.extent)
     return KnownSizeErrors(
         records=len(before),
         arc_error_without=_mean(before),
@@ -232,7 +232,7 @@ def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
     first, and the first by the second."""
 
     def sure(one: ScoredRecord) -> tuple[float, float]:
-        return noise_level(one), one.told.trust
+        return noise_level(one), one.answer.trust
 
     first = max(records, key=sure)
     return [
@@ -242,13 +242,13 @@ def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
 
 
 def _events(records: list[ScoredRecord]) -> dict[str, EventFigures]:
-    """Scores of the events of all records and of those told a size, within a time and within an arc."""
-    told = [one for one in records if one.found]
+    """Scores of the events of all records and of those given a size, within a time and within an arc."""
+    answered = [one for one in records if one.found]
     return {
         "within_100_us": _event_scores(records, lambda one: one.events_in_time),
         "within_0.5_degrees": _event_scores(records, lambda one: one.events_in_arc),
-        "within_100_us, told records": _event_scores(told, lambda one: one.events_in_time),
-        "within_0.5_degrees, told records": _event_scores(told, lambda one: one.events_in_arc),
+        "within_100_us, answered records": _event_scores(answered, lambda one: one.events_in_time),
+        "within_0.5_degrees, answered records": _event_scores(answered, lambda one: one.events_in_arc),
     }
 
 

@@ -39,11 +39,11 @@ class Committee:
         groups."""
         from sklearn.model_selection import GroupKFold
 
-        told, weight = np.zeros(aim.size), np.ones(aim.size) if weight is None else weight
+        predicted, weight = np.zeros(aim.size), np.ones(aim.size) if weight is None else weight
         for fitted, others in GroupKFold(FOLDS).split(rows, groups=groups):
             fitted = fitted[used[fitted]]
-            told[others] = self.fit(rows[fitted], aim[fitted], weight[fitted]).predict(rows[others])
-        return told
+            predicted[others] = self.fit(rows[fitted], aim[fitted], weight[fitted]).predict(rows[others])
+        return predicted
 
 
 def mean_of(members: list[Trees]) -> Trees:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from datagen.sizing.estimators import AnyEstimator
-from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, ScoredRecord, Told, Truth
+from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, Answer, ScoredRecord, Truth
 from datagen.sizing.sized_records import SizedRecord, UnsizedRecord
 from datagen.sizing.stored_record import nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
@@ -28,23 +28,25 @@ TOLERANCE_RAD = math.radians(0.5)
 
 
 def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.0) -> ScoredRecord:
-    """The estimate of one record beside its truth; a known size of another record has told its `factor`."""
+    """The estimate of one record beside its truth; `factor` is what a known size of another record makes of it."""
     labels, situation = sized.labels, sized.situation
     began = time.process_time()
-    told = estimator.estimate(sized.acceleration, sized.rate, situation)
+    estimate = estimator.estimate(sized.acceleration, sized.rate, situation)
     seconds = time.process_time() - began
-    if told.found and factor != 1.0:
-        told = corrected(told, factor)
+    if estimate.found and factor != 1.0:
+        estimate = corrected(estimate, factor)
     period = nominal_period(labels)
-    in_time, in_arc = _events(told, sized.truth, period, situation.bearing().spacing)
-    plain = EnvelopeLagRule().estimate(sized.acceleration, sized.rate, _with_race(situation, told, labels))
+    in_time, in_arc = _events(estimate, sized.truth, period, situation.bearing().spacing)
+    plain = EnvelopeLagRule().estimate(sized.acceleration, sized.rate, _with_race(situation, estimate, labels))
     static = math.nan
-    if told.found and told.race in RACES and situation.load_known and situation.load is not None:
-        static = arc_with_static_release(told.lag_arc, situation.bearing(), told.race, situation.load)
-    known_size_factor = factor if told.found else 1.0
+    if estimate.found and estimate.race in RACES and situation.load_known and situation.load is not None:
+        static = arc_with_static_release(estimate.lag_arc, situation.bearing(), estimate.race, situation.load)
+    known_size_factor = factor if estimate.found else 1.0
     return ScoredRecord(
         replace(_truth(labels), pass_period=period, lag=_true_lag(sized.truth), known=sized.truth is not None),
-        replace(_told(told), known_size_factor=known_size_factor, seconds=seconds, load_known=situation.load_known),
+        replace(
+            _answer(estimate), known_size_factor=known_size_factor, seconds=seconds, load_known=situation.load_known
+        ),
         static_arc=static,
         envelope_arc=plain.lag_arc,
         events_in_time=in_time,
@@ -56,16 +58,16 @@ def _true_lag(truth: EventTruth | None) -> float:
     return math.nan if truth is None else truth.lag
 
 
-def _with_race(situation: Situation, told: SizeEstimate, labels: Mapping[str, Any]) -> Situation:
-    """The situation with the race that was told, or where none was told the true one; unchanged without a spall."""
-    race = told.race if told.race in RACES else str(labels["location"])
+def _with_race(situation: Situation, estimate: SizeEstimate, labels: Mapping[str, Any]) -> Situation:
+    """The situation with the estimated race, or the true one where there is none; unchanged without a spall."""
+    race = estimate.race if estimate.race in RACES else str(labels["location"])
     return replace(situation, race=race) if race in RACES else situation
 
 
 def unsized_row(unsized: UnsizedRecord) -> ScoredRecord:
     """The row of a record that no estimator could be asked about."""
-    told = _told(SizeEstimate(SizeOutcome.NO_PASSES, ""))
-    return ScoredRecord(_truth(unsized.labels), replace(told, outcome=NOT_ASKED, reason=unsized.reason))
+    nothing = _answer(SizeEstimate(SizeOutcome.NO_PASSES, ""))
+    return ScoredRecord(_truth(unsized.labels), replace(nothing, outcome=NOT_ASKED, reason=unsized.reason))
 
 
 def _truth(labels: Mapping[str, Any]) -> Truth:
@@ -92,25 +94,25 @@ def _truth(labels: Mapping[str, Any]) -> Truth:
     )
 
 
-def _told(told: SizeEstimate) -> Told:
+def _answer(estimate: SizeEstimate) -> Answer:
     """The estimate in floats, whatever kind of numbers it came in."""
-    mm_per_rad = told.extent_mm / told.extent if told.extent else math.nan
-    return Told(
-        outcome=told.outcome.name.lower(),
-        reason=told.reason,
-        method=told.method,
-        race=told.race,
-        trust=float(told.trust),
-        lag=float(told.lag),
-        lag_interval=_floats(told.lag_interval),
-        lag_arc=float(told.lag_arc),
-        extent=float(told.extent),
-        extent_interval=_floats(told.extent_interval),
-        extent_mm=float(told.extent_mm),
-        extent_mm_interval=_floats(told.extent_mm_interval),
-        candidates=tuple(float(arc) for arc in told.candidates),
-        candidates_mm=tuple(float(arc * mm_per_rad) for arc in told.candidates),
-        event_times=np.asarray(told.event_times, dtype=np.float64),
+    mm_per_rad = estimate.extent_mm / estimate.extent if estimate.extent else math.nan
+    return Answer(
+        outcome=estimate.outcome.name.lower(),
+        reason=estimate.reason,
+        method=estimate.method,
+        race=estimate.race,
+        trust=float(estimate.trust),
+        lag=float(estimate.lag),
+        lag_interval=_floats(estimate.lag_interval),
+        lag_arc=float(estimate.lag_arc),
+        extent=float(estimate.extent),
+        extent_interval=_floats(estimate.extent_interval),
+        extent_mm=float(estimate.extent_mm),
+        extent_mm_interval=_floats(estimate.extent_mm_interval),
+        candidates=tuple(float(arc) for arc in estimate.candidates),
+        candidates_mm=tuple(float(arc * mm_per_rad) for arc in estimate.candidates),
+        event_times=np.asarray(estimate.event_times, dtype=np.float64),
     )
 
 
@@ -120,12 +122,12 @@ def _floats(interval: Bounds) -> Bounds:
 
 
 def _events(
-    told: SizeEstimate, truth: EventTruth | None, period: float, spacing: float
+    estimate: SizeEstimate, truth: EventTruth | None, period: float, spacing: float
 ) -> tuple[EventScores, EventScores]:
     """Scores of both kinds of event together, within a time and within an arc."""
     if truth is None:
         return NO_SCORES, NO_SCORES
     tolerances = (TOLERANCE_S, tolerance_of_arc(TOLERANCE_RAD, period, spacing))
-    kinds = ((told.event_times[:, 0], truth.first), (told.event_times[:, 1], truth.last))
+    kinds = ((estimate.event_times[:, 0], truth.first), (estimate.event_times[:, 1], truth.last))
     scores = [sum((match_events(*kind, tolerance) for kind in kinds), NO_SCORES) for tolerance in tolerances]
     return scores[0], scores[1]

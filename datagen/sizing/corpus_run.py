@@ -32,8 +32,8 @@ NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 @dataclass(frozen=True)
 class SizeScores:
     """`summary` is None where no record's ball passes are known, as in imported recordings; `stated` is what is scored
-    of those by what their SPEC states, None if it states nothing. `load_told` counts the records whose load and Hertz
-    factor the estimator was told."""
+    of those by what their SPEC states, None if it states nothing. `load_given` counts the records whose load and Hertz
+    factor the estimator was given."""
 
     folder: str
     estimator: str
@@ -43,7 +43,7 @@ class SizeScores:
     summary: SizeSummary | None
     known_sizes: list[KnownSize]
     stated: StatedSizes | None = None
-    load_told: int = 0
+    load_given: int = 0
 
 
 def score_sizes(
@@ -65,10 +65,10 @@ def score_sizes(
     chosen = _split(folder, split)
     splits = None if chosen == ALL else (chosen,)
     unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
-    told_of, logged = estimator or "spallgen", states_sizes(folder)
+    sizer, logged = estimator or "spallgen", states_sizes(folder)
     if logged:
         options = {"split": chosen, "load_known": load_known, "known_sizes": dict(sizes)}
-        write_line(folder, {"began": options, "sizes_by": told_of})
+        write_line(folder, {"began": options, "sizes_by": sizer})
     known = known_sizes(folder, sizes, own, load_known)
     records = sized_records(folder, load_known=load_known, splits=splits)
     total = count_records(folder, splits) - len(unsized)
@@ -83,10 +83,10 @@ def score_sizes(
     if logged:
         time = datetime.now(UTC).isoformat(timespec="seconds")
         scores = None if stated is None else flat_summary(stated)
-        write_line(folder, {"time": time, "sizes_by": told_of, "versions": program_versions(), "scores": scores})
-    load_told = sum(one.told.load_known for one in scored)
+        write_line(folder, {"time": time, "sizes_by": sizer, "versions": program_versions(), "scores": scores})
+    load_given = sum(one.answer.load_known for one in scored)
     effect = with_effect(known, scored)
-    return SizeScores(str(folder), told_of, chosen, load_known, scored, summary, effect, stated, load_told)
+    return SizeScores(str(folder), sizer, chosen, load_known, scored, summary, effect, stated, load_given)
 
 
 def _scored(

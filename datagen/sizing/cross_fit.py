@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from physics.arrays import Array
 
-TOLD_SHARES = (0.80, 0.85, 0.90, 0.95, 0.98)
+ANSWERED_SHARES = (0.80, 0.85, 0.90, 0.95, 0.98)
 
 
 @dataclass(frozen=True)
@@ -26,22 +26,22 @@ class CrossFit:
         the smallest expected error if even that record's error is larger."""
         ordered = np.argsort(self.expected, kind="stable")
         ordered = ordered[self.expected[ordered] <= self.most]
-        told = np.cumsum(self.error[ordered]) / np.arange(1, ordered.size + 1)
-        if ordered.size == 0 or told[-1] <= error:
+        mean = np.cumsum(self.error[ordered]) / np.arange(1, ordered.size + 1)
+        if ordered.size == 0 or mean[-1] <= error:
             return self.most
-        within = np.flatnonzero(told <= error)
+        within = np.flatnonzero(mean <= error)
         return float(self.expected[ordered[within[-1] if within.size else 0]])
 
     def lines(self) -> list[str]:
         """In words: the share without a size, the error of the others, and the error if another share were given a
         size."""
-        told = self.expected <= self.most
+        answered = self.expected <= self.most
         ordered = self.error[np.argsort(self.expected, kind="stable")]
-        shares = [f"{share:.0%}: {_mean(ordered[: round(share * ordered.size)]):.1%}" for share in TOLD_SHARES]
+        shares = [f"{share:.0%}: {_mean(ordered[: round(share * ordered.size)]):.1%}" for share in ANSWERED_SHARES]
         return [
-            f"{told.size} records ask for a size: with {self.most:.2f} at most {1.0 - _mean(told):.1%} get none, "
-            f"lag error {_mean(self.error[told]):.1%}",
-            f"lag error by share told: {', '.join(shares)}",
+            f"{answered.size} records ask for a size: with {self.most:.2f} at most {1.0 - _mean(answered):.1%} get "
+            f"none, lag error {_mean(self.error[answered]):.1%}",
+            f"lag error by share answered: {', '.join(shares)}",
         ]
 
 

@@ -118,9 +118,9 @@ def fit_calibration(made: list[Trial], columns: TrialColumns) -> Calibration:
     score = fit_pair_score(made, columns.bearing)
     judgements = []
     for name, load_known in (("blind", False), ("with load and Hertz factor", True)):
-        judgement, told = _judgement(made, columns, score.scores, load_known=load_known)
+        judgement, cross_fits = _judgement(made, columns, score.scores, load_known=load_known)
         print(name)
-        for noise, one in told.items():
+        for noise, one in cross_fits.items():
             print(noise, *one.lines(), sep="; ")
         judgements.append(judgement)
     blind, with_load = judgements
@@ -133,17 +133,17 @@ def _judgement(
     """The judgement of the pairs that lead by `scores`, and how typical trials fare out of fold, by their noise."""
     rank = fit_rank(made, scores, columns.bearing, load_known=load_known)
     lag = fit_guess(rank.rows, np.log(columns.lag / rank.lag), columns.bearing)
-    lag_told = np.minimum(rank.lag * np.exp(lag.centre), columns.period)
-    doubt = fit_doubt(rank.rows, lag_told, columns)
-    error, expected = np.abs(lag_told / columns.true_lag - 1.0), doubt.expected
+    estimated_lag = np.minimum(rank.lag * np.exp(lag.centre), columns.period)
+    doubt = fit_doubt(rank.rows, estimated_lag, columns)
+    error, expected = np.abs(estimated_lag / columns.true_lag - 1.0), doubt.expected
     most = most_doubt(columns, error, expected)
     true_arc = np.where(columns.arc > 0.0, columns.arc, np.nan)
     arc = fit_guess(rank.rows, np.log(true_arc / rank.lag_arc), columns.bearing)
     usual = columns.as_stored & (expected <= most)
     lag_guess, arc_guess = (replace(one.guess, reach=reach(one.missed, usual)) for one in (lag, arc))
     scored = {"clean": columns.asked_clean, "as stored": columns.asked_as_stored}
-    told = {noise: CrossFit(error[own], expected[own], most) for noise, own in scored.items()}
-    return Judgement(rank.trees, lag_guess, arc_guess, doubt.trees, most), told
+    cross_fits = {noise: CrossFit(error[own], expected[own], most) for noise, own in scored.items()}
+    return Judgement(rank.trees, lag_guess, arc_guess, doubt.trees, most), cross_fits
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The limits of a calibration: above which doubt no size is told, and how far intervals reach."""
+"""The limits of a calibration: above which doubt no size is given, and how far intervals reach."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from physics.arrays import Array
 
 COVERAGE = 0.90
 ABSTENTION = 0.98
-LAG_ERROR = 0.045  # of what is told of clean records; 0.05 is asked of machines not seen
+LAG_ERROR = 0.045  # of what is answered of clean records; 0.05 is asked of machines not seen
 
 
 def most_doubt(columns: TrialColumns, error: Array, expected: Array) -> float:
-    """The largest `expected` error (N,) at which a size is told, for lags of this relative `error` (N,).
+    """The largest `expected` error (N,) at which a size is given, for lags of this relative `error` (N,).
 
-    At it 98 % of the trials without events are told none; it is lower if the mean error of the typical clean ones would
+    At it 98 % of the trials without events get none; it is lower if the mean error of the typical clean ones would
     otherwise be above 4.5 %. There must be a trial without events.
     """
     abstaining = float(np.quantile(expected[columns.eventless], 1.0 - ABSTENTION))
@@ -34,5 +34,7 @@ def reach(missed: Array, usual: NDArray[np.bool_]) -> float:
     """
     known = missed[usual & np.isfinite(missed)]
     if known.size == 0:
-        raise BadInput("no record of the first corpus that is told a size has known events, so intervals have no reach")
+        raise BadInput(
+            "no record of the first corpus that is given a size has known events, so intervals have no reach"
+        )
     return float(np.quantile(known, COVERAGE))

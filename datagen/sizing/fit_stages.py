@@ -17,7 +17,7 @@ from physics.arrays import Array
 
 Bearings = NDArray[np.str_]
 
-LARGEST_COST = 3.0  # of a lag told where there are no events
+LARGEST_COST = 3.0  # of a lag given where there are no events
 LARGEST_ERROR = 1.0
 GROSS, GROSS_WEIGHT = 0.5, 0.2  # where the pair was mistaken there is little to learn of how far off a right one lies
 KEPT_SHARE = 0.06  # of the pairs that are not the events
@@ -90,8 +90,8 @@ def fit_rank(made: list[Trial], scores: list[Array], bearing: Bearings, *, load_
     order = [leading_order(trial.evidence.pairs, score) for trial, score in zip(made, scores, strict=True)]
     quality = np.concatenate([trial.quality[own] for trial, own in zip(made, order, strict=True)])
     everywhere = np.ones(quality.size, dtype=np.bool_)
-    told = np.split(RANK.out_of_fold(rows, quality, everywhere, np.repeat(bearing, sizes)), np.cumsum(sizes)[:-1])
-    first = [measure(one, rank) for one, rank in zip(leading, told, strict=True)]
+    ranks = np.split(RANK.out_of_fold(rows, quality, everywhere, np.repeat(bearing, sizes)), np.cumsum(sizes)[:-1])
+    first = [measure(one, rank) for one, rank in zip(leading, ranks, strict=True)]
     return FittedRank(
         RANK.fit(rows, quality),
         np.array([one.lag for one in first]),
@@ -120,11 +120,11 @@ def fit_guess(rows: Array, error: Array, bearing: Bearings) -> FittedGuess:
     known = np.isfinite(error)
     aim = np.clip(error, -LARGEST_ERROR, LARGEST_ERROR)
     weight = np.where(np.abs(aim) < GROSS, 1.0, GROSS_WEIGHT)
-    told = CENTRE.out_of_fold(rows, aim, known, bearing, weight)
-    missed = np.abs(aim - told)
+    predicted = CENTRE.out_of_fold(rows, aim, known, bearing, weight)
+    missed = np.abs(aim - predicted)
     width = np.maximum(SPREAD.out_of_fold(rows, missed, known, bearing), 0.0) + SMALLEST_SPREAD
     centre, spread = CENTRE.fit(rows[known], aim[known], weight[known]), SPREAD.fit(rows[known], missed[known])
-    return FittedGuess(Guess(centre, spread, 1.0), told, missed / width)
+    return FittedGuess(Guess(centre, spread, 1.0), predicted, missed / width)
 
 
 @dataclass(frozen=True)
@@ -135,9 +135,9 @@ class FittedDoubt:
     expected: Array
 
 
-def fit_doubt(rows: Array, lag_told: Array, columns: TrialColumns) -> FittedDoubt:
-    """The doubt in lags told (N,), samples, from `rows` (N, F); 3 at most, and where there are no events."""
-    error = np.abs(lag_told / columns.lag - 1.0)
+def fit_doubt(rows: Array, estimated_lag: Array, columns: TrialColumns) -> FittedDoubt:
+    """The doubt in estimated lags (N,), samples, from `rows` (N, F); 3 at most, and where there are no events."""
+    error = np.abs(estimated_lag / columns.lag - 1.0)
     cost = np.where(np.isfinite(error), np.minimum(error, LARGEST_COST), LARGEST_COST)
     expected = DOUBT.out_of_fold(rows, cost, columns.decided, columns.bearing)
     return FittedDoubt(DOUBT.fit(rows[columns.decided], cost[columns.decided]), expected)

@@ -89,11 +89,11 @@ def _check(folder: Path, sizes: Mapping[int, float]) -> None:
 
 
 def _known_size(folder: Path, one: SizedRecord, known_mm: float, estimator: AnyEstimator) -> KnownSize:
-    told = estimator.estimate(one.acceleration, one.rate, one.situation)
-    if not told.found:
-        raise BadInput(f"it gets no estimate: {told.reason}", str(folder), f"{FIELD}: record", one.record)
+    estimate = estimator.estimate(one.acceleration, one.rate, one.situation)
+    if not estimate.found:
+        raise BadInput(f"it gets no estimate: {estimate.reason}", str(folder), f"{FIELD}: record", one.record)
     machine = machine_of(str(one.labels["bearing_id"]), str(one.labels["rig"]))
-    return KnownSize(one.record, machine, known_mm, told.extent_mm, known_size_factor(told.extent_mm, known_mm))
+    return KnownSize(one.record, machine, known_mm, estimate.extent_mm, known_size_factor(estimate.extent_mm, known_mm))
 
 
 def shared_factors(known: list[KnownSize]) -> list[KnownSize]:
@@ -123,8 +123,8 @@ def _is_corrected(record: ScoredRecord, one: KnownSize, known: list[KnownSize]) 
 
 def _with_effect(one: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
     scored = [each for each in corrected if each.truth.known and each.scorable]
-    without = [abs(each.told.extent / each.told.known_size_factor / each.truth.extent - 1.0) for each in scored]
-    given = [abs(each.told.extent / each.truth.extent - 1.0) for each in scored]
+    without = [abs(each.answer.extent / each.answer.known_size_factor / each.truth.extent - 1.0) for each in scored]
+    given = [abs(each.answer.extent / each.truth.extent - 1.0) for each in scored]
     if not scored:
         return replace(one, corrected=len(corrected))
     means = float(np.mean(without)), float(np.mean(given))

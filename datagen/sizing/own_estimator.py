@@ -36,28 +36,28 @@ class OwnEstimator:
         method = getattr(self.made, "estimate", None)
         subject = "it" if method is None else "its method estimate"
         with own_code(self.name, f"{subject} fails"):
-            told: SizeEstimate = (method or self.made)(acceleration, rate, situation)
-        problem = _against(told)
+            estimate: SizeEstimate = (method or self.made)(acceleration, rate, situation)
+        problem = _against(estimate)
         if problem:
             raise BadInput(f"{subject} gave {problem}", field=FIELD, value=self.name, allowed=self.allowed)
-        return told
+        return estimate
 
 
-def _against(told: object) -> str:
+def _against(estimate: object) -> str:
     """What an estimator gave that is no estimate, in words; empty for an estimate."""
-    if not isinstance(told, SizeEstimate):
-        return f"{_kind(told)} and no SizeEstimate"
-    if not isinstance(told.outcome, SizeOutcome):
-        return f"a SizeEstimate whose outcome is {_kind(told.outcome)} and no SizeOutcome"
+    if not isinstance(estimate, SizeEstimate):
+        return f"{_kind(estimate)} and no SizeEstimate"
+    if not isinstance(estimate.outcome, SizeOutcome):
+        return f"a SizeEstimate whose outcome is {_kind(estimate.outcome)} and no SizeOutcome"
     for name in NUMBERS:
-        if not _is_number(getattr(told, name)):
-            return f"a SizeEstimate whose {name} is {_kind(getattr(told, name))} and no number"
+        if not _is_number(getattr(estimate, name)):
+            return f"a SizeEstimate whose {name} is {_kind(getattr(estimate, name))} and no number"
     for name in INTERVALS:
-        if not _are_numbers(getattr(told, name), 2):
-            return f"a SizeEstimate whose {name} is {_kind(getattr(told, name))} and no pair of numbers"
-    if not _are_numbers(told.candidates):
-        return f"a SizeEstimate whose candidates are {_kind(told.candidates)} and not numbers"
-    times: Any = told.event_times
+        if not _are_numbers(getattr(estimate, name), 2):
+            return f"a SizeEstimate whose {name} is {_kind(getattr(estimate, name))} and no pair of numbers"
+    if not _are_numbers(estimate.candidates):
+        return f"a SizeEstimate whose candidates are {_kind(estimate.candidates)} and not numbers"
+    times: Any = estimate.event_times
     if not isinstance(times, np.ndarray) or times.dtype.kind not in "iuf" or times.ndim != 2 or times.shape[1] != 2:
         return f"a SizeEstimate whose event_times are {_kind(times)} and no array of numbers (K, 2)"
     return ""

@@ -1,4 +1,4 @@
-"""One record scored: what is true of it, and what was told of it."""
+"""One record scored: what is true of it, and what an estimator answered."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ class Truth:
 
 
 @dataclass(frozen=True)
-class Told:
-    """What an estimator told of a record, as in SizeEstimate; NaN where it told nothing.
+class Answer:
+    """What an estimator answered of a record, as in SizeEstimate; NaN where it has no number.
 
     Its numbers are floats, its `outcome` is in letters and "not_asked" if no estimate could be asked for; `reason` says
     in words why there is none. `candidates_mm` are the `candidates` (rad), by the mm that the estimator has for a rad.
@@ -98,12 +98,12 @@ class Told:
 class ScoredRecord:
     """Truth and estimate of one record, arcs by simpler rules, and scores of the events.
 
-    `static_arc` (rad) is of the lag told and static release, `envelope_arc` (rad) of the plain rule. The event scores
-    are within 100 µs and within 0.5 degrees.
+    `static_arc` (rad) is of the estimated lag and static release, `envelope_arc` (rad) of the plain rule. The event
+    scores are within 100 µs and within 0.5 degrees.
     """
 
     truth: Truth
-    told: Told
+    answer: Answer
     static_arc: float = math.nan
     envelope_arc: float = math.nan
     events_in_time: EventScores = NO_SCORES
@@ -118,7 +118,7 @@ class ScoredRecord:
     @property
     def found(self) -> bool:
         """True if there is an estimate."""
-        return math.isfinite(self.told.extent)
+        return math.isfinite(self.answer.extent)
 
     @property
     def has_events(self) -> bool:
@@ -128,15 +128,15 @@ class ScoredRecord:
 
     @property
     def scorable(self) -> bool:
-        """True if a size must be told and no whole ball spacing can hide in it."""
+        """True if a size must be given and no whole ball spacing can hide in it."""
         return self.has_events and self.truth.extent_spacing <= LONGEST_SCORED_SPACINGS
 
     @property
     def without_event(self) -> bool:
-        """True if nothing may be told: no event, or a lag below two samples."""
+        """True if nothing may be given: no event, or a lag below two samples."""
         return self.truth.known and not self.truth.lag >= NO_EVENT_SAMPLES / self.truth.rate
 
     @property
     def asked(self) -> bool:
         """True if an estimate could be asked for."""
-        return self.told.outcome != NOT_ASKED
+        return self.answer.outcome != NOT_ASKED

@@ -49,10 +49,10 @@ class EventFigures:
 
 @dataclass(frozen=True)
 class LongSpalls:
-    """Spalls beyond 0.9 spacings: how often one was `told`, and how far (a share) its nearest candidate is off."""
+    """Spalls beyond 0.9 spacings: how often one was given, and how far (a share) its nearest candidate is off."""
 
     records: int
-    told: int
+    answered: int
     error_of_nearest_candidate: Interval
     median: float
 
@@ -99,11 +99,11 @@ class SizeSummary:
 @dataclass(frozen=True)
 class StatedSizes:
     """Scores of recordings whose ball passes are unknown, by what is stated of them: the number of `records` with a
-    stated extent and relative errors of the arc of those `told` a size, and how many stated `healthy` were told one."""
+    stated extent and relative errors of the arc of those `answered`, and how many stated `healthy` were given one."""
 
     records: int
-    told: int
-    told_on_the_stated_race: int
+    answered: int
+    answered_on_the_stated_race: int
     arc_error: Interval
     healthy: int
-    healthy_told: int
+    healthy_answered: int

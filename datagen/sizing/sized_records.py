@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SizedRecord:
-    """One record: `acceleration` (T, axes), the clean one or None, its labels, what may be told of the machine, truth.
+    """One record: `acceleration` (T, axes), the clean one or None, its labels, what may be known of the machine, truth.
 
     `truth` is None for recordings whose ball passes are unknown.
     """
@@ -102,7 +102,7 @@ def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool, seed:
         labels=labels,
         situation=replace(
             situation_of(labels, contact, wrong_speed(seed, record) if stored.simulated else 1.0),
-            polarity_known=stored.simulated,  # where a sensor looked is not told with a recording
+            polarity_known=stored.simulated,  # no recording says which way its sensor looked
         ),
         truth=stored.truth(labels),
     )

@@ -1,4 +1,4 @@
-"""What an estimator is told of the machine behind a record, and why a record may not be sized at all."""
+"""What an estimator is given of the machine behind a record, and why a record may not be sized at all."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def wrong_speed(seed: int, record: int) -> float:
 def situation_of(
     labels: Mapping[str, Any], contact: tuple[float, float] | None = None, speed_factor: float = 1.0
 ) -> Situation:
-    """What an estimator is told: geometry, speed times `speed_factor`, and with `contact` (K, n) load; never the race.
+    """What an estimator is given: geometry, speed times `speed_factor`, and with `contact` (K, n) load; never the race.
 
     Raises InvalidParameter.
     """

@@ -1,4 +1,4 @@
-"""Recordings scored by what their publishers state: ball passes are unknown, but the extent or the health is told."""
+"""Recordings scored by what their publishers state: ball passes are unknown, but the extent or the health is stated."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from datagen.sizing.size_summary import StatedSizes
 
 
 def summarise_stated(records: list[ScoredRecord]) -> StatedSizes | None:
-    """Mean relative error of the arc, with its interval over bearings, of the told records of a stated extent whose
-    passes are unknown, and how many stated healthy were told a size; None if there is nothing of either.
+    """Mean relative error of the arc, with its interval over bearings, of the answered records of a stated extent whose
+    passes are unknown, and how many stated healthy were given a size; None if there is nothing of either.
 
     Records of unknown bearings count as bearings of their own.
     """
@@ -24,15 +24,15 @@ def summarise_stated(records: list[ScoredRecord]) -> StatedSizes | None:
     healthy = [one for one in asked if one.truth.race == "none"]
     if not spalled and not healthy:
         return None
-    told = [one for one in spalled if one.found]
-    errors = [extent_error(one) for one in told]
+    answered = [one for one in spalled if one.found]
+    errors = [extent_error(one) for one in answered]
     return StatedSizes(
         records=len(spalled),
-        told=len(told),
-        told_on_the_stated_race=sum(one.told.race == one.truth.race for one in told),
-        arc_error=mean_with_interval(errors, told),
+        answered=len(answered),
+        answered_on_the_stated_race=sum(one.answer.race == one.truth.race for one in answered),
+        arc_error=mean_with_interval(errors, answered),
         healthy=len(healthy),
-        healthy_told=sum(one.found for one in healthy),
+        healthy_answered=sum(one.found for one in healthy),
     )
 
 

@@ -18,7 +18,7 @@ FEWEST_TO_JUDGE = 20
 
 def summary_table(summary: SizeSummary) -> Table:
     """Every figure with its interval, its number of records and its target."""
-    table = Table(title=f"{summary.records} records with known truth, {summary.scorable} to be told a size")
+    table = Table(title=f"{summary.records} records with known truth, {summary.scorable} to be given a size")
     for name in ("figure", "value", "90 % interval", "records", "target", "met"):
         table.add_column(name, justify="left" if name == "figure" else "right")
     for figure in summary.figures:
@@ -46,7 +46,7 @@ def _reach(mean: Interval) -> str:
 
 
 def estimates_table(records: list[ScoredRecord]) -> Table:
-    """Size of the spall of every record with its 90 % intervals, or in words why none is told."""
+    """Size of the spall of every record with its 90 % intervals, or in words why none is given."""
     table = Table(
         caption="In brackets 90 % intervals. Trust: 1 less the relative error to be expected of the time between the "
         "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files."
@@ -54,24 +54,24 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")
     for one in records:
-        trust = f"{one.told.trust:.2f}" if one.asked else ""
-        table.add_row(str(one.truth.record), escape(_source(one.truth)), *_spall(one), trust, escape(one.told.reason))
+        trust = f"{one.answer.trust:.2f}" if one.asked else ""
+        table.add_row(str(one.truth.record), escape(_source(one.truth)), *_spall(one), trust, escape(one.answer.reason))
     return table
 
 
 def _source(one: Truth) -> str:
-    told = f" {one.channel}" in one.recording
-    return one.recording if told else " ".join(part for part in (one.recording, one.channel) if part)
+    repeated = f" {one.channel}" in one.recording
+    return one.recording if repeated else " ".join(part for part in (one.recording, one.channel) if part)
 
 
 def _spall(one: ScoredRecord) -> tuple[str, str, str]:
     if not one.found:
         return "", "", ""
-    told = one.told
+    answer = one.answer
     return (
-        told.race,
-        _with_interval(told.extent_deg, *told.extent_deg_interval),
-        _with_interval(told.extent_mm, *told.extent_mm_interval),
+        answer.race,
+        _with_interval(answer.extent_deg, *answer.extent_deg_interval),
+        _with_interval(answer.extent_mm, *answer.extent_mm_interval),
     )
 
 
@@ -83,14 +83,14 @@ def stated_sentence(stated: StatedSizes) -> str:
     """How the estimates compare with the stated extents and the stated health of recordings."""
     parts = []
     if stated.records:
-        parts.append(f"of {stated.records} records of a stated extent {stated.told} were told a size")
-    if stated.told:
+        parts.append(f"of {stated.records} records of a stated extent {stated.answered} were given a size")
+    if stated.answered:
         error = stated.arc_error
         interval = f" [{error.low:.3f}, {error.high:.3f}]" if math.isfinite(error.low) else ""
         parts.append(f"mean error of their arc {error.value:.3f}{interval} of it")
-        parts.append(f"{stated.told_on_the_stated_race} on the stated race")
+        parts.append(f"{stated.answered_on_the_stated_race} on the stated race")
     if stated.healthy:
-        parts.append(f"{stated.healthy_told} of {stated.healthy} stated healthy were told a size")
+        parts.append(f"{stated.healthy_answered} of {stated.healthy} stated healthy were given a size")
     return ", ".join(parts)
 
 

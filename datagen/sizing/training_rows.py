@@ -45,7 +45,7 @@ class Heard:
 @dataclass(frozen=True)
 class Trial:
     """What was found in what was heard of a record, and what is true; `stored` and `clean` as in Heard, `asked` if a
-    size must be told of it.
+    size must be given of it.
 
     `true_lag` in samples (NaN: no events); `lag` the same modulo the period (NaN: no events or the wrong race), `arc`
     the spall's in rad (modulo the spacing), `quality` (P,) of each pair, 0 to 1.

@@ -12,7 +12,7 @@ from physics.arrays import Array
 
 Mask = NDArray[np.bool_]
 
-SHORTEST_TOLD, SURELY_TOLD = 2.0, 3.0  # samples
+SHORTEST_LAG, SURE_LAG = 2.0, 3.0  # samples
 
 
 @dataclass(frozen=True)
@@ -47,13 +47,13 @@ class TrialColumns:
 
     @property
     def eventless(self) -> Mask:
-        """As stored, and no size may be told: no event, or a lag below two samples."""
-        return self.stored & ~(self.true_lag >= SHORTEST_TOLD)
+        """As stored, and no size may be given: no event, or a lag below two samples."""
+        return self.stored & ~(self.true_lag >= SHORTEST_LAG)
 
     @property
     def decided(self) -> Mask:
         """Whether there are events is beyond doubt: none, or a lag that is not between two samples and three."""
-        return ~((self.true_lag >= SHORTEST_TOLD) & (self.true_lag < SURELY_TOLD))
+        return ~((self.true_lag >= SHORTEST_LAG) & (self.true_lag < SURE_LAG))
 
     @property
     def as_stored(self) -> Mask:
@@ -62,10 +62,10 @@ class TrialColumns:
 
     @property
     def asked_as_stored(self) -> Mask:
-        """Typical ones as stored of which a size must be told."""
+        """Typical ones as stored of which a size must be given."""
         return self.typical & self.asked & self.stored
 
     @property
     def asked_clean(self) -> Mask:
-        """Typical ones, whole and without noise, of which a size must be told."""
+        """Typical ones, whole and without noise, of which a size must be given."""
         return self.typical & self.asked & self.clean

@@ -72,7 +72,7 @@ class Guess:
 @dataclass(frozen=True)
 class Judgement:
     """`rank` of a leading pair (0 to 1); `lag` and `arc` guesses from the pair of the best rank; `doubt`: the relative
-    error to be expected of its lag, 3 standing for no events at all; above `most` no size is told."""
+    error to be expected of its lag, 3 standing for no events at all; above `most` no size is given."""
 
     rank: Trees
     lag: Guess
@@ -98,7 +98,7 @@ class Judgement:
 class Calibration:
     """`pair_score` of a pair of candidates (0 to 1), by which the leading pairs are chosen; how those are judged
     `blind`, and `with_load` and Hertz factor; `origin` says in words from what it was fitted, empty if that is not
-    told."""
+    given."""
 
     pair_score: Trees
     blind: Judgement

@@ -66,7 +66,7 @@ class SizeEstimator:
         trust = min(max(1.0 - doubt, 0.0), 1.0)
         if doubt > judgement.most:
             return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, _method(situation), evidence.race, trust=trust)
-        return _told(evidence, measured, judgement, situation, trust)
+        return _answer(evidence, measured, judgement, situation, trust)
 
 
 def _trust(estimate: SizeEstimate) -> float:
@@ -77,7 +77,7 @@ def _method(situation: Situation) -> str:
     return WITH_LOAD if situation.load_known else BLIND
 
 
-def _told(
+def _answer(
     evidence: Evidence, measured: Measurement, judgement: Judgement, situation: Situation, trust: float
 ) -> SizeEstimate:
     bearing = situation.bearing()

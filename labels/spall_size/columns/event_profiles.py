@@ -16,7 +16,7 @@ from physics.arrays import Array
 EDGES = (-0.5, -0.35, -0.25, -0.17, -0.1, -0.05, -0.02, 0.02, 0.05, 0.1, 0.17, 0.25, 0.35, 0.5)
 # Least half width of a window, samples.
 LEAST_HALF = 0.5
-# Channels whose course is told.
+# Channels whose course is a feature.
 PROFILED = (Channel.ALL, Channel.LOW, Channel.HIGH)
 WINDOWS = tuple(f"{start:g}_to_{stop:g}" for start, stop in pairwise(EDGES))
 NAMES = tuple(f"{event}_{channel.word}_{window}" for event in EVENTS for channel in PROFILED for window in WINDOWS)

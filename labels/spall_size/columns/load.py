@@ -42,21 +42,22 @@ def measure(view: LeadingView, features: dict[str, Array]) -> dict[str, Array]:
     vibration, sway and the jumps at entry, at exit and at their largest over the load; displacement over compression;
     all logarithms.
     """
-    told, mean, bearing, load = view.evidence, view.evidence.mean, view.situation.bearing(), view.situation.load or 0.0
+    evidence, mean = view.evidence, view.evidence.mean
+    bearing, load = view.situation.bearing(), view.situation.load or 0.0
     pressed = static_compression(bearing, load) / bearing.ball_radius
-    arc = 2.0 * release_arc(bearing, told.race, load)
-    give = mean.give_unit / told.rate**2
+    arc = 2.0 * release_arc(bearing, evidence.race, load)
+    give = mean.give_unit / evidence.rate**2
     largest = math.log(float(mean.energy[Channel.ALL].max()))
     shared = {
         "pressed": math.log(max(pressed, LEAST_PRESSED)),
-        "deviation_over_load": _over_load(told.deviation, load),
+        "deviation_over_load": _over_load(evidence.deviation, load),
         "sway_over_load": _over_load(mean.sway_unit, load),
-        "largest_jump_over_load": _over_load(told.unit * math.exp(0.5 * largest), load),
+        "largest_jump_over_load": _over_load(evidence.unit * math.exp(0.5 * largest), load),
         "give_over_pressed": math.log(max(give, LEAST_GIVE) / max(pressed * bearing.ball_radius, LEAST_COMPRESSION)),
     }
     jumps = {
         f"{event}_jump_over_load": [
-            _over_load(told.unit * math.exp(0.5 * float(level)), load) for level in features[f"{event}_core_all"]
+            _over_load(evidence.unit * math.exp(0.5 * float(level)), load) for level in features[f"{event}_core_all"]
         ]
         for event in ("entry", "exit")
     }

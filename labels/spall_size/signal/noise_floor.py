@@ -13,7 +13,7 @@ from physics.arrays import Array
 SEGMENT = 1024
 # Bins of that spectrum over which it is smoothed.
 SMOOTHED = 9
-# Share of noise below which none is told.
+# Share of noise below which none is given.
 CLEANEST = 1e-9
 
 

@@ -56,12 +56,12 @@ def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., Score
             assert astuple(share) == pytest.approx((0.5, 32 / 152, 1.0))
 
 
-def test_where_nothing_was_told_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
-    summary = summarise([scored(told={"lag": math.nan, "extent": math.nan, "candidates": ()})], True)
+def test_where_nothing_was_answered_there_is_no_interval(scored: Callable[..., ScoredRecord]) -> None:
+    summary = summarise([scored(answer={"lag": math.nan, "extent": math.nan, "candidates": ()})], True)
     (row,) = summary.by["race"]
     assert row.no_estimate.value == 1.0
     assert all(map(math.isnan, astuple(row.lag_error)))
-    assert math.isnan(summary.events["within_100_us, told records"].f1.low)
+    assert math.isnan(summary.events["within_100_us, answered records"].f1.low)
     assert math.isnan(summary.events["within_100_us"].recall.high)
     assert math.isnan(summary.long.error_of_nearest_candidate.high)
 
@@ -91,7 +91,7 @@ def test_one_bearing_alone_gives_a_mean_no_interval(
 
 def test_no_interval_is_printed_where_there_is_none() -> None:
     stated = StatedSizes(
-        records=3, told=2, told_on_the_stated_race=2, healthy=0, healthy_told=0,
+        records=3, answered=2, answered_on_the_stated_race=2, healthy=0, healthy_answered=0,
         arc_error=Interval(0.303, math.nan, math.nan),
     )  # fmt: skip
     assert "mean error of their arc 0.303 of it" in stated_sentence(stated)

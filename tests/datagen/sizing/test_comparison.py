@@ -1,4 +1,4 @@
-"""One record beside its truth: what the plain rule is told of the race."""
+"""One record beside its truth: what the plain rule is given of the race."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ RATE = 65536.0
 LAG = 100.0 / RATE
 MACHINE = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
 NAMES = ("recording", "channel", "bearing_id", "rig", "profile", "split")
-TOLD = SizeEstimate(SizeOutcome.ESTIMATED, "constant", "inner", lag=LAG, lag_arc=0.1, extent=0.1, extent_mm=1.0)
+CONSTANT = SizeEstimate(SizeOutcome.ESTIMATED, "constant", "inner", lag=LAG, lag_arc=0.1, extent=0.1, extent_mm=1.0)
 
 
 class Says:
@@ -47,18 +47,18 @@ def record_at(location: str) -> SizedRecord:
 
 
 @pytest.mark.parametrize(
-    ("told", "location", "race"),
+    ("estimate", "location", "race"),
     [
-        (TOLD, "inner", "inner"),
-        (TOLD, "outer", "inner"),  # as wrong as what was told
+        (CONSTANT, "inner", "inner"),
+        (CONSTANT, "outer", "inner"),  # as wrong as the estimate
         (SizeEstimate(SizeOutcome.NO_PASSES, ""), "inner", "inner"),
         (SizeEstimate(SizeOutcome.NO_PASSES, ""), "none", "outer"),
     ],
 )
-def test_the_plain_rule_divides_by_the_pass_of_the_race_that_was_told_or_else_of_the_true_one(
-    told: SizeEstimate, location: str, race: str
+def test_the_plain_rule_divides_by_the_pass_of_the_race_that_was_estimated_or_else_of_the_true_one(
+    estimate: SizeEstimate, location: str, race: str
 ) -> None:
-    scored = score_record(record_at(location), Says(told))
+    scored = score_record(record_at(location), Says(estimate))
     # A ball covers one spacing (30 degrees) of a race in a pass; a burst's peak lies within a few samples of its start.
     expected = math.radians(30.0) * LAG / MACHINE.pass_periods()[race]
     assert scored.envelope_arc == pytest.approx(expected, rel=0.05)
@@ -69,11 +69,11 @@ def test_event_times_that_equal_the_truth_match_every_event_and_shifted_ones_non
     truth = EventTruth(first, first + LAG, np.zeros(7, dtype=np.bool_))
     sized = replace(record_at("inner"), truth=truth)
     times = np.column_stack([truth.first, truth.last])
-    exact = score_record(sized, Says(replace(TOLD, event_times=times)))
+    exact = score_record(sized, Says(replace(CONSTANT, event_times=times)))
     for scores in (exact.events_in_time, exact.events_in_arc):
         assert (scores.matched, scores.precision, scores.recall) == (14, 1.0, 1.0)  # two events of each of seven passes
-    # LAG is 1.5 ms, far above both tolerances: entries told where the exits are, and exits elsewhere, match nothing.
-    shifted = score_record(sized, Says(replace(TOLD, event_times=times + LAG)))
+    # LAG is 1.5 ms, far above both tolerances: entries found where the exits are, and exits elsewhere, match nothing.
+    shifted = score_record(sized, Says(replace(CONSTANT, event_times=times + LAG)))
     assert (shifted.events_in_time.matched, shifted.events_in_arc.matched) == (0, 0)
 
 
@@ -85,7 +85,7 @@ def test_events_count_within_100_microseconds_and_within_half_a_degree() -> None
     for share, matched in ((0.9, 14), (1.1, 0)):
         for late, kind in ((share * 100e-6, "events_in_time"), (share * 0.5 * degree, "events_in_arc")):
             times = np.column_stack([first, first + LAG]) + late
-            scored = score_record(sized, Says(replace(TOLD, event_times=times)))
+            scored = score_record(sized, Says(replace(CONSTANT, event_times=times)))
             assert getattr(scored, kind).matched == matched
 
 

@@ -90,7 +90,7 @@ def test_masks_say_which_trials_a_stage_looks_at() -> None:
     assert six.asked_clean.tolist() == [True, True, False, False, False, True]
 
 
-def test_the_most_doubt_leaves_nearly_all_trials_without_events_untold() -> None:
+def test_the_most_doubt_leaves_nearly_all_trials_without_events_unanswered() -> None:
     error, expected = np.array([0.01, 0.5, np.nan, 9.0]), np.array([0.1, 0.2, 0.3, 0.8])
     assert most_doubt(columns(), error, expected) == pytest.approx(0.3 + 0.02 * 0.5)  # 2 % of the way from 0.3 to 0.8
     # Clean ones that would be 50 % wrong up to there are cut off behind the last that keeps the mean below 4.5 %.
@@ -203,10 +203,10 @@ def test_a_fit_to_few_records_gives_a_calibration_that_estimates(small_ladder: P
     with np.load(tmp_path / "calibration.npz") as file:
         learned = Calibration.from_arrays({name: file[name] for name in file.files})
     estimator = SizeEstimator(learned)
-    told = [
+    estimates = [
         estimator.estimate(one.acceleration, one.rate, one.situation)
         for one in sized_records(small_ladder, load_known=True)
     ]
-    assert len(told) == 24
-    assert {one.outcome for one in told} <= {SizeOutcome.ESTIMATED, SizeOutcome.NO_EVENT_PAIR}
-    assert all(one.extent_interval[0] < one.extent < one.extent_interval[1] for one in told if one.found)
+    assert len(estimates) == 24
+    assert {one.outcome for one in estimates} <= {SizeOutcome.ESTIMATED, SizeOutcome.NO_EVENT_PAIR}
+    assert all(one.extent_interval[0] < one.extent < one.extent_interval[1] for one in estimates if one.found)

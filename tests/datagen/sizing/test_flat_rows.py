@@ -34,11 +34,11 @@ def test_names_and_their_order_are_those_that_others_rely_on(scored: Callable[..
     assert estimates_csv(scores).splitlines()[0].split(",") == IN_CSV
     report = json.loads(plain_json(flat_scores(scores)))
     assert list(report) == [field.name for field in fields(SizeScores)]
-    assert (report["folder"], report["load_told"]) == ("x", 1)
+    assert (report["folder"], report["load_given"]) == ("x", 1)
     assert list(report["records"][0]) == IN_JSON
 
 
-def test_truth_and_what_was_told_keep_their_own_names(scored: Callable[..., ScoredRecord]) -> None:
+def test_truth_and_what_was_answered_keep_their_own_names(scored: Callable[..., ScoredRecord]) -> None:
     one = scored(
         {"race": "inner", "lag": 1.0, "extent": 2.0, "extent_mm": 3.0, "known": False},
         {

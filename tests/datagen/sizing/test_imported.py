@@ -68,7 +68,7 @@ def test_a_channel_is_shown_once_beside_its_recording(settings: str, shown: str,
     assert shown in size(corpus)[1]
 
 
-def test_recordings_are_told_sizes_or_not_without_being_scored(tmp_path: Path) -> None:
+def test_recordings_are_given_sizes_or_not_without_being_scored(tmp_path: Path) -> None:
     corpus = imported(tmp_path, noise=noise(2))
     scores = score_sizes(corpus, None, True, None)
     assert scores.summary is None
@@ -199,11 +199,11 @@ def test_recordings_are_scored_by_the_extents_that_are_stated_and_the_run_is_log
     found = json.loads((tmp_path / "s.json").read_text())
     assert found["summary"] is None
     scores = found["stated"]
-    # 0.1 rad on the inner race are told of each: 20 % and 50 % wrong.
+    # 0.1 rad on the inner race is the answer to each: 20 % and 50 % wrong.
     assert scores["arc_error"] == pytest.approx(0.35, abs=1e-6)
-    counts = ("records", "told", "told_on_the_stated_race", "healthy", "healthy_told")
+    counts = ("records", "answered", "answered_on_the_stated_race", "healthy", "healthy_answered")
     assert [scores[name] for name in counts] == [2, 2, 1, 1, 1]
-    assert "of 2 records of a stated extent 2 were told a size, mean error of their arc 0.350" in said
+    assert "of 2 records of a stated extent 2 were given a size, mean error of their arc 0.350" in said
     began, ended = (json.loads(line) for line in (stated / "scored_runs.jsonl").read_text().splitlines())
     assert began["began"]["load_known"]
     assert ended["scores"] == scores
@@ -220,7 +220,7 @@ def test_without_a_hertz_factor_the_command_says_that_it_is_blind(stated: Path) 
     assert "blind: no load" not in size(stated, "--blind")[1]  # as was asked
 
 
-def test_the_records_whose_load_and_hertz_factor_were_told_are_counted(
+def test_the_records_whose_load_and_hertz_factor_were_given_are_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "speeds.csv").write_text(
@@ -230,8 +230,8 @@ def test_the_records_whose_load_and_hertz_factor_were_told_are_counted(
     monkeypatch.setattr("datagen.sizing.corpus_run.find_estimator", lambda _: Tells())
     for load_known, given in ((True, ["pressed"]), (False, [])):
         scores = score_sizes(corpus, None, load_known, None)
-        assert [one.truth.recording for one in scores.records if one.told.load_known] == given
-        assert scores.load_told == len(given)
+        assert [one.truth.recording for one in scores.records if one.answer.load_known] == given
+        assert scores.load_given == len(given)
 
 
 @pytest.mark.parametrize(
@@ -241,11 +241,11 @@ def test_the_records_whose_load_and_hertz_factor_were_told_are_counted(
         (", load_deflection_n_per_m_to_n = 6e9", (6e9, 1.5)),
     ],
 )
-def test_a_stated_hertz_factor_is_told_with_the_load(tmp_path: Path, bearing: str, factor: tuple[float, float]) -> None:
+def test_a_stated_hertz_factor_comes_with_the_load(tmp_path: Path, bearing: str, factor: tuple[float, float]) -> None:
     (tmp_path / "states.csv").write_text(STATES)
     corpus = imported(tmp_path, STATED % bearing, none=noise(1), wide=noise(2), long=noise(3), silent=noise(4))
-    told = [one.situation for one in sized_records(corpus, load_known=True)]
-    assert {(one.load, one.load_deflection, one.exponent) for one in told} == {(346.0, *factor)}
+    situations = [one.situation for one in sized_records(corpus, load_known=True)]
+    assert {(one.load, one.load_deflection, one.exponent) for one in situations} == {(346.0, *factor)}
     assert {one.situation.load for one in sized_records(corpus, load_known=False)} == {None}
     assert "blind" not in size(corpus)[1]
 

@@ -77,9 +77,9 @@ def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Pa
     factor = known_size_factor(2.0, 2.5)
     assert factor > 1.0
     result = json.loads((tmp_path / "s.json").read_text())
-    told = {row["record"]: row["estimated_mm"] for row in result["records"]}
-    assert told[1] == pytest.approx(2.0 * factor, rel=1e-12)
-    assert [told[k] for k in (0, 3, 5, 6, 7)] == [2.0] * 5  # itself, another bearing, unknown ones
+    sizes = {row["record"]: row["estimated_mm"] for row in result["records"]}
+    assert sizes[1] == pytest.approx(2.0 * factor, rel=1e-12)
+    assert [sizes[k] for k in (0, 3, 5, 6, 7)] == [2.0] * 5  # itself, another bearing, unknown ones
     assert [row["known_size_factor"] for row in result["records"]][:3] == [1.0, factor, 1.0]
     assert "known size of another record" in result["records"][1]["method"]
     (known,) = result["known_sizes"]
@@ -91,8 +91,8 @@ def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Pa
 def test_without_a_known_bearing_the_rig_is_the_machine(corpus: Path) -> None:
     scores = score_sizes(corpus, None, True, "all", sizes={6: 1.0})
     factor = known_size_factor(2.0, 1.0)
-    told = {one.truth.record: one.told.known_size_factor for one in scores.records}
-    factors = {record: own for record, own in told.items() if own != 1.0}
+    each = {one.truth.record: one.answer.known_size_factor for one in scores.records}
+    factors = {record: own for record, own in each.items() if own != 1.0}
     assert factors == {7: factor}
     assert machine_of("unknown", "unknown") == machine_of("", "") == ""
 

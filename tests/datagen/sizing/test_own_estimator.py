@@ -64,10 +64,10 @@ def asked(answer: Any) -> SizeEstimate:
 def test_what_is_no_estimate_is_named_with_what_is_due(problem: str) -> None:
     with pytest.raises(BadInput) as refused:
         asked(WRONG[problem])
-    told = str(refused.value)
-    assert told.startswith('--estimator = "mine:Sizer": its method estimate gave ')
-    assert problem in told
-    assert told.endswith("allowed: a method that returns a SizeEstimate")
+    message = str(refused.value)
+    assert message.startswith('--estimator = "mine:Sizer": its method estimate gave ')
+    assert problem in message
+    assert message.endswith("allowed: a method that returns a SizeEstimate")
 
 
 def test_estimates_and_refusals_of_one_pass() -> None:
@@ -85,11 +85,11 @@ def test_an_estimate_of_the_least_that_is_required_is_scored_where_the_load_is_k
     loaded = replace(MACHINE, load=500.0, load_deflection=1e10)
     record = SizedRecord(3, 1000.0, np.zeros((400, 2)), None, labels, loaded, None)
     row = score_record(record, OwnEstimator("mine:Sizer", Saying(least), ""))
-    assert (row.told.extent, row.told.race) == (0.1, "")
+    assert (row.answer.extent, row.answer.race) == (0.1, "")
     assert math.isnan(row.static_arc)
 
 
-def test_what_it_raises_is_told_with_its_line() -> None:
+def test_what_it_raises_is_named_with_its_line() -> None:
     with pytest.raises(BadInput, match=r"its method estimate fails: ZeroDivisionError: no load \(.*, line \d+\)"):
         asked(ZeroDivisionError("no load"))
 
@@ -103,8 +103,8 @@ def test_a_function_is_asked_like_a_method(tmp_path: Path, monkeypatch: pytest.M
         "    return 7\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
-    told = find_estimator("own_functions:one_degree").estimate(np.zeros((4, 2)), 1000.0, MACHINE)
-    assert (told.extent, told.method) == (0.017, "2 axes")
+    estimate = find_estimator("own_functions:one_degree").estimate(np.zeros((4, 2)), 1000.0, MACHINE)
+    assert (estimate.extent, estimate.method) == (0.017, "2 axes")
     with pytest.raises(BadInput, match='"own_functions:seven": it gave int 7 and no SizeEstimate; allowed: module:Cl'):
         find_estimator("own_functions:seven").estimate(np.zeros((4, 2)), 1000.0, MACHINE)
 
@@ -170,6 +170,8 @@ def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeyp
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_every_record_is_counted_as_it_is_done(tiny_corpus: Path, workers: int) -> None:
-    told: list[tuple[int, int]] = []
-    scores = score_sizes(tiny_corpus, None, True, "all", workers, count=lambda done, total: told.append((done, total)))
-    assert told == [(done, len(scores.records)) for done in range(1, 15)]
+    counts: list[tuple[int, int]] = []
+    scores = score_sizes(
+        tiny_corpus, None, True, "all", workers, count=lambda done, total: counts.append((done, total))
+    )
+    assert counts == [(done, len(scores.records)) for done in range(1, 15)]

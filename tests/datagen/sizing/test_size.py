@@ -68,7 +68,7 @@ def sized_corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(sized_corpus: Path) -> None:
     scores = score_sizes(sized_corpus, None, True, "all")
     gaps, healthy = scores.records[:3], scores.records[3]
-    assert all(one.found and one.told.race == "outer" for one in gaps)
+    assert all(one.found and one.answer.race == "outer" for one in gaps)
     # Half of the ladder's clean records are within 3 %, its mean is about 5 %; three records may do twice as badly.
     assert np.mean([lag_error(one) for one in gaps]) < 0.10
     assert np.mean([extent_error(one) for one in gaps]) < 0.15
@@ -76,21 +76,21 @@ def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(size
     assert healthy.without_event
 
 
-def test_the_same_holds_without_load_and_the_estimator_is_told_nothing_of_it(sized_corpus: Path) -> None:
-    told = [one.situation for one in sized_records(sized_corpus, load_known=False)]
-    assert all(not one.load_known and one.race is None for one in told)
+def test_the_same_holds_without_load_and_the_estimator_is_given_nothing_of_it(sized_corpus: Path) -> None:
+    situations = [one.situation for one in sized_records(sized_corpus, load_known=False)]
+    assert all(not one.load_known and one.race is None for one in situations)
     scores = score_sizes(sized_corpus, None, False, "all")
     assert np.mean([extent_error(one) for one in scores.records[:3]]) < 0.25
 
 
-def test_a_sensor_that_may_look_either_way_is_told_the_same_upside_down(sized_corpus: Path) -> None:
+def test_a_sensor_that_may_look_either_way_is_sized_the_same_upside_down(sized_corpus: Path) -> None:
     one = next(sized_records(sized_corpus, load_known=True))
     assert one.situation.polarity_known
     unsure = replace(one.situation, polarity_known=False)
-    told = [default_estimator().estimate(sign * one.acceleration, one.rate, unsure) for sign in (1.0, -1.0)]
-    assert told[0].found
-    assert told[0].extent == told[1].extent  # the same two signals are tried, in another order
-    assert told[0].trust >= default_estimator().estimate(one.acceleration, one.rate, one.situation).trust
+    both = [default_estimator().estimate(sign * one.acceleration, one.rate, unsure) for sign in (1.0, -1.0)]
+    assert both[0].found
+    assert both[0].extent == both[1].extent  # the same two signals are tried, in another order
+    assert both[0].trust >= default_estimator().estimate(one.acceleration, one.rate, one.situation).trust
 
 
 def test_the_stated_speed_is_wrong_by_up_to_two_per_cent(sized_corpus: Path) -> None:
@@ -119,35 +119,37 @@ def test_the_command_writes_report_table_and_picture(sized_corpus: Path, tmp_pat
     assert rows[3]["reason"] == report["records"][3]["reason"] != ""
 
 
-def test_a_told_record_says_its_size_in_every_unit_with_intervals_and_when_its_balls_passed(sized_corpus: Path) -> None:
+def test_an_answer_has_every_unit_with_intervals_and_says_when_balls_passed(
+    sized_corpus: Path,
+) -> None:
     gap = score_sizes(sized_corpus, None, True, "all").records[0]
-    told = gap.told
-    assert (told.race, told.reason) == ("outer", "")
-    assert "Hertz" in told.method
-    assert told.lag_interval[0] < told.lag < told.lag_interval[1]
+    answer = gap.answer
+    assert (answer.race, answer.reason) == ("outer", "")
+    assert "Hertz" in answer.method
+    assert answer.lag_interval[0] < answer.lag < answer.lag_interval[1]
     for name in ("extent", "extent_deg", "extent_mm"):
-        value, (low, high) = getattr(told, name), getattr(told, f"{name}_interval")
+        value, (low, high) = getattr(answer, name), getattr(answer, f"{name}_interval")
         assert low < value < high
-        assert low / value == pytest.approx(told.extent_interval[0] / told.extent, rel=1e-12)  # one in three units
-    assert told.extent_deg == pytest.approx(math.degrees(told.extent), rel=1e-12)
+        assert low / value == pytest.approx(answer.extent_interval[0] / answer.extent, rel=1e-12)  # one in three units
+    assert answer.extent_deg == pytest.approx(math.degrees(answer.extent), rel=1e-12)
     radius_mm = gap.truth.extent_mm / gap.truth.extent  # the label says both
-    assert told.extent_mm == pytest.approx(radius_mm * told.extent, rel=1e-9)
+    assert answer.extent_mm == pytest.approx(radius_mm * answer.extent, rel=1e-9)
     spacing = 2.0 * math.pi / 12.0
-    assert np.diff(told.candidates) == pytest.approx(spacing, rel=1e-9)
+    assert np.diff(answer.candidates) == pytest.approx(spacing, rel=1e-9)
     # All that are no longer than half the race, and no others.
-    assert max(told.candidates) <= math.pi < max(told.candidates) + spacing
-    assert told.candidates_mm == pytest.approx([radius_mm * arc for arc in told.candidates], rel=1e-9)
-    assert np.diff(told.event_times, axis=1) == pytest.approx(told.lag, rel=1e-9)
-    assert 30 <= len(told.event_times) <= 40  # 98 passes a second for 0.4 s, but for those cut off or not heard
+    assert max(answer.candidates) <= math.pi < max(answer.candidates) + spacing
+    assert answer.candidates_mm == pytest.approx([radius_mm * arc for arc in answer.candidates], rel=1e-9)
+    assert np.diff(answer.event_times, axis=1) == pytest.approx(answer.lag, rel=1e-9)
+    assert 30 <= len(answer.event_times) <= 40  # 98 passes a second for 0.4 s, but for those cut off or not heard
 
 
-def test_events_are_told_where_balls_are_released_and_loaded_again(sized_corpus: Path) -> None:
+def test_events_are_found_where_balls_are_released_and_loaded_again(sized_corpus: Path) -> None:
     truths = [one.truth for one in sized_records(sized_corpus, load_known=True)][:3]
     away = []
     for scored, truth in zip(score_sizes(sized_corpus, None, True, "all").records, truths, strict=False):
         assert truth is not None
-        for told, true in zip(scored.told.event_times.T, (truth.first, truth.last), strict=True):
-            away.append(np.median(told - true[np.abs(told[:, None] - true).argmin(axis=1)]))
+        for found, true in zip(scored.answer.event_times.T, (truth.first, truth.last), strict=True):
+            away.append(np.median(found - true[np.abs(found[:, None] - true).argmin(axis=1)]))
     assert abs(np.mean(away)) < 50e-6  # half of what an event may be off to count; 3.3 samples
 
 
@@ -217,11 +219,11 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
     rows = [
         scored(),
         scored(
-            told={"lag": 0.0048, "extent": 0.13, "extent_interval": (0.11, 0.12)}
+            answer={"lag": 0.0048, "extent": 0.13, "extent_interval": (0.11, 0.12)}
         ),  # 20 % and 30 % wrong, arc outside its interval
-        scored(told=silent),
+        scored(answer=silent),
         scored({"lag": math.nan}, silent),  # no event, rightly silent
-        scored({"lag": 1.5 / RATE}),  # below two samples, wrongly told
+        scored({"lag": 1.5 / RATE}),  # below two samples, wrongly answered
         scored({"extent_spacing": 1.4, "extent": 0.6}),  # beyond 0.9 spacings: a candidate is exact
     ]
     summary = summarise(rows, load_known=True)
@@ -235,24 +237,24 @@ def test_the_summary_is_what_it_is_by_hand(scored: Callable[..., ScoredRecord]) 
     # One bearing alone has no interval.
     nearest = summary.long.error_of_nearest_candidate
     assert astuple(nearest) == pytest.approx((0.0, math.nan, math.nan), nan_ok=True)
-    assert (summary.long.records, summary.long.told, summary.long.median) == (1, 1, 0.0)
+    assert (summary.long.records, summary.long.answered, summary.long.median) == (1, 1, 0.0)
 
 
-def test_what_a_known_size_did_to_the_errors_of_other_records_is_told(scored: Callable[..., ScoredRecord]) -> None:
+def test_what_a_known_size_did_to_the_errors_of_other_records_is_reported(scored: Callable[..., ScoredRecord]) -> None:
     known = KnownSize(record=0, machine="b", known_mm=2.2, estimated_mm=2.0, factor=1.1)
     other = scored({"record": 1}, {"extent": 0.11, "known_size_factor": 1.1})  # 0.1 without it, which is the truth
     silent = scored({"record": 2}, {"extent": math.nan, "outcome": "no_event_pair"})
     elsewhere = scored({"record": 3, "bearing_id": "c"}, {"extent": 0.3})
-    (told,) = with_effect([known], [scored(), other, silent, elsewhere])
-    assert told.corrected == 1
-    assert told.arc_error_without == pytest.approx(0.0, abs=1e-12)  # rounding
-    assert told.arc_error_with == pytest.approx(0.1)
-    assert "0.00% without it, 10.00% with it" in known_size_sentence(told)
+    (effect,) = with_effect([known], [scored(), other, silent, elsewhere])
+    assert effect.corrected == 1
+    assert effect.arc_error_without == pytest.approx(0.0, abs=1e-12)  # rounding
+    assert effect.arc_error_with == pytest.approx(0.1)
+    assert "0.00% without it, 10.00% with it" in known_size_sentence(effect)
 
 
 def test_intervals_are_of_a_bootstrap_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
     wrong = [scored({"bearing_id": "bad"}, {"lag": 0.0044}) for _ in range(40)]  # 10 % wrong, all of one bearing
-    rows = [*wrong, *(scored({"bearing_id": f"good {k // 4}"}) for k in range(40))]  # ten bearings told exactly
+    rows = [*wrong, *(scored({"bearing_id": f"good {k // 4}"}) for k in range(40))]  # ten bearings sized exactly
     (lag,) = (one for one in summarise(rows, True).figures if one.name == "lag error, 10 dB")
     assert lag.mean.value == pytest.approx(0.05)
     # Drawn 0, 1, 2 or 3 times among eleven with 35, 39, 19 and 6 %, the bad bearing makes 0, 50, 69 or 79 % of the
@@ -297,12 +299,12 @@ def test_the_calibration_comes_back_from_its_arrays() -> None:
     assert again.with_load.most == learned.with_load.most
 
 
-def test_noise_alone_is_told_no_size() -> None:
+def test_noise_alone_is_given_no_size() -> None:
     noise = np.random.default_rng(5).standard_normal(32768)
-    told = default_estimator().estimate(noise, RATE, Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 20.0))
-    assert not told.found
-    assert told.reason
-    assert told.event_times.shape == (0, 2)
+    answer = default_estimator().estimate(noise, RATE, Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 20.0))
+    assert not answer.found
+    assert answer.reason
+    assert answer.event_times.shape == (0, 2)
 
 
 def test_a_record_of_fewer_than_six_passes_is_too_short() -> None:

@@ -1,4 +1,4 @@
-"""The picture of scored spall sizes: few records, many machines, nothing told."""
+"""The picture of scored spall sizes: few records, many machines, nothing answered."""
 
 from __future__ import annotations
 
@@ -36,7 +36,9 @@ def test_the_names_below_the_bars_do_not_lie_on_each_other(rigs: int, scored: Ca
     assert low + high == pytest.approx(min(rigs, 8) - 1)  # the bars stand in the middle
 
 
-def test_where_nothing_was_told_the_panels_say_so(scored: Callable[..., ScoredRecord]) -> None:
+def test_where_nothing_was_answered_the_panels_say_so(scored: Callable[..., ScoredRecord]) -> None:
     records = [scored({"record": k}, {"outcome": "no_events", "lag": math.nan, "extent": math.nan}) for k in range(3)]
     figure = drawn(records)
-    assert [[text.get_text() for text in axes.texts] for axes in figure.axes[:3]] == [["no record was told a size"]] * 3
+    assert [[text.get_text() for text in axes.texts] for axes in figure.axes[:3]] == [
+        ["no record was given a size"]
+    ] * 3

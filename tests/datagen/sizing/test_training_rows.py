@@ -69,7 +69,7 @@ def test_whole_passes_are_taken_off_the_lag_and_as_many_spacings_off_the_arc(
     assert made.true_lag == pytest.approx(late * RATE)
     assert made.lag == pytest.approx(LAG * RATE, abs=0.5)  # the period that was tracked is a fraction of a sample off
     assert made.arc == pytest.approx(0.2)
-    assert made.asked == (spacings == 0)  # beyond 0.9 spacings no size must be told
+    assert made.asked == (spacings == 0)  # beyond 0.9 spacings no size must be given
 
 
 def test_the_pair_of_the_true_lag_at_the_true_place_is_the_best(heard: tuple[Evidence, Array]) -> None:

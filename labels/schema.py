@@ -198,14 +198,16 @@ LABELS: tuple[Label, ...] = (
         "tension_share",
         "1",
         "run",
-        "Share of contact time, summed over the balls, in which the oil film pulls.",
+        "Share of contact time, summed over the balls, in which the oil film pulls; of all that was simulated, so with "
+        "the lead-in (settle_s), and of a response that repeats itself as far as it was marched.",
         "the forces of single balls were not followed",
     ),
     _number(
         "stiffness_error",
         "1",
         "record",
-        "RMS error of the stored stiffness, read by linear interpolation, over the mean of kyy.",
+        "RMS error of the stored stiffness, read by linear interpolation at the instants of the samples, over the mean "
+        "of kyy. Between samples, where a ball takes or loses its load, it is larger.",
         "it was not measured",
     ),
     _text(

@@ -80,7 +80,8 @@ ROLLED = (
     "the path of a ball rolled over the surface s. Outer race: rho(phi) = min over theta of R cos(theta - phi) - "
     "sqrt(Rb^2 - R^2 sin(theta - phi)^2) with R(theta) = Ro + s(theta), path = rho - (Ro - Rb). Inner race: rho(phi) = "
     "max of R cos(theta - phi) + sqrt(Rb^2 - R^2 sin(theta - phi)^2) with R(theta) = Ri - s(theta), "
-    "path = Ri + Rb - rho. Ro, Ri = (Dp +- Db cos(alpha)) / 2, Rb = Db / 2"
+    "path = Ri + Rb - rho. Ro, Ri = (Dp +- Db cos(alpha)) / 2, Rb = Db / 2. Sought on a grid over a rough surface, "
+    "the extremum needs steps of 0.3 um along the race: with 1 um the response was 4e-4 of its RMS off"
 )
 RULES = {
     "tukey": f"{TRAVEL}the ball's centre drops by {WINDOW}",

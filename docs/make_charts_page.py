@@ -54,7 +54,7 @@ def fastest(chart: Facts, group: str, equations: str) -> tuple[str, float] | Non
     return (max(found)[1], max(found)[0]) if found else None
 
 
-def told(run: Facts | None) -> str:
+def in_words(run: Facts | None) -> str:
     """Speed and error of a run; a dash if there is none."""
     return "–" if run is None else f"{run['real_time']:.0f} ({error(run):.1e})"
 
@@ -77,7 +77,7 @@ def speeds(charts: dict[str, Facts]) -> list[str]:
     rows = {}
     for name, chart in charts.items():
         default = default_run(chart)
-        cells = [told(default), told(fastest_run(chart)), told(at_accuracy(chart, REPEATED, DEFAULT))]
+        cells = [in_words(default), in_words(fastest_run(chart)), in_words(at_accuracy(chart, REPEATED, DEFAULT))]
         rows[name] = cells + [rival(fastest(chart, *kind), default["real_time"]) for kind in RIVALS]
     made = charts[SCENES[0]]["made_with"]
     versions = ", ".join(f"{package} {made[package]}" for package in PACKAGES)
@@ -116,7 +116,7 @@ def missed(chart: Facts) -> str:
 def simpler(charts: dict[str, Facts]) -> list[str]:
     """One row a scene: speed and error of the simpler models beside the default."""
     rows = {
-        name: [told(default_run(chart)), *(told(runs_of(chart, model)[0]) for model in MODELS)]
+        name: [in_words(default_run(chart)), *(in_words(runs_of(chart, model)[0]) for model in MODELS)]
         for name, chart in charts.items()
     }
     return by_scene(("`modal`, 1e-3 asked", *MODELS), rows)

@@ -174,8 +174,8 @@ def main(train: Path, tests: list[Path]) -> None:
         found = scores(tested)
         for folder in tests:
             write_line(folder, {"disturbed": name, "train": str(train), "with": list(map(str, tests)), "scores": found})
-        told = [f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found]
-        lines.append(f"| {' | '.join([name, *told])} |")
+        cells = [f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found]
+        lines.append(f"| {' | '.join([name, *cells])} |")
         print(lines[-1], flush=True)
     lines += ["", f"Learned from {len(np.unique(training.records))} simulated records."]
     write_marked(PAGE, "disturbed", __file__, "\n".join(lines))

@@ -177,8 +177,8 @@ def _draw_acceleration(axes: Axes, state: Column) -> None:
     part = slice(int(start * RATE), int(stop * RATE))
     time = (state.trace.time[part] - start) * 1e3
     visible = float(np.abs(state.trace.acceleration[part]).max()) < HIDDEN * FLOOR
-    told = "with background" if visible else None
-    axes.plot(time, state.acceleration[part], color=GREY, linewidth=0.6, label=told)
+    label = "with background" if visible else None
+    axes.plot(time, state.acceleration[part], color=GREY, linewidth=0.6, label=label)
     axes.plot(time, state.trace.acceleration[part, 1], color=BLUE, linewidth=0.7, label="clean")
     table = state.passes
     for entry, leave in zip(table.entry_time, table.exit_time, strict=True):

@@ -186,8 +186,8 @@ def learners_alarms(report: dict[str, Any], models: list[str], imported: bool) -
     """Fewest and most false alarms of the models, of so many healthy records."""
     tests = [test["models"] for test in report["tests"] if test["imported"] == imported]
     counts = [sum(test[model]["false_alarms"] for test in tests) for model in models]
-    told = f"{min(counts)} to {max(counts)}" if min(counts) < max(counts) else f"{counts[0]}"
-    return f"{told} of {sum(test[models[0]]['healthy'] for test in tests)}"
+    span = f"{min(counts)} to {max(counts)}" if min(counts) < max(counts) else f"{counts[0]}"
+    return f"{span} of {sum(test[models[0]]['healthy'] for test in tests)}"
 
 
 def _has_faults(test: dict[str, Any]) -> bool:

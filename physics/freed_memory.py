@@ -23,7 +23,7 @@ CHOSEN_BY = ("MALLOC_MMAP_THRESHOLD_", "MALLOC_TRIM_THRESHOLD_", "GLIBC_TUNABLES
 @cache
 def keep_freed_memory() -> bool:
     """Let this process keep up to a gigabyte of freed memory, all of it and to its end; False if the C library is
-    another, or told already."""
+    another, or asked already."""
     if any(os.environ.get(name) for name in CHOSEN_BY):
         return False
     try:

@@ -50,8 +50,8 @@ def simulate(
     """
     require_positive("rate", rate, "Hz")
     for what in KEEPABLE:
-        told = f"keep.{what} = True; {solution} keeps {' and '.join(solution.keeps) or 'the acceleration'} alone"
-        require(what in solution.keeps or not getattr(keep, what), told, "keep")
+        problem = f"keep.{what} = True; {solution} keeps {' and '.join(solution.keeps) or 'the acceleration'} alone"
+        require(what in solution.keeps or not getattr(keep, what), problem, "keep")
     before = lead_in.samples(rate)
     _require_known_time(scene, rate, before)
     if before == 0:

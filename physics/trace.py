@@ -44,8 +44,8 @@ class Kept:
 
     def __post_init__(self) -> None:
         require_not_negative("fastest_path", self.fastest_path, "Hz")
-        told = f"fastest_path = {self.fastest_path!r} Hz; without the outer ring's motion nothing follows it"
-        require(self.outer or self.fastest_path == 0.0, told, "fastest_path")
+        problem = f"fastest_path = {self.fastest_path!r} Hz; without the outer ring's motion nothing follows it"
+        require(self.outer or self.fastest_path == 0.0, problem, "fastest_path")
 
 
 ACCELERATION_ALONE = Kept()

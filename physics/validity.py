@@ -153,7 +153,7 @@ def _cage_speed(scene: Scene) -> str:
         return ""
     return (
         f"The cage turns at a nominal {cage:.4g} rad/s, but without slip the shaft would turn it at {rolling:.4g} "
-        "rad/s: ball-pass frequencies told from the shaft are not those of the balls."
+        "rad/s: ball-pass frequencies counted from the shaft are not those of the balls."
     )
 
 

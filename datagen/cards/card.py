@@ -61,8 +61,8 @@ def _holdings(facts: Facts) -> Iterable[str]:
     total = ("all", "", facts.info.records, *facts.splits.values())
     yield from _table(("condition", "location", "records", *splits), [*rows, total])
     others = {name: counts for name, counts in facts.info.counts.items() if name not in ("condition", "location")}
-    told = [(f"`{name}`", _counts(counts)) for name, counts in others.items() if name != "split"]
-    yield from _table(("label", "records by value"), told)
+    counted = [(f"`{name}`", _counts(counts)) for name, counts in others.items() if name != "split"]
+    yield from _table(("label", "records by value"), counted)
     yield f"![Counts and distributions of the labels]({OVERVIEW})\n"
 
 

@@ -77,13 +77,13 @@ class Chart:
     made_with: dict[str, str]
 
 
-def measure(subject: Subject, quick: bool, rounds: int, told: Say) -> Chart:
-    """Run everything on `subject`; `told` hears of every contestant before it is run.
+def measure(subject: Subject, quick: bool, rounds: int, say: Say) -> Chart:
+    """Run everything on `subject`; `say` hears of every contestant before it is run.
 
     Raises SimulationFailed where the scene has no reference, being one that cannot be simulated.
     """
     scene = subject.lasting(min(subject.scene.duration, QUICK_DURATION)) if quick else subject.scene
-    told("reference")
+    say("reference")
     warm_up()
     reference = of_trace(
         simulate(scene, subject.rate, FixedSteps(QUICK_STEPS), keep=Kept(state=True))
@@ -93,7 +93,7 @@ def measure(subject: Subject, quick: bool, rounds: int, told: Say) -> Chart:
     runs = []
     entered = contestants(scene, quick)
     for number, contestant in enumerate(entered, 1):
-        told(f"{number} of {len(entered)}: {contestant.name} {contestant.setting}".rstrip())
+        say(f"{number} of {len(entered)}: {contestant.name} {contestant.setting}".rstrip())
         runs.append(_run(contestant, subject, scene, reference, rounds))
     return Chart(
         subject=subject.name,

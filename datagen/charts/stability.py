@@ -129,11 +129,11 @@ SWEEPS = (
 )
 
 
-def stability_maps(told: Say) -> list[Map]:
-    """Every method over every sweep; `told` hears of each sweep."""
+def stability_maps(say: Say) -> list[Map]:
+    """Every method over every sweep; `say` hears of each sweep."""
     maps = []
     for sweep in SWEEPS:
-        told(sweep.name)
+        say(sweep.name)
         scenes = [sweep.apply(reference_scene("G1", DURATION), value) for value in sweep.values]
         exact = [_exact(scene) for scene in scenes]
         maps += [_map(name, sweep, scenes, exact) for name in (MODAL, *MARCHES)]

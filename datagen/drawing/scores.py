@@ -115,8 +115,8 @@ def _draw_table(axes: Axes, name: str, table: Confusion, named_rows: bool, named
 
 def draw_reliability(axes: Axes, test: CorpusScores) -> None:
     """Share of spalls against the probability predicted."""
-    told = any(scores.calibration for scores in test.models.values())
-    if not (told and test.locations["none"]):
+    calibrated = any(scores.calibration for scores in test.models.values())
+    if not (calibrated and test.locations["none"]):
         say(axes, "reliability", "needs healthy records and\nfaults of known size")
         return
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)

@@ -78,8 +78,10 @@ def draw_sheet(maps: Sequence[Map], number: str) -> Figure:
 def _head(figure: Figure, height: float, number: str) -> None:
     title = "Where each method is accurate, wrong or refused"
     figure.text(0.012, 1.0 - 0.1 / height, title, fontsize=14, fontweight="bold", color=INK, va="top")
-    told = f"gearbox rig with a line spall (G1), one quantity varied at a time, {DURATION:g} s at {RATE:g} Hz; {number}"
-    figure.text(0.012, 1.0 - 0.4 / height, told, va="top", fontsize=LETTERS, color="#666666")
+    under = (
+        f"gearbox rig with a line spall (G1), one quantity varied at a time, {DURATION:g} s at {RATE:g} Hz; {number}"
+    )
+    figure.text(0.012, 1.0 - 0.4 / height, under, va="top", fontsize=LETTERS, color="#666666")
     entries: list[Artist] = [
         Patch(facecolor=colour, edgecolor=GREY, linewidth=0.5, hatch=HATCH if kind == REFUSED else None)
         for kind, colour in enumerate(COLOURS)

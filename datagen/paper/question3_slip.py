@@ -116,11 +116,11 @@ def chapter() -> Chapter:
 def answer(found: list[Smearing]) -> str:
     """What came out, in words."""
     first = {(one.rig, slip): faded(one.drop(slip)) for one in found for slip in SLIPS[1:]}
-    told = "; ".join(
+    lines = "; ".join(
         f"{rig} rig: " + ", ".join(f"{slip:.1%} from harmonic {_shown(first[rig, slip])}" for slip in SLIPS[1:])
         for rig in RIGS
     )
-    return f"Lines that slip takes down by 10 dB or more: {told}."
+    return f"Lines that slip takes down by 10 dB or more: {lines}."
 
 
 def _shown(harmonic: float) -> str:

@@ -183,13 +183,13 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
 def _changes(scene: Scene, edges: Edges) -> ContactChanges:
     bearing = scene.rig.bearing
     time = edges.time - 0.5 * np.sign(edges.change) * edges.ramp
-    told = np.flatnonzero(edges.unloads & (time >= 0.0) & (time < scene.duration))
-    told = told[np.argsort(time[told], kind="stable")]
+    logged = np.flatnonzero(edges.unloads & (time >= 0.0) & (time < scene.duration))
+    logged = logged[np.argsort(time[logged], kind="stable")]
     return ContactChanges(
-        time=time[told],
-        row=edges.row[told],
-        ball=edges.ball[told],
-        made=edges.change[told] > 0.0,
+        time=time[logged],
+        row=edges.row[logged],
+        ball=edges.ball[logged],
+        made=edges.change[logged] > 0.0,
         initial=np.ones((bearing.rows, bearing.balls), dtype=np.bool_),
     )
 

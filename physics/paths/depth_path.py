@@ -149,7 +149,7 @@ def hermite_path(
 ) -> DepthPath:
     """The path of the curve `depth` (m) with its `slope` (m/rad) over `edges` (P + 1,), `cells` a piece.
 
-    Cubic Hermite cells with the curve's values and one-sided slopes at the nodes. Its relief is told if there may be
+    Cubic Hermite cells with the curve's values and one-sided slopes at the nodes. Its relief is known if there may be
     `bumps`.
     """
     count = np.array(cells, dtype=np.int64)

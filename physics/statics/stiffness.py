@@ -56,7 +56,7 @@ def rest_at(
 ) -> tuple[float, float, Hold, bool]:
     """Where the shaft rests (m, m) at `time` (s), looked for from the place (x, y) expected, and what holds there.
 
-    Last whether a position carries the load; where none does, the instant is lost and the rest is told of the centre.
+    Last whether a position carries the load; where none does, the instant is lost and the rest is that of the centre.
     """
     move_to(contacts, time)
     load_x, load_y = outer_load(motion, time)

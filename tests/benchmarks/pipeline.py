@@ -95,8 +95,8 @@ def shares(recipe: Recipe, records: int) -> dict[str, float]:
         for stage, names in STAGES.items()
     }
     whole = max(row[3] for row in stats.values())
-    told = {stage: seconds / whole for stage, seconds in spent.items()}
-    return told | {"all else": 1.0 - sum(told.values())}
+    share = {stage: seconds / whole for stage, seconds in spent.items()}
+    return share | {"all else": 1.0 - sum(share.values())}
 
 
 def wall_seconds(recipe: Recipe, records: int, workers: int) -> float:
@@ -147,8 +147,8 @@ def page(found: dict[str, object]) -> str:
         lines.append(f"| {name} | {' | '.join(speed)} | {' | '.join(size)} |")
     lines += ["", "| share of the time | " + " | ".join(rows) + " |", "|---" * (len(rows) + 1) + "|"]
     for stage in (*STAGES, "all else"):
-        told = " | ".join(f"{100.0 * row['shares'][stage]:.0f} %" for row in rows.values())
-        lines.append(f"| {stage} | {told} |")
+        cells = " | ".join(f"{100.0 * row['shares'][stage]:.0f} %" for row in rows.values())
+        lines.append(f"| {stage} | {cells} |")
     made: dict[str, str] = found["made_with"]  # type: ignore[assignment]
     pairs: dict[str, dict[str, float]] = found["two_workers"]  # type: ignore[assignment]
     together = "; ".join(

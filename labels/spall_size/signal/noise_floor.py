@@ -13,7 +13,7 @@ from physics.arrays import Array
 SEGMENT = 1024
 # Bins of that spectrum over which it is smoothed.
 SMOOTHED = 9
-# Share of noise below which none is given.
+# Share of noise below which there is none to speak of.
 CLEANEST = 1e-9
 
 

@@ -88,9 +88,9 @@ def resolution_error(contacts: Contacts, noted: Array, midway: Array, step: floa
                 end, end_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
                 film = end - start - step / 6.0 * (rate + 4.0 * middle_rate + end_rate)
                 root, end_root = law_power(law, start), law_power(law, end)
-                told = 0.5 * (max(start, 0.0) * root + max(end, 0.0) * end_root)
-                told += 0.125 * step * law.exponent * (root * rate - end_root * end_rate)
-                elastic = max(middle, 0.0) * law_power(law, middle) - told
+                cubic = 0.5 * (max(start, 0.0) * root + max(end, 0.0) * end_root)
+                cubic += 0.125 * step * law.exponent * (root * rate - end_root * end_rate)
+                elastic = max(middle, 0.0) * law_power(law, middle) - cubic
                 total += abs(law.damping * film) + HERMITE_ERROR * step * law.stiffness * abs(elastic)
     return total
 

@@ -90,7 +90,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class Simpler:
-    """A simpler `model` of ladder.models.SIMPLER_MODELS, by its own method; it keeps what it knows, asked for or not.
+    """A simpler `model` of ladder.models.SIMPLER_MODELS, by its own method.
 
     Raises InvalidParameter for another model.
     """
@@ -102,7 +102,7 @@ class Simpler:
 
     @property
     def keeps(self) -> tuple[str, ...]:
-        """What the model knows besides acceleration and contact changes: fields of Kept."""
+        """What the model can keep besides acceleration and contact changes: fields of Kept."""
         return SIMPLER_MODELS[self.model].keeps
 
 

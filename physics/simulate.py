@@ -90,17 +90,17 @@ def _samples(scene: Scene, rate: float) -> int:
 def _respond(scene: Scene, rate: float, solution: Solution, keep: Kept) -> Trace:
     """The response from t = 0 on, without a lead-in."""
     if isinstance(solution, Simpler):
-        return _respond_simply(scene, rate, solution)
+        return _respond_simply(scene, rate, solution, keep)
     if isinstance(solution, Accurate):
         return _respond_accurately(scene, rate, solution, keep)
     return _respond_by_steps(scene, rate, solution, keep)
 
 
-def _respond_simply(scene: Scene, rate: float, solution: Simpler) -> Trace:
+def _respond_simply(scene: Scene, rate: float, solution: Simpler, keep: Kept) -> Trace:
     """By a model of physics.ladder."""
     simpler = SIMPLER_MODELS[solution.model]
     factor = oversampling(scene, rate) if simpler.rings else 1
-    return _lowered(simpler.respond(scene, rate * factor), rate, factor, _samples(scene, rate))
+    return _lowered(simpler.respond(scene, rate * factor, keep), rate, factor, _samples(scene, rate))
 
 
 def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kept) -> Trace:

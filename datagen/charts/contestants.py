@@ -125,7 +125,15 @@ def _choosing(name: str, accuracy: float, *, repeat: bool) -> Contestant:
 
 
 def _model(name: str) -> Contestant:
-    return Contestant(MODEL, name, "", lambda scene, rate: simulate(scene, rate, Simpler(name)), _of_trace)
+    keep = Kept(state="state" in SIMPLER_MODELS[name].keeps)
+    return Contestant(
+        MODEL,
+        name,
+        "",
+        lambda scene, rate: simulate(scene, rate, Simpler(name)),
+        _of_trace,
+        run_with_state=lambda scene, rate: simulate(scene, rate, Simpler(name), keep=keep),
+    )
 
 
 def _of_trace(scene: Scene, rate: float, result: Raw) -> Response:

@@ -36,5 +36,6 @@ def of_states(scene: Scene, rate: float, states: Array) -> Response:
     bearing = scene.rig.bearing
     acceleration = np.array([[resonator_acceleration(motion, state, axis) for axis in (0, 1)] for state in states])
     touching = np.array([contact_set(equations, k / rate, state) for k, state in enumerate(states)])
-    changes = changes_between_samples(touching.reshape(-1, bearing.rows, bearing.balls), rate)
+    touching = touching.reshape(-1, bearing.rows, bearing.balls)
+    changes = changes_between_samples(touching, np.arange(len(states)), rate)
     return Response(acceleration, states[:, 0:2] - states[:, 2:4], changes)

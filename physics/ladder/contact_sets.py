@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 from physics.trace import ContactChanges
 
 
-def changes_between_samples(touching: NDArray[np.bool_], rate: float) -> ContactChanges:
-    """Changes of contact from `touching` (T, rows, balls) at the instants k / rate, half-way between two samples."""
-    sample, row, ball = np.nonzero(touching[1:] != touching[:-1])
+def changes_between_samples(touching: NDArray[np.bool_], sample: NDArray[np.integer], rate: float) -> ContactChanges:
+    """Changes of contact, half-way between two samples, from who is `touching` (S, rows, balls) from each `sample` (S,)
+    on to the next: rising numbers, the first of them 0, at `rate` (Hz)."""
+    change, row, ball = np.nonzero(touching[1:] != touching[:-1])
     return ContactChanges(
-        time=np.asarray((sample + 0.5) / rate, dtype=np.float64),
+        time=np.asarray((sample[1:][change] - 0.5) / rate, dtype=np.float64),
         row=(row + 1).astype(np.int16),
         ball=(ball + 1).astype(np.int16),
-        made=touching[sample + 1, row, ball],
+        made=touching[change + 1, row, ball],
         initial=touching[0].copy(),
     )

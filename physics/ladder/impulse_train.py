@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from physics._jit import njit_lean
 from physics.arrays import Array, Flags
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
@@ -27,7 +28,7 @@ from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics.load_distribution import carried, instants_without_period
 from physics.statics.stiffness import matrix
-from physics.trace import ContactChanges, Trace
+from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
 # Instants of a record whose stiffness and damping are averaged for its modes.
 MEAN_TIMES = 64
@@ -123,35 +124,61 @@ def edges_of(scene: Scene) -> Edges:
     return Edges(*(column[order] for column in columns))
 
 
-def _blunted(frequency: float, ramp: Array) -> Array:
-    """What a mode of `frequency` (rad/s) sees of a raised-cosine ramp (E,), s, beside a step at its middle."""
+def _blunted(frequency: Array, ramp: Array) -> Array:
+    """What a mode of `frequency` (M,), rad/s, sees of a raised-cosine ramp (E, 1), s, beside a step at its middle."""
     turn = frequency * ramp
     return np.sinc(turn / (2.0 * np.pi) + 0.5) * np.pi / 4.0 + np.sinc(turn / (2.0 * np.pi) - 0.5) * np.pi / 4.0
 
 
-def _ring(time: Array, size: Array, frequency: float, damping: float, samples: int, rate: float) -> Array:
-    """Acceleration (T,) of a modal coordinate of unit mass after steps of force `size` (E,), N, at `time` (E,), s.
+class Swings(NamedTuple):
+    """Modes that swing, M of them, and the steps of force that make them: each coordinate of unit mass after a unit
+    step has the acceleration Im(λ exp(λ t)) / Im(λ), λ being its pole.
 
-    Zero for a mode that does not swing: `damping` of 1 or more.
+    `turn` (M,) is by how much exp(λ t) turns and fades in a sample, `reading` (M, 2) what the resonator has of it along
+    x and y; `sample` (E,) the first one behind each step, rising, and `kick` (E, M) what it adds there, m/s².
     """
-    from scipy.signal import lfilter
 
-    decay = frequency * complex(-damping, math.sqrt(max(1.0 - damping**2, 0.0)))
-    sample = np.ceil(time * rate - 1e-9).astype(np.int64)
-    kept = sample < samples
-    start = np.zeros(samples, dtype=np.complex128)
-    # η̈ after a unit step is Im(λ exp(λ t)) / Im(λ) with λ the pole.
-    np.add.at(start, sample[kept], size[kept] * np.exp(decay * (sample[kept] / rate - time[kept])))
-    rung = lfilter([1.0], [1.0, -np.exp(decay / rate)], start)
-    return np.imag(decay * rung) / decay.imag if decay.imag > 0.0 else np.zeros(samples)
+    turn: NDArray[np.complex128]
+    reading: Array
+    sample: NDArray[np.int64]
+    kick: NDArray[np.complex128]
 
 
-def impulse_response(scene: Scene, rate: float) -> Trace:
+def _swings(edges: Edges, squared: Array, shapes: Array, damping: Array, force: Array, rate: float) -> Swings:
+    """The modes below half the `rate` (Hz) that swing, of natural frequencies `squared` (6,), rad²/s², `shapes` (6, 6)
+    and modal `damping` (6,), 1/s, with the steps of `force` (2, E), N."""
+    frequency = np.sqrt(np.maximum(squared, 0.0))
+    chosen = np.flatnonzero((frequency > 0.0) & (frequency < math.pi * rate) & (damping < 2.0 * frequency))
+    frequency, damping, shapes = frequency[chosen], damping[chosen], shapes[:, chosen]
+    pole = -0.5 * damping + 1j * np.sqrt(frequency**2 - 0.25 * damping**2)
+    sample = np.ceil(edges.time * rate - 1e-9).astype(np.int64)
+    pushed = force.T @ (shapes[2:4] - shapes[0:2]) * _blunted(frequency, edges.ramp[:, None])
+    kick = pole * pushed * np.exp(pole * (sample / rate - edges.time)[:, None])
+    return Swings(np.exp(pole / rate), (shapes[4:6] / pole.imag).T.copy(), sample, kick)
+
+
+@njit_lean
+def _ring(swings: Swings, swing: NDArray[np.complex128], acceleration: Array) -> None:
+    """Fill the `acceleration` (T, 2), m/s²; `swing` (M,) is where the modes are, at first at rest."""
+    turn, reading, edge = swings.turn, swings.reading, 0
+    for k in range(acceleration.shape[0]):
+        for mode in range(turn.size):
+            swing[mode] *= turn[mode]
+        while edge < swings.sample.size and swings.sample[edge] == k:
+            for mode in range(turn.size):
+                swing[mode] += swings.kick[edge, mode]
+            edge += 1
+        for mode in range(turn.size):
+            acceleration[k, 0] += swing[mode].imag * reading[mode, 0]
+            acceleration[k, 1] += swing[mode].imag * reading[mode, 1]
+
+
+def impulse_response(scene: Scene, rate: float, keep: Kept = ACCELERATION_ALONE) -> Trace:
     """Response of `scene` at the instants k / rate (Hz) to the steps of force at the edges of its spalls.
 
-    A healthy scene gives zero. Contact changes are where balls have lost all their load at an edge, or begin to get it
-    back; otherwise balls count as touching, also outside the load zone. Raises SimulationFailed where no position
-    carries the load.
+    A healthy scene gives zero, and there is nothing that it could `keep`. Contact changes are where balls have lost all
+    their load at an edge, or begin to get it back; otherwise balls count as touching, also outside the load zone.
+    Raises SimulationFailed where no position carries the load.
     """
     samples, rig = round(scene.duration * rate), scene.rig
     stiffness, film = _mean_contacts(scene)
@@ -160,13 +187,8 @@ def impulse_response(scene: Scene, rate: float) -> Trace:
     damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
     cos_alpha = math.cos(rig.bearing.contact_angle)
     along = np.array([np.cos(edges.angle), np.sin(edges.angle)]) * edges.change * cos_alpha
-    acceleration = np.zeros((samples, 2))
-    for mode in range(squared.size):
-        frequency = math.sqrt(max(float(squared[mode]), 0.0))
-        if 0.0 < frequency < math.pi * rate:
-            pushed = (shapes[2:4, mode] - shapes[0:2, mode]) @ along * _blunted(frequency, edges.ramp)
-            rung = _ring(edges.time, pushed, frequency, float(damping[mode]) / (2.0 * frequency), samples, rate)
-            acceleration += rung[:, None] * shapes[4:6, mode]
+    swings, acceleration = _swings(edges, squared, shapes, damping, along, rate), np.zeros((samples, 2))
+    _ring(swings, np.zeros(swings.turn.size, np.complex128), acceleration)
     return Trace(
         rate=rate,
         time=np.arange(samples) / rate,

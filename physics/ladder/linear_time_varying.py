@@ -40,7 +40,7 @@ from physics.response.stability import require_stable, stable_substeps
 from physics.scene import Scene
 from physics.statics.load_distribution import carried, load_vector, refuse
 from physics.statics.rest import NO_EQUILIBRIUM, solve_at
-from physics.trace import Trace
+from physics.trace import ContactChanges, Kept, Trace
 
 NODES_PER_SPACING = 4096
 NODES_PER_SAMPLE = 2
@@ -133,24 +133,30 @@ _step = specialise(
 
 @njit
 def _march(
-    table: Array, place: Place, motion: MotionModel, series: PowerSeries, substeps: int, start: Array, state: Array
-) -> Array:
-    """Acceleration (T, 2) and `state` (T, 12) from the state `start`."""
-    acceleration = np.zeros((state.shape[0], 2))
+    table: Array,
+    place: Place,
+    motion: MotionModel,
+    series: PowerSeries,
+    substeps: int,
+    start: Array,
+    acceleration: Array,
+    state: Array,
+) -> None:
+    """Fill the `acceleration` (T, 2), and the `state` (T or 0, 12), from the state `start`."""
     now, then, work = start.copy(), np.empty(12), workspace()
     contacts = LinearContacts(table, place, np.empty(COLUMNS))
     set_step(series, work.weights, 1.0)
     _look_up(contacts, 0.0)
-    for sample in range(state.shape[0]):
+    for sample in range(acceleration.shape[0]):
         acceleration[sample, 0] = resonator_acceleration(motion, now, 0)
         acceleration[sample, 1] = resonator_acceleration(motion, now, 1)
-        state[sample] = now
+        if sample < state.shape[0]:
+            state[sample] = now
         for substep in range(substeps):
             time = (sample * substeps + substep) * series.step
             force = _pull(contacts, now[0] - now[2], now[1] - now[3], now[6] - now[8], now[7] - now[9])
             _step(contacts, motion, work, time, series.step, now, force, then)
             now, then = then, now
-    return acceleration
 
 
 def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, NDArray[np.bool_]]:
@@ -171,21 +177,27 @@ def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, NDArr
     return time, table, touching
 
 
-def _touching(scene: Scene, touching: NDArray[np.bool_], samples: int, rate: float) -> NDArray[np.bool_]:
-    """Who touches (T, rows, balls) at the samples, from who touches (N, M) at the nodes of the table."""
+def _changes(scene: Scene, touching: NDArray[np.bool_], samples: int, rate: float) -> ContactChanges:
+    """Changes of contact between samples, from who touches (N, M) at the nodes of the table."""
     bearing, (_, ball) = scene.rig.bearing, ball_numbers(scene)
     real = touching[:, ball >= 0].reshape(-1, bearing.rows, bearing.balls)
+    # Nodes between which nothing changes have the same number.
+    number = np.concatenate([[0], np.cumsum((real[1:] != real[:-1]).any(axis=(1, 2)))])
     if not repeats_with_the_balls(scene):
-        return real[: NODES_PER_SAMPLE * samples : NODES_PER_SAMPLE]
-    turned = scene.cage.angle(np.arange(samples) / rate) / bearing.spacing
-    passed = np.floor(turned).astype(np.int64)
-    node = ((turned - passed) * NODES_PER_SPACING).astype(np.int64)
+        node, passed = np.arange(samples) * NODES_PER_SAMPLE, np.zeros(samples, np.int64)
+    else:
+        turned = scene.cage.angle(np.arange(samples) / rate) / bearing.spacing
+        passed = np.floor(turned).astype(np.int64)
+        node = ((turned - passed) * NODES_PER_SPACING).astype(np.int64)
+    moved = (np.diff(number[node]) != 0) | (np.diff(passed) != 0)
+    sample = np.concatenate([[0], 1 + np.flatnonzero(moved)])
     # After `passed` spacings a ball stands where, in the table, the one that many places further on does.
-    ball = (np.arange(bearing.balls) + passed[:, None]) % bearing.balls
-    return np.stack([real[node[:, None], row, ball] for row in range(bearing.rows)], axis=1)
+    place = (np.arange(bearing.balls) + passed[sample, None]) % bearing.balls
+    seen = np.stack([real[node[sample, None], row, place] for row in range(bearing.rows)], axis=1)
+    return changes_between_samples(seen, sample, rate)
 
 
-def linear_response(scene: Scene, rate: float) -> Trace:
+def linear_response(scene: Scene, rate: float, keep: Kept) -> Trace:
     """Response of `scene` at the instants k / rate (Hz), linearised around its quasi-static positions.
 
     Contact changes are those of the quasi-static positions, known to half a sample. Raises SimulationFailed where no
@@ -200,9 +212,10 @@ def linear_response(scene: Scene, rate: float) -> Trace:
     repeats = repeats_with_the_balls(scene)
     width = scene.rig.bearing.spacing / NODES_PER_SPACING if repeats else float(time[1])
     place = Place(contacts.track, scene.rig.bearing.spacing if repeats else 0.0, width)
-    state = np.zeros((samples, 12))
+    acceleration, state = np.zeros((samples, 2)), np.zeros((samples if keep.state else 0, 12))
     series = power_series(motion, 1.0 / (rate * substeps))
-    acceleration = _march(table, place, motion, series, substeps, starting_state(motion, rest.displacement[0]), state)
+    start = starting_state(motion, rest.displacement[0])
+    _march(table, place, motion, series, substeps, start, acceleration, state)
     if not np.isfinite(acceleration).all():
         raise SimulationFailed(
             Outcome.NOT_FINITE, f"the response stopped being finite with steps of {series.step:.3g} s"
@@ -211,13 +224,13 @@ def linear_response(scene: Scene, rate: float) -> Trace:
         rate=rate,
         time=np.arange(samples) / rate,
         acceleration=acceleration,
-        changes=changes_between_samples(_touching(scene, touching, samples, rate), rate),
+        changes=_changes(scene, touching, samples, rate),
         model=LINEAR_TIME_VARYING.name,
         method=METHOD,
         step=series.step,
         error_estimate=math.nan,
         tension_share=math.nan,
-        state=state,
+        state=state if keep.state else None,
     )
 
 

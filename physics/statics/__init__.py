@@ -2,6 +2,6 @@
 
 - `rest`: the place of the shaft; `load_distribution`: what each ball carries there
 - `ball_load`: the same of chosen balls at chosen instants
-- `stiffness`: how the bearing resists; `stiffness_series`: the same over a record, solved at as few
-  instants as will do
+- `stiffness`: how the bearing resists; `rest_series`: places and stiffness over a record, solved at as few instants as
+  will do; `stiffness_series`: what a record has of it
 """

@@ -133,7 +133,8 @@ def test_the_linear_model_follows_loads_that_turn_with_the_shaft(operation, refe
     scene = reference_scene("G0", 0.15)
     scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, **operation))
     assert not repeats_with_the_balls(scene)
-    linear, full = (simulate(scene, RATE, Simpler("linear time-varying")), nonlinear(scene, Kept(state=True)))
+    keep = Kept(state=True)
+    linear, full = (simulate(scene, RATE, Simpler("linear time-varying"), keep=keep), nonlinear(scene, keep))
     later = slice(round(0.05 * RATE), None)
     moved = full.state[later, 0:4] - full.state[0, 0:4]
     assert rms(linear.state[later, 0:4] - full.state[later, 0:4]) < 0.02 * rms(moved)  # hardening of the contacts
@@ -141,7 +142,7 @@ def test_the_linear_model_follows_loads_that_turn_with_the_shaft(operation, refe
 
 def test_the_quasi_static_model_has_the_stiffness_and_loads_of_statics_and_no_vibration(reference_scene):
     scene = reference_scene("G1", 0.05)
-    trace = simulate(scene, RATE, Simpler("quasi-static"))
+    trace = simulate(scene, RATE, Simpler("quasi-static"), keep=Kept(state=True, force=True))
     assert np.all(trace.acceleration == 0.0)
     displacement = trace.state[:, 0:2] - trace.state[:, 2:4]
     stiffness = stiffness_at(scene, trace.time, displacement)
@@ -284,8 +285,24 @@ def test_the_quasi_static_state_moves_as_the_cage_turns_it(reference_scene):
 
 
 def test_contact_changes_between_samples_lie_half_way():
-    touching = np.zeros((4, 1, 2), dtype=bool)
-    touching[2:, 0, 1] = True
-    changes = changes_between_samples(touching, 10.0)
+    touching = np.zeros((3, 1, 2), dtype=bool)
+    touching[1:, 0, 1] = True
+    changes = changes_between_samples(touching, np.array([0, 2, 3]), 10.0)
     assert changes.time.tolist() == [0.15]  # samples at 0.1 and 0.2 s
     assert (changes.row.tolist(), changes.ball.tolist(), changes.made.tolist()) == ([1], [2], [True])
+    assert not changes.initial.any()
+
+
+@pytest.mark.parametrize("name", ["G1", "F1p", "F2r"])
+def test_contact_changes_alone_are_those_of_balls_whose_force_was_kept(name, reference_scene):
+    scene, model = reference_scene(name, 0.1, slip_seed=2), Simpler("quasi-static")
+    alone, kept = (simulate(scene, RATE, model, keep=keep) for keep in (ACCELERATION_ALONE, Kept(force=True)))
+    assert (alone.state, alone.contact_force) == (None, None)
+    touching, changes = kept.contact_force > 0.0, alone.changes
+    sample, row, ball = np.nonzero(touching[1:] != touching[:-1])  # in the order of time
+    assert changes.time == pytest.approx((sample + 0.5) / RATE, rel=1e-12)
+    assert (changes.row - 1).tolist() == row.tolist()
+    assert (changes.ball - 1).tolist() == ball.tolist()
+    assert changes.made.tolist() == touching[sample + 1, row, ball].tolist()
+    assert np.array_equal(changes.initial, touching[0])
+    assert changes.time.size > 10

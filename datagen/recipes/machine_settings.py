@@ -179,6 +179,24 @@ class MachineSettings(Table):
                 )
         return self
 
+    @property
+    def most_rows(self) -> int:
+        """Rows of rolling elements of the bearing with most of them that can be drawn."""
+        return max(possible_words(self.rows) if self.rows is not None else self._of_catalogue("rows"))
+
+    @property
+    def ball_counts(self) -> tuple[int, ...]:
+        """Numbers of rolling elements in a row that can be drawn; none if they follow from how many fit."""
+        if self.fill is not None:
+            return ()
+        return possible_words(self.balls) if self.balls is not None else self._of_catalogue("balls")
+
+    def _of_catalogue(self, number: str) -> tuple[int, ...]:
+        """A number of every bearing that can be drawn; it must be stated where a bearing is drawn number by number."""
+        rigs = possible_words(self.rig)
+        names = possible_words(self.bearing) if self.bearing is not None else [RIGS[rig].bearing for rig in rigs]
+        return tuple(int(getattr(BEARINGS[name], number).value) for name in names)
+
     def _require(self, what: str, groups: tuple[tuple[str, ...], ...]) -> None:
         for group in groups:
             if all(getattr(self, name) is None for name in group):

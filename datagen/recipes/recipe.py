@@ -169,6 +169,12 @@ class Part(Table):
         return self
 
     @model_validator(mode="after")
+    def _can_have_its_spalls(self) -> Part:
+        if self.defect is not None:
+            self.defect.check_against_bearings(self.machine.most_rows, self.machine.ball_counts)
+        return self
+
+    @model_validator(mode="after")
     def _small_enough_a_hypercube(self) -> Part:
         if self.design == "latin_hypercube" and self.records > LARGEST_HYPERCUBE:
             raise refuse(f"a Latin hypercube holds at most {LARGEST_HYPERCUBE} records; sobol any number", "design")

@@ -144,7 +144,7 @@ class OneOf(_Setting):
     options: tuple[str | int | bool, ...]
 
     def allowed(self) -> str:
-        return ", ".join(str(option) for option in self.options)
+        return ", ".join(str(option).lower() if isinstance(option, bool) else str(option) for option in self.options)
 
     def accepts(self, value: Any) -> bool:
         return any(type(option) is type(value) and option == value for option in self.options)
@@ -155,7 +155,10 @@ class OneOf(_Setting):
         return distribution
 
     def _hint(self, value: object) -> str:
-        return self.allowed() + suggestion(str(value), [str(option) for option in self.options])
+        bare = [str(option).lower() for option in self.options if not isinstance(option, str)]
+        if isinstance(value, str) and value.lower() in bare:
+            return f"{self.allowed()}; did you mean {value.lower()}, without quotes?"
+        return self.allowed() + suggestion(str(value), [option for option in self.options if isinstance(option, str)])
 
     def value_schema(self) -> dict[str, Any]:
         return {"enum": list(self.options)}

@@ -12,7 +12,7 @@ from typing import Any
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.index import write_index
-from datagen.corpus_files.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
+from datagen.corpus_files.manifest import Manifest, Span, write_manifest
 from datagen.corpus_files.shard import Failure, Sidecar, finished_shards
 from datagen.files.atomic import NO_SPACE, sweep_temporaries, write_atomically
 from datagen.recipes.recipe import Recipe
@@ -52,7 +52,7 @@ class Summary:
 
 
 class Run:
-    """The records `asked` for, made in `folder`; call make, then finish whatever happened."""
+    """The records `wanted` of all `asked` for so far, made in `folder`; call make, then finish whatever happened."""
 
     def __init__(
         self,
@@ -60,17 +60,17 @@ class Run:
         folder: Path,
         identity: Identity,
         asked: tuple[Span, ...],
+        wanted: tuple[Span, ...],
         listener: Listener,
     ) -> None:
-        earlier = read_manifest(folder) if manifest_path(folder).exists() else None
         self.recipe, self.folder, self.listener = recipe, folder, listener
-        self.wanted = frozenset(record for start, stop in asked for record in range(start, stop))
+        self.wanted = frozenset(record for start, stop in wanted for record in range(start, stop))
         self.manifest = Manifest(
             name=recipe.name,
             identity=identity,
             recipe=recipe.model_dump(mode="json"),
             recipe_records=recipe.count,
-            asked=add_spans(earlier.asked if earlier else (), asked),
+            asked=asked,
             made_with=program_versions(),
         )
         self.errors: dict[int, tuple[PlannedShard, str]] = {}

@@ -16,7 +16,7 @@ from typer.core import TyperGroup
 
 from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, OUTPUT_CLOSED, print_error
-from datagen.spelling import nearest
+from physics.spelling import nearest
 
 # What typer raises for any command line that it cannot read; some of its versions bring their own click.
 UNREADABLE: Any = typer.BadParameter.__mro__[1]

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from datagen.errors import BadInput
 from datagen.settings.toml_lines import Location, line_of
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 MOST_LISTED = 16
 SCALARS = ("str", "float", "int", "bool")

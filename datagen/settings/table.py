@@ -19,7 +19,7 @@ from datagen.distributions.kinds import (
     distribution_schema,
     parse_distribution,
 )
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 
 class Table(BaseModel):

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from physics.bearing import RACES
 from physics.checks import require_between, require_count, require_finite, require_one_of, require_positive
 
+# m, far beyond a race that is still one.
+HIGHEST_WAVE = 1e-2
+
 
 @dataclass(frozen=True)
 class Waviness:
@@ -24,6 +27,7 @@ class Waviness:
         require_one_of("race", self.race, RACES)
         require_count("order", self.order, 1, 2000)
         require_positive("amplitude", self.amplitude, "m")
+        require_between("amplitude", self.amplitude, 0.0, HIGHEST_WAVE, "m", f"amplitude of order {self.order}")
         require_finite("phase", self.phase, "rad")
 
 

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
+from datagen.recipes.operation_settings import Degrees
 from datagen.recipes.profile_table import ProfileTable
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import RACES
@@ -37,7 +38,7 @@ class SpallSettings(Table):
     """Row of the spall; "both" puts the same one on both rows, "any" on one of the bearing's. 1 if not given."""
     count: Annotated[Distribution, Whole(1, 20)] | None = None
     """Spalls on the race. 1 if not given."""
-    angle_deg: Annotated[Distribution, Between()] | None = None
+    angle_deg: Degrees | None = None
     """Centre of the first spall at the start, degrees; 270, in the load zone, if not given."""
     separation_deg: Annotated[Distribution, Between(-360.0, 360.0)] | None = None
     """From the centre of each spall to that of the next, degrees; anywhere if not given."""

@@ -27,11 +27,20 @@ RESONATORS = (
 # The settings that decide each parameter, the likeliest to be wrong first. A parameter that is not here is decided by
 # the settings whose names begin with its own.
 DECIDERS: dict[str, tuple[str, ...]] = {
+    "amplitude": ("amplitude_um", "waviness_scale", "decay"),
     "amplitudes": ("amplitude_m_s2",),
     "angle": ("separation_deg", "count", *EXTENTS),
     "ball_diameter": (*BALL_DIAMETERS, "balls", "fill", *PITCH_DIAMETERS),
     "balls": ("balls", "fill", *BALL_DIAMETERS, *PITCH_DIAMETERS),
     "bits": ("recorder_bits",),
+    "correlation_time": (
+        "slip_correlation_passes",
+        "speed_rpm",
+        "speed_of_rated",
+        "rated_speed_rpm",
+        "duration_s",
+        "settle_s",
+    ),
     "cage": ("mean_slip", "slip_deviation"),
     "cutoff": ("mounting_cutoff_hz",),
     "depth": ("depth_um", "roughness_um"),

@@ -116,6 +116,17 @@ class Between(_Setting):
 
 
 @dataclass(frozen=True)
+class Angle(Between):
+    """An angle in degrees, of so few turns that enough decimals remain; a normal distribution of them has its tails."""
+
+    low: float = -1e6
+    high: float = 1e6
+
+    def confined(self, distribution: Distribution) -> Distribution:
+        return distribution
+
+
+@dataclass(frozen=True)
 class Whole(_Setting):
     """A whole number from `low` to `high`, fixed or chosen from a list."""
 

@@ -19,5 +19,5 @@ def test_the_nearest_word_is_named_and_nothing_where_none_is_near():
 def test_the_catalogue_takes_the_same_words_for_near():
     with pytest.raises(InvalidParameter, match='did you mean "gearbox"'):
         rig("grb")
-    with pytest.raises(InvalidParameter, match="ims$"):
+    with pytest.raises(InvalidParameter, match=r"ims$"):
         rig("gb")

@@ -46,7 +46,8 @@ def generate(
     earlier = earlier_runs(folder, identity).asked
     require_memory(recipe)
     require_possible_rates(recipe, asked)
-    with engaged(engine or Engine()), nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready:
+    engine = (engine or Engine()).for_tasks(sum(stop - start for start, stop in asked))
+    with engaged(engine), nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready:
         # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
         planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)))
         require_room(recipe, planned, folder)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import shutil
 from collections.abc import Callable, Iterator, Sequence
@@ -91,7 +92,7 @@ class Run:
             if problem.errno not in NO_SPACE:
                 raise
             self._rescan()
-            self.problem = self._out_of_space(self._unfinished(planned))
+            self.problem = self._out_of_space(problem, self._unfinished(planned))
 
     def _begin(self) -> None:
         """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
@@ -224,11 +225,16 @@ class Run:
             started.add(shard.number)
             yield self.recipe, folder, shard, self.manifest.identity
 
-    def _out_of_space(self, todo: Sequence[PlannedShard]) -> str:
+    def _out_of_space(self, problem: OSError, todo: Sequence[PlannedShard]) -> str:
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
+        largest = max((needed_bytes([shard]) for shard in todo), default=0.0)
+        cause, needed = {
+            errno.EFBIG: ("files may not be as large as a shard here (ulimit -f)", f"files of {for_people(largest)}"),
+            errno.EDQUOT: ("the quota of this disk is used up", for_people(needed_bytes(todo))),
+        }.get(problem.errno or 0, ("the disk is full", f"{for_people(missing)} more"))
         return (
-            f"the disk is full: {sum(len(shard.records) for shard in todo)} records have not been made, and about "
-            f"{for_people(missing)} more are needed; finished shards are kept; the same command continues from there"
+            f"{cause}: {sum(len(shard.records) for shard in todo)} records have not been made, and about {needed} are "
+            "needed; finished shards are kept; the same command continues from there"
         )
 
     def _failures(self) -> list[Failure]:

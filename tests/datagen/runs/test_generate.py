@@ -256,7 +256,7 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
     [
         (
             errno.EFBIG,
-            "files may not be as large as a shard here (ulimit -f): 14 records have not been made, and about",
+            "files may not be as large as a shard here (ulimit -f): 14 records have not been made",
         ),
         (errno.EDQUOT, "the quota of this disk is used up: 14 records have not been made, and about"),
     ],

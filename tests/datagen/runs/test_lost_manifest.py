@@ -111,7 +111,7 @@ def test_commands_that_read_a_corpus_say_how_it_is_written_anew(damage: str, com
     code, _, told = run(command, copy, *more)
     assert code == 2
     assert told.count("\n") == 1
-    assert f"`spallgen generate` with its recipe and --out {copy} writes it anew" in told
+    assert f"`spallgen generate` with its recipe and --out {copy}, by the version that made it, writes it anew" in told
 
 
 def test_a_lost_index_is_told_likewise_and_written_anew(tiny: Recipe, copy: Path) -> None:

@@ -17,8 +17,8 @@ from datagen.scenarios.redraw import Refused, add_refused
 
 Span = tuple[int, int]
 ANEW = (
-    "`spallgen generate` with its recipe and --out {folder}, by the version that made it, writes it anew from what lies "
-    "beside its shards (a corpus of recordings: import it again)"
+    "`spallgen generate` with its recipe and --out {folder}, by the version that made it, writes it anew from what "
+    "lies beside its shards (a corpus of recordings: import it again)"
 )
 
 

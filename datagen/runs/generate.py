@@ -49,7 +49,7 @@ def generate(
     engine = (engine or Engine()).for_tasks(sum(stop - start for start, stop in asked))
     with engaged(engine), nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready:
         # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
-        planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)))
+        planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)), listener.say)
         require_room(recipe, planned, folder)
         _make_folder(folder)
         with locked(folder):

@@ -123,3 +123,11 @@ def test_a_lost_index_is_told_likewise_and_written_anew(tiny: Recipe, copy: Path
     )
     generate(tiny, copy, engine=ALONE)
     assert (copy / "index.csv").read_text() == before
+
+
+def test_a_folder_in_the_place_of_the_index_is_told_by_its_name(copy: Path, tiny_recipe: Path) -> None:
+    (copy / "index.csv").unlink()
+    (copy / "index.csv").mkdir()
+    code, _, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
+    assert code == 2
+    assert told.endswith(f"error: {copy / 'index.csv'}: Is a directory\n")

@@ -9,6 +9,6 @@
   against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
-- what all of them use: `errors` and `spelling` (what a person wrote, refused), `telling` (how far a command has got),
+- what all of them use: `errors` (what a person wrote, refused), `telling` (how far a command has got),
   `exits` (how programs end), `own_code` (of users), `versions`, `scored_runs` (their log)
 """

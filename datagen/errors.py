@@ -21,10 +21,15 @@ class BadInput(Exception):
         self.allowed = allowed
 
     def __str__(self) -> str:
-        setting = self.field if self.value is None else f"{self.field} = {_shown(self.value)}"
+        setting = setting_text(self.field, self.value)
         line = ": ".join(part for part in (self.file, setting, self.problem) if part)
         line += f"; allowed: {self.allowed}" if self.allowed else ""
         return " ".join(line.split())
+
+
+def setting_text(field: str, value: object) -> str:
+    """A setting as TOML would have it, a long value cut short; the name alone where there is nothing to show (None)."""
+    return field if value is None else f"{field} = {_shown(value)}"
 
 
 def _shown(value: object) -> str:

@@ -22,8 +22,10 @@ HEAD = """# Every key of a recipe
 Written by `docs/make_recipe_keys.py` from the settings themselves (`datagen/recipes/`), by which recipes are checked.
 [datasets/README.md](../datasets/README.md) says how to write one. A unit is the end of a key and stands
 in its meaning. *Drawn* marks what may be drawn from a distribution, `{uniform = [4, 25]}` and the like, and must be in
-that range however it is drawn. A key without a default may be left out unless it is **required**; what holds then is in
-its meaning, in `[part.machine]` the rig's number in the catalogue, and where nothing is said there is none of it.
+that range however it is drawn. Where no other reason is given, a range reaches far beyond all machines; past its ends
+numbers overflow, lose their decimals or no longer fit what is stored. A key without a default may be left out unless it
+is **required**; what holds then is in its meaning, in `[part.machine]` the rig's number in the catalogue, and where
+nothing is said there is none of it.
 """
 TOP = "top level"
 

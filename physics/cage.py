@@ -13,6 +13,7 @@ from scipy.interpolate import CubicSpline, PPoly
 from physics.checks import require, require_between, require_finite, require_not_negative, require_positive
 
 KNOTS_PER_CORRELATION_TIME = 4
+MOST_KNOTS = 10_000_000  # a tenth of a gigabyte and some seconds of work
 LARGEST_SLIP = 0.5
 INTERPOLATION_RULE = (
     "slip s(t) is the natural cubic spline through the knots (scipy.interpolate.CubicSpline(t, s, bc_type='natural')); "
@@ -147,14 +148,21 @@ def draw_slip_knots(
     They cover −`lead_in` to `duration` (s). The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck)
     sequence, four per correlation time, scaled so that the spline through them has the stated deviation on average;
     they are rounded to 1e-12 so that their decimal text is exact. InvalidParameter unless the correlation time is above
-    0 and neither deviation nor lead-in below it.
+    0, neither deviation nor lead-in below it, and the knots fewer than MOST_KNOTS.
     """
     require_not_negative("deviation", deviation)
     require_positive("correlation_time", correlation_time, "s")
     require_not_negative("lead_in", lead_in, "s")
     step = correlation_time / KNOTS_PER_CORRELATION_TIME
     start = -2.0 * step - lead_in
-    count = math.ceil((duration - start) / step) + 3
+    needed = (duration - start) / step
+    require(
+        needed < MOST_KNOTS,
+        f"the slip needs {needed:.3g} knots, {KNOTS_PER_CORRELATION_TIME} for each correlation time of "
+        f"{correlation_time:.3g} s over {duration - start:.3g} s; allowed: up to {MOST_KNOTS:.3g}",
+        "correlation_time",
+    )
+    count = math.ceil(needed) + 3
     correlation = math.exp(-1.0 / KNOTS_PER_CORRELATION_TIME)
     noise = generator.standard_normal(count)
     values = np.empty(count)

@@ -7,14 +7,17 @@ from dataclasses import dataclass
 from physics.bearing import RACES
 from physics.checks import require_between, require_count, require_finite, require_one_of, require_positive
 
+# m, far beyond a race that is still one.
+HIGHEST_WAVE = 1e-2
+
 
 @dataclass(frozen=True)
 class Waviness:
     """One harmonic of a race: depth(ψ) = amplitude · cos(order · ψ + phase), ψ the angle on that race at t = 0.
 
     Positive depth is material missing (it relieves the ball), like the depth of a spall. Applies to every row.
-    InvalidParameter unless `race` is "outer" or "inner", `order` a whole number from 1 to 2000 and the amplitude above
-    0.
+    InvalidParameter unless `race` is "outer" or "inner", `order` a whole number from 1 to 2000 and the amplitude above 0,
+    10 mm at most.
     """
 
     race: str
@@ -26,6 +29,7 @@ class Waviness:
         require_one_of("race", self.race, RACES)
         require_count("order", self.order, 1, 2000)
         require_positive("amplitude", self.amplitude, "m")
+        require_between("amplitude", self.amplitude, 0.0, HIGHEST_WAVE, "m", f"amplitude of order {self.order}")
         require_finite("phase", self.phase, "rad")
 
 

@@ -9,6 +9,8 @@ from physics.checks import require_between, require_finite, require_not_negative
 
 # One revolution per minute, rad/s.
 RPM = 2.0 * math.pi / 60.0
+# N, far beyond all bearings.
+HEAVIEST_LOAD = 1e7
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,7 @@ class Operation:
 
     def __post_init__(self) -> None:
         require_positive("shaft_speed", self.shaft_speed, "rad/s")
-        require_between("load", self.load, -1e7, 1e7, "N")
+        require_between("load", self.load, -HEAVIEST_LOAD, HEAVIEST_LOAD, "N")
         require_not_negative("unbalance_force", self.unbalance_force, "N")
         require_finite("unbalance_phase", self.unbalance_phase, "rad")
         require_between("load_fluctuation", self.load_fluctuation, 0.0, 10.0)

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe_files import shipped_recipes
-from datagen.spelling import suggestion
 from physics.operation import RPM
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene, slipping
 from physics.scene import Scene
+from physics.spelling import suggestion
 
 RATE = 65536.0
 LONGEST = 0.5

@@ -78,7 +78,8 @@ def command(
             except BrokenPipeError:  # the program's to handle
                 raise
             except OSError as problem:
-                print_error(f"{problem.filename or 'the output'}: {problem.strerror}")
+                # Of a file that is put in the place of another the first name is that of a temporary one.
+                print_error(f"{problem.filename2 or problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt as stop:
                 complain(f"interrupted; {kept}")

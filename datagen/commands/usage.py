@@ -16,7 +16,7 @@ from typer.core import TyperGroup
 
 from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, OUTPUT_CLOSED, print_error
-from datagen.spelling import nearest
+from physics.spelling import nearest
 
 # What typer raises for any command line that it cannot read; some of its versions bring their own click.
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
@@ -30,6 +30,7 @@ class Program(TyperGroup):
         """The context of a run with these `args`; those of the command are kept for messages."""
         self._given = [str(part) for part in args]
         with self._told():
+            _refuse_empty(self._given)
             return super().make_context(info_name, args, *more, **extra)
 
     def invoke(self, ctx: Any) -> Any:
@@ -69,6 +70,22 @@ class Program(TyperGroup):
             return BadInput(said, field=word, allowed=", ".join(self.commands))
         said = problem.format_message().rstrip(".")
         return BadInput(said[:1].lower() + said[1:], field=str(context.info_name), allowed=_usage(context))
+
+
+def _refuse_empty(given: Sequence[str]) -> None:
+    """Tell of an empty value, as of a variable of the shell that is not set: as a path it would be the current folder.
+
+    Raises typer.Exit.
+    """
+    for before, part in zip(("", *given), given, strict=False):
+        if part.startswith("--") and part.endswith("="):
+            field = part[:-1]
+        elif not part:
+            field = before if before.startswith("-") else "an argument"
+        else:
+            continue
+        print_error(BadInput(field=field, value="", allowed="a value that is not empty"))
+        raise typer.Exit(BAD_INPUT)
 
 
 def _of_parameter(problem: Any, command: Any, parameter: Any, given: Sequence[str]) -> BadInput:

@@ -9,13 +9,21 @@ from pathlib import Path
 from typing import Any
 
 from datagen.corpus_files.format import FORMAT, IMPORTED, SIMULATED, Identity
-from datagen.corpus_files.shard import Failure, Sidecar, shard_path
+from datagen.corpus_files.shard import Failure, Sidecar, has_finished_shards, shard_path
 from datagen.corpus_files.stated import UNREADABLE, amount, row, text, whole
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.scenarios.redraw import Refused, add_refused
 
 Span = tuple[int, int]
+ANEW = (
+    "`spallgen generate` with its recipe and --out {folder}, by the version that made it, writes it anew from what "
+    "lies beside its shards (a corpus of recordings: import it again)"
+)
+
+
+class DamagedManifest(BadInput):
+    """A manifest that can be opened and is none: cut short, or changed by somebody."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +107,8 @@ def write_manifest(folder: Path, manifest: Manifest) -> None:
 
 
 def read_manifest(folder: Path) -> Manifest:
-    """The manifest of the corpus `folder`; raises BadInput if there is none or it cannot be read."""
+    """The manifest of the corpus `folder`; raises BadInput if there is none or it cannot be opened, DamagedManifest if
+    it is damaged."""
     path = manifest_path(folder)
     try:
         found = json.loads(path.read_text())
@@ -120,7 +129,9 @@ def read_manifest(folder: Path) -> Manifest:
     except (FileNotFoundError, NotADirectoryError):
         raise no_corpus(folder, path.name) from None
     except UNREADABLE as problem:
-        raise BadInput(f"not a manifest of a corpus: {_in_words(problem)}", str(path)) from None
+        kind = BadInput if isinstance(problem, OSError) else DamagedManifest
+        remedy = f"; {ANEW.format(folder=folder)}" if kind is DamagedManifest and has_finished_shards(folder) else ""
+        raise kind(f"not a manifest of a corpus: {_in_words(problem)}{remedy}", str(path)) from None
 
 
 def no_corpus(folder: Path, lacking: str) -> BadInput:
@@ -129,6 +140,8 @@ def no_corpus(folder: Path, lacking: str) -> BadInput:
         return BadInput("no such folder", str(folder), allowed="the folder of a corpus")
     if not folder.is_dir():
         return BadInput("this is not a folder", str(folder), allowed="the folder of a corpus")
+    if has_finished_shards(folder):
+        return BadInput(f"the {lacking} of this corpus is lost; {ANEW.format(folder=folder)}", str(folder))
     return BadInput(f"this folder has no {lacking}, so it is not a corpus, or its making was interrupted", str(folder))
 
 

@@ -156,3 +156,8 @@ def finished_shards(folder: Path) -> Iterator[Sidecar]:
         sidecar = read_sidecar(path)
         if sidecar is not None and is_whole(folder, sidecar):
             yield sidecar
+
+
+def has_finished_shards(folder: Path) -> bool:
+    """True if the corpus `folder` holds a finished shard."""
+    return next(finished_shards(folder), None) is not None

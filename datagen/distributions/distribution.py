@@ -40,6 +40,16 @@ class Distribution(ABC):
     def stated(self) -> tuple[Any, ...]:
         """The values a recipe states of it: these must be allowed for the setting."""
 
+    @property
+    def lowest(self) -> float:
+        """The smallest number that it is known to give."""
+        return float(min(self.stated()))
+
+    @property
+    def highest(self) -> float:
+        """The largest number that it is known to give."""
+        return float(max(self.stated()))
+
     @abstractmethod
     def to_toml(self) -> object:
         """The bare value or inline table that gives this distribution back."""

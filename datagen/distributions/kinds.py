@@ -20,7 +20,7 @@ from typing import Any
 from datagen.distributions.choices import Balanced, Choice
 from datagen.distributions.distribution import Distribution, DistributionError, Fixed, Value
 from datagen.distributions.ranges import LogUniform, Normal, Uniform
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 __all__ = [
     "DISTRIBUTIONS",

@@ -108,6 +108,16 @@ class Normal(Distribution):
         drawn = self.mean - self.deviation * float(ndtri(min(max(above, SMALLEST_PROBABILITY), 1.0 - 2.0**-53)))
         return min(max(drawn, self.low), self.high)
 
+    @property
+    def lowest(self) -> float:
+        """Where it is cut off, or the mean if that lies so far out that no draw comes near."""
+        return self.low if self._share_above(self.low) < 1.0 - SMALLEST_PROBABILITY else self.mean
+
+    @property
+    def highest(self) -> float:
+        """Where it is cut off, or the mean if that lies so far out that no draw comes near."""
+        return self.high if self._share_above(self.high) > SMALLEST_PROBABILITY else self.mean
+
     def stated(self) -> tuple[float, ...]:
         bounds = tuple(bound for bound in (self.low, self.high) if math.isfinite(bound))
         return bounds if len(bounds) == 2 else (*bounds, self.mean)

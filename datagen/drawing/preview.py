@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.corpus_files.manifest import manifest_path, read_manifest
+from datagen.corpus_files.manifest import manifest_path, no_corpus, read_manifest
+from datagen.corpus_files.shard import has_finished_shards
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.files.places import require_file
@@ -50,6 +51,8 @@ def preview_png(source: str | Path, record: int) -> tuple[bytes, dict[str, Any]]
 
     folder = Path(source)
     if folder.is_dir() and not (manifest_path(folder).exists() or (folder / FILE_NAME).exists()):
+        if has_finished_shards(folder):
+            raise no_corpus(folder, manifest_path(folder).name)
         problem = f"neither a corpus ({manifest_path(folder).name}) nor a recipe ({FILE_NAME}) is in this folder"
         raise BadInput(problem, str(folder))
     if manifest_path(folder).is_file() and read_manifest(folder).imported:

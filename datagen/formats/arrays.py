@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.formats.csv_file import Columns
 from datagen.formats.placeholders import filled
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 Arrays = Mapping[str, NDArray[Any]]
 INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")

@@ -7,14 +7,15 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
+from datagen.recipes.machine_settings import Frequency
 from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.settings.table import Between, Table, Whole, at_most_one, refuse, rising
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
 from physics.backgrounds.impulses import MOST_PER_SECOND
 from physics.backgrounds.pink import STEEPEST
 
-Positive = Annotated[Distribution, Between(0.0, above=True)]
-NotNegative = Annotated[Distribution, Between(0.0)]
+# Up to a hundred thousand times gravity: more than any accelerometer takes. Far more would not fit what is stored.
+Acceleration = Annotated[Distribution, Between(0.0, 1e6)]
 Share = Annotated[Distribution, Between(0.0, 1.0)]
 Decay = Annotated[Distribution, Between(-4.0, 8.0)]
 Order = Annotated[int, Field(ge=1, le=1000)]
@@ -24,9 +25,9 @@ Lines = Annotated[int, Field(ge=1, le=200)]
 class PinkSettings(Table):
     """Noise that falls with frequency."""
 
-    rms_m_s2: NotNegative
+    rms_m_s2: Acceleration
     """Standard deviation on each axis from lowest_hz to half the sampling rate, m/s²."""
-    lowest_hz: Positive = Fixed(1.0)
+    lowest_hz: Frequency = Fixed(1.0)
     """Frequency below which there is none, Hz."""
     slope: Annotated[Distribution, Between(0.0, STEEPEST)] = Fixed(1.0)
     """Power density falls as frequency to minus this."""
@@ -37,7 +38,7 @@ class ShaftSettings(Table):
 
     orders: Annotated[tuple[Order, Order], AfterValidator(rising)] = Field(default=(1, 4), strict=False)
     """First and last multiple."""
-    amplitude_m_s2: NotNegative
+    amplitude_m_s2: Acceleration
     """Amplitude of the first order on each axis, m/s²; drawn anew for each order."""
     decay: Decay = Fixed(1.0)
     """The amplitude of order k is multiplied by (first order / k) to this power."""
@@ -50,7 +51,7 @@ class GearSettings(Table):
     """Teeth of the gear on the bearing's shaft."""
     other_teeth: Annotated[Distribution, Whole(0, MOST_TEETH)] = Fixed(0)
     """Teeth of the other gear, which sets its shaft's speed; 0: it makes no sidebands."""
-    amplitude_m_s2: NotNegative
+    amplitude_m_s2: Acceleration
     """Amplitude of the mesh frequency on each axis, m/s²; drawn anew for each harmonic."""
     harmonics: Lines = 3
     """Harmonics of the mesh frequency."""
@@ -67,9 +68,9 @@ class GearSettings(Table):
 class HumSettings(Table):
     """Tones at whole multiples of the mains frequency."""
 
-    frequency_hz: Positive = Fixed(50.0)
+    frequency_hz: Frequency = Fixed(50.0)
     """Mains frequency, Hz."""
-    amplitude_m_s2: NotNegative
+    amplitude_m_s2: Acceleration
     """Amplitude of the mains frequency on each axis, m/s²; drawn anew for each harmonic."""
     harmonics: Lines = 4
     """Harmonics, the mains frequency itself counted."""
@@ -82,13 +83,13 @@ class ImpulseSettings(Table):
 
     per_second: Annotated[Distribution, Between(0.0, MOST_PER_SECOND)]
     """Knocks a second on average."""
-    amplitude_m_s2: NotNegative
+    amplitude_m_s2: Acceleration
     """Median height of a knock, m/s²."""
     spread: Annotated[Distribution, Between(0.0, 5.0)] = Fixed(0.5)
     """Standard deviation of the natural logarithm of the height."""
     resonances: Annotated[Distribution, Whole(1, 20)] = Fixed(2)
     """Number of resonances."""
-    frequency_hz: Positive
+    frequency_hz: Frequency
     """Natural frequency of each, Hz, below half the sampling rate."""
     damping: Annotated[Distribution, Between(0.0, 0.7, above=True)] = Uniform(0.01, 0.05)
     """Damping of each, as a share of the critical."""
@@ -97,7 +98,7 @@ class ImpulseSettings(Table):
 class BackgroundSettings(Table):
     """Layers that belong to the virtual machine, the same in all its records, in absolute units."""
 
-    white_rms_m_s2: NotNegative = Fixed(0.0)
+    white_rms_m_s2: Acceleration = Fixed(0.0)
     """Standard deviation of white noise on each axis, from 0 to half the sampling rate, m/s²."""
     pink: PinkSettings | None = None
     """Noise that falls with frequency."""

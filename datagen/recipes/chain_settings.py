@@ -7,13 +7,13 @@ from typing import Annotated
 from pydantic import Field
 
 from datagen.distributions.kinds import Distribution, Fixed
+from datagen.recipes.machine_settings import Frequency
 from datagen.settings.table import Between, Table, Whole
 from physics.sensor.mode import HIGHEST_DAMPING
 from physics.sensor.mounting import HIGHEST_ORDER
 
 MOST_MODES = 50
-Positive = Annotated[Distribution, Between(0.0, above=True)]
-NotNegative = Annotated[Distribution, Between(0.0)]
+Gain = Annotated[Distribution, Between(0.0, 1e6)]
 
 
 class ModeSettings(Table):
@@ -21,24 +21,24 @@ class ModeSettings(Table):
 
     count: Annotated[Distribution, Whole(0, MOST_MODES)] = Fixed(1)
     """Number of resonances."""
-    frequency_hz: Positive
+    frequency_hz: Frequency
     """Natural frequency of each, Hz, below half the sampling rate."""
     damping: Annotated[Distribution, Between(0.0, HIGHEST_DAMPING, above=True)]
     """Damping of each, as a share of the critical."""
-    gain: NotNegative = Fixed(1.0)
+    gain: Gain = Fixed(1.0)
     """Gain of each: 1 measures the mass that the outer ring shakes."""
 
 
 class ChainSettings(Table):
     """The measurement chain, drawn once for each virtual machine; the paper's resonator alone if nothing is said."""
 
-    resonator_gain: NotNegative = Fixed(1.0)
+    resonator_gain: Gain = Fixed(1.0)
     """Factor of the resonator's acceleration."""
-    mounting_cutoff_hz: Positive | None = None
+    mounting_cutoff_hz: Frequency | None = None
     """Frequency at which the mounting passes half the power, Hz; no low-pass if not given."""
     mounting_order: Annotated[Distribution, Whole(1, HIGHEST_ORDER)] = Fixed(6)
     """Order of the mounting's Butterworth low-pass; no effect without mounting_cutoff_hz."""
-    recorder_range_m_s2: Positive | None = None
+    recorder_range_m_s2: Annotated[Distribution, Between(1e-6, 1e9)] | None = None
     """Largest acceleration that the recorder holds, m/s²; no rounding and no clipping if not given."""
     recorder_bits: Annotated[Distribution, Whole(2, 32)] = Fixed(16)
     """Bits of the recorder over its range on both sides of zero; no effect without recorder_range_m_s2."""

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+import math
+from collections.abc import Callable
+from functools import cached_property, partial
 from itertools import product
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
+from datagen.recipes.operation_settings import Degrees
 from datagen.recipes.profile_table import ProfileTable
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import RACES
+from physics.spall import ROUNDING
 
 EXTENTS = ("extent_deg", "extent_mm", "extent_spacing")
 ENTRY_TAPERS = ("entry_taper_deg", "entry_taper_share")
@@ -21,6 +25,7 @@ Arc = Annotated[Distribution, Between(0.0, 180.0, above=True)]
 TaperArc = Annotated[Distribution, Between(0.0, 180.0)]
 Share = Annotated[Distribution, Between(0.0, 1.0)]
 Combination = tuple[str, str, str]
+PlaceOf = Callable[[str], str]
 FILE_SCHEMA = {"type": "string"}
 ANYWHERE = Uniform(0.0, 360.0)
 IN_THE_LOAD_ZONE = Fixed(270.0)
@@ -33,7 +38,7 @@ class SpallSettings(Table):
     """Row of the spall; "both" puts the same one on both rows, "any" on one of the bearing's. 1 if not given."""
     count: Annotated[Distribution, Whole(1, 20)] | None = None
     """Spalls on the race. 1 if not given."""
-    angle_deg: Annotated[Distribution, Between()] | None = None
+    angle_deg: Degrees | None = None
     """Centre of the first spall at the start, degrees; 270, in the load zone, if not given."""
     separation_deg: Annotated[Distribution, Between(-360.0, 360.0)] | None = None
     """From the centre of each spall to that of the next, degrees; anywhere if not given."""
@@ -111,12 +116,43 @@ class DefectSettings(SpallSettings):
             merged = _replaced(merged, _given(getattr(self, word, None)) if word != "table" else {})
         return SpallSettings.model_construct(**merged)
 
+    def place_of(self, combination: Combination, field: str) -> str:
+        """Where the `field` that holds for a combination is written: alone, or after the table that refines it."""
+        tables = [word for word in combination if getattr(getattr(self, word, None), field, None) is not None]
+        return f"{tables[-1]}.{field}" if tables else field
+
+    def check_against_bearings(self, most_rows: int, ball_counts: tuple[int, ...]) -> None:
+        """Raise PydanticCustomError for spalls that no bearing of a part can have.
+
+        Its bearings have up to `most_rows` rows, each of one of `ball_counts` rolling elements (none: not known yet).
+        """
+        for combination, spall in self.refined.items():
+            place = partial(_within_defect, self, combination)
+            if most_rows == 1 and spall.row is not None and set(possible_words(spall.row)) <= {2, "both"}:
+                raise refuse("no bearing of this part has a second row", place("row"), "1, any")
+            if spall.extent_deg is not None and ball_counts:
+                _check_reach(spall.extent_deg, combination[0], ball_counts, place("extent_deg"))
+
     @model_validator(mode="after")
     def _complete(self) -> DefectSettings:
-        for (condition, race, profile), spall in self.refined.items():
+        for combination, spall in self.refined.items():
+            condition, race, profile = combination
             where = f"{condition} spall, {race} race, profile {profile}"
-            _check_shape(spall, profile, where)
+            _check_shape(spall, where, condition, profile, partial(self.place_of, combination))
         return self
+
+
+def _within_defect(defect: DefectSettings, combination: Combination, field: str) -> str:
+    return f"defect.{defect.place_of(combination, field)}"
+
+
+def _check_reach(extent: Distribution, condition: str, ball_counts: tuple[int, ...], field: str) -> None:
+    """A line spall, of an extent in degrees, is shorter than the ball spacing of some bearing, an extended one not."""
+    widest, narrowest = 360.0 / min(ball_counts), 360.0 / max(ball_counts)
+    if condition == "line" and min(extent.stated()) >= widest:
+        raise refuse("a line spall is shorter than the ball spacing", field, f"below {widest:.6g}")
+    if condition == "extended" and max(extent.stated()) < narrowest * (1.0 - ROUNDING):
+        raise refuse("an extended spall is at least as long as the ball spacing", field, f"{narrowest:.6g} or more")
 
 
 def _given(table: BaseModel | None) -> dict[str, Any]:
@@ -130,24 +166,62 @@ def _replaced(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in base.items() if name not in dropped} | over
 
 
-def _check_shape(spall: SpallSettings, profile: str, where: str) -> None:
-    extents = [name for name in EXTENTS if getattr(spall, name) is not None]
+def _check_shape(spall: SpallSettings, where: str, condition: str, profile: str, place: PlaceOf) -> None:
+    """Raise PydanticCustomError for what can be no spall of that condition and profile, whatever is drawn.
+
+    `where` says in words which spall it is, `place` where one of its settings is written.
+    """
+    _check_separation(spall, where, place)
     if profile == "table":
         if spall.table is None:
-            raise refuse(f"{where} needs a file of the measured surface", "table")
+            raise refuse(f"{where} needs a file of the measured surface", place("table"))
         return
-    if not extents:
-        raise refuse(f"{where} has no size", "extent_deg", f"one of {', '.join(EXTENTS)}")
+    if all(getattr(spall, name) is None for name in EXTENTS):
+        raise refuse(f"{where} has no size", place("extent_deg"), f"one of {', '.join(EXTENTS)}")
     if spall.depth_um is None:
-        raise refuse(f"{where} has no depth", "depth_um")
+        raise refuse(f"{where} has no depth", place("depth_um"))
     if max(spall.depth_um.stated()) == 0.0 and (spall.roughness_um is None or max(spall.roughness_um.stated()) == 0.0):
         raise refuse(
-            f"{where} with neither depth nor roughness is none", "depth_um", "above 0, or a roughness_um above 0"
+            f"{where} with neither depth nor roughness is none",
+            place("depth_um"),
+            "above 0, or a roughness_um above 0",
         )
-    _check_tapers(spall)
+    _check_size(spall, where, condition, place)
+    _check_tapers(spall, place)
 
 
-def _check_tapers(spall: SpallSettings) -> None:
+def _check_size(spall: SpallSettings, where: str, condition: str, place: PlaceOf) -> None:
+    """A line spall is shorter than the ball spacing, an extended one is not."""
+    if spall.extent_spacing is not None:
+        shortest, longest = min(spall.extent_spacing.stated()), max(spall.extent_spacing.stated())
+        if condition == "line" and shortest >= 1.0:
+            raise refuse(f"{where}: {shortest:g} is no line spall", place("extent_spacing"), "below 1 ball spacing")
+        if condition == "extended" and longest < 1.0:
+            raise refuse(
+                f"{where}: {longest:g} is no extended spall", place("extent_spacing"), "at least 1 ball spacing"
+            )
+
+
+def _check_separation(spall: SpallSettings, where: str, place: PlaceOf) -> None:
+    """Several spalls, each a fixed arc further than the one before, must not come to lie on one another."""
+    count, step = spall.count, spall.separation_deg
+    if count is None or not isinstance(step, Fixed):
+        return
+    extent = min(spall.extent_deg.stated()) if spall.extent_deg is not None else 0.0
+    for steps in range(1, min(count.stated())):
+        apart = abs(math.remainder(steps * float(step.value), 360.0))
+        if apart < max(extent * (1.0 - ROUNDING), ROUNDING):
+            raise refuse(
+                f"{where}: spalls 1 and {1 + steps} of {min(count.stated())} overlap, as their centres are {apart:g} "
+                f"degrees apart",
+                place("separation_deg"),
+                f"such that the centres of all are at least {extent:g} degrees apart"
+                if extent
+                else "such that no two centres coincide",
+            )
+
+
+def _check_tapers(spall: SpallSettings, place: PlaceOf) -> None:
     largest = max(spall.extent_deg.stated()) if spall.extent_deg is not None else None
     shares = 0.0
     for arc_field, share_field in (ENTRY_TAPERS, EXIT_TAPERS):
@@ -156,11 +230,13 @@ def _check_tapers(spall: SpallSettings) -> None:
             shortest = min(arc.stated())
             if shortest > largest:
                 raise refuse(
-                    f"{shortest:g} is longer than the spall, extent_deg = {largest:g}", arc_field, f"0 to {largest:g}"
+                    f"{shortest:g} is longer than the spall, extent_deg = {largest:g}",
+                    place(arc_field),
+                    f"0 to {largest:g}",
                 )
             shares += shortest / largest
         elif share is not None:
             shares += min(share.stated())
-    if shares > 1.0 + 1e-12:
+    if shares > 1.0 + ROUNDING:
         field = next(name for name in (*EXIT_TAPERS, *ENTRY_TAPERS) if getattr(spall, name) is not None)
-        raise refuse("entry and exit taper together are longer than the spall", field, "at most the whole spall")
+        raise refuse("entry and exit taper together are longer than the spall", place(field), "at most the whole spall")

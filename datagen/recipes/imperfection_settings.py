@@ -7,10 +7,11 @@ from typing import Annotated
 from pydantic import AfterValidator, Field
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.recipes.machine_settings import Degrees, NotNegative
+from datagen.recipes.operation_settings import Degrees
 from datagen.settings.table import Between, OneOf, Table, rising
 from physics.bearing import RACES
 
+Scale = Annotated[Distribution, Between(0.0, 1e3)]
 Order = Annotated[int, Field(ge=1, le=2000)]
 
 
@@ -21,8 +22,9 @@ class WavinessSettings(Table):
     """The wavy race."""
     orders: Annotated[tuple[Order, Order], AfterValidator(rising)] = Field(strict=False)
     """First and last order (waves round the race)."""
-    amplitude_um: NotNegative
-    """Amplitude of the first order, µm; drawn anew for each order."""
+    amplitude_um: Annotated[Distribution, Between(0.0, 1e3)]
+    """Amplitude of the first order, µm; drawn anew for each order. With decay and waviness_scale none may come to more
+    than 10 mm, beyond which a race is no circle."""
     decay: Annotated[Distribution, Between(-4.0, 4.0)] = Fixed(1.0)
     """The amplitude of order k is multiplied by (first order / k) to this power."""
     phase_deg: Degrees = Uniform(0.0, 360.0)
@@ -36,7 +38,7 @@ class ImperfectionSettings(Table):
     """Waviness of the races."""
     ball_deviation_um: Annotated[Distribution, Between(-1000.0, 1000.0)] = Fixed(0.0)
     """Diameter of each ball minus the nominal one, µm; drawn for each ball."""
-    waviness_scale: NotNegative = Fixed(1.0)
+    waviness_scale: Scale = Fixed(1.0)
     """Factor on every amplitude of a machine's waviness."""
-    ball_deviation_scale: NotNegative = Fixed(1.0)
-    """Factor on every ball deviation of a machine."""
+    ball_deviation_scale: Scale = Fixed(1.0)
+    """Factor on every ball deviation of a machine; none may come to more than 1 mm."""

@@ -7,19 +7,22 @@ from typing import Annotated
 from pydantic import model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
+from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM, Degrees
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import SMALLEST_CONFORMITY
 from physics.catalog import BEARINGS, RIGS
+from physics.operation import HEAVIEST_LOAD
 
 DRAWN = "drawn"
 # Ranges far beyond all machines, within which numbers of physics neither overflow nor vanish.
-Positive = Annotated[Distribution, Between(1e-9, 1e15)]
+Stiffness = Annotated[Distribution, Between(1.0, 1e13)]
+Damping = Annotated[Distribution, Between(0.0, 1e9)]
+LoadDeflection = Annotated[Distribution, Between(1e3, 1e13)]
 DiameterMm = Annotated[Distribution, Between(0.1, 1e5)]
 Mass = Annotated[Distribution, Between(1e-6, 1e7)]
 Frequency = Annotated[Distribution, Between(1e-3, 1e7)]
 Factor = Annotated[Distribution, Between(1e-6, 1e6)]
-NotNegative = Annotated[Distribution, Between(0.0, 1e15)]
-Degrees = Annotated[Distribution, Between()]
+NotNegativeFactor = Annotated[Distribution, Between(0.0, 1e6)]
 Conformity = Annotated[Distribution, Between(SMALLEST_CONFORMITY, 1e3)]
 DampingRatio = Annotated[Distribution, Between(0.0, 2.0)]
 # Of each group at most one may be given, and a drawn bearing or rig needs one.
@@ -56,7 +59,7 @@ class FactorSettings(Table):
     """Factor on the diameter of a rolling element."""
     load_deflection: Factor | None = None
     """Factor on K, after K has followed the geometry."""
-    clearance: NotNegative | None = None
+    clearance: NotNegativeFactor | None = None
     """Factor on the radial clearance."""
     inner_mass: Factor | None = None
     """Factor on the mass of inner ring and shaft."""
@@ -66,13 +69,13 @@ class FactorSettings(Table):
     """Factor on the mass of the resonator."""
     support_stiffness: Factor | None = None
     """Factor on the stiffness of the support along x and y."""
-    support_damping: NotNegative | None = None
+    support_damping: NotNegativeFactor | None = None
     """Factor on the damping of the support along x and y."""
     resonator_stiffness: Factor | None = None
     """Factor on the stiffness of the resonator."""
-    resonator_damping: NotNegative | None = None
+    resonator_damping: NotNegativeFactor | None = None
     """Factor on the damping of the resonator."""
-    film_damping: NotNegative | None = None
+    film_damping: NotNegativeFactor | None = None
     """Factor on the damping of one loaded contact."""
 
 
@@ -99,7 +102,7 @@ class MachineSettings(Table):
     """Contact angle, degrees."""
     row_offset_deg: Degrees | None = None
     """Angle by which row 2 is ahead of row 1, degrees; half a ball spacing if not given."""
-    load_deflection_n_per_m_to_n: Positive | None = None
+    load_deflection_n_per_m_to_n: LoadDeflection | None = None
     """Factor K of F = K δⁿ for one rolling element between both races, N/mⁿ; if not given, the catalogue's, scaled as
     Hertz's factor of the geometry, or Hertz's own for a drawn bearing."""
     exponent: Annotated[Distribution, Between(1.0, 2.0)] | None = None
@@ -112,19 +115,19 @@ class MachineSettings(Table):
     """Mass of outer ring and support, kg."""
     resonator_mass_kg: Mass | None = None
     """Mass of the high-frequency resonator, kg."""
-    support_stiffness_x_n_per_m: Positive | None = None
+    support_stiffness_x_n_per_m: Stiffness | None = None
     """Stiffness of the outer ring's support along x, N/m."""
-    support_stiffness_y_n_per_m: Positive | None = None
+    support_stiffness_y_n_per_m: Stiffness | None = None
     """Stiffness of the outer ring's support along y, N/m."""
-    resonator_stiffness_n_per_m: Positive | None = None
+    resonator_stiffness_n_per_m: Stiffness | None = None
     """Stiffness of the high-frequency resonator, N/m."""
-    support_damping_x_n_s_per_m: NotNegative | None = None
+    support_damping_x_n_s_per_m: Damping | None = None
     """Damping of the outer ring's support along x, N s/m."""
-    support_damping_y_n_s_per_m: NotNegative | None = None
+    support_damping_y_n_s_per_m: Damping | None = None
     """Damping of the outer ring's support along y, N s/m."""
-    resonator_damping_n_s_per_m: NotNegative | None = None
+    resonator_damping_n_s_per_m: Damping | None = None
     """Damping of the high-frequency resonator, N s/m."""
-    film_damping_n_s_per_m: NotNegative | None = None
+    film_damping_n_s_per_m: Damping | None = None
     """Viscous damping of one loaded contact, N s/m."""
     separate_cages: Annotated[Distribution, OneOf((False, True))] = Fixed(False)
     """True gives each row of a two-row bearing its own cage, with its own slip; no effect on one row."""
@@ -152,9 +155,9 @@ class MachineSettings(Table):
     """Damping of the resonator alone over the critical one."""
     film_damping_us: Annotated[Distribution, Between(0.0, 1e6)] | None = None
     """Damping of the healthy bearing along y over its stiffness at the rated load, µs: gives that of one contact."""
-    rated_speed_rpm: Positive | None = None
+    rated_speed_rpm: Annotated[Distribution, Between(SLOWEST_RPM, FASTEST_RPM)] | None = None
     """Rated speed of the machine, rpm."""
-    rated_load_n: Positive | None = None
+    rated_load_n: Annotated[Distribution, Between(1e-6, HEAVIEST_LOAD)] | None = None
     """Rated radial load of the machine, N."""
     rated_load_of_static_rating: Annotated[Distribution, Between(0.0, 1.0, above=True)] | None = None
     """Rated load as a share of the bearing's static load rating (ISO 76)."""
@@ -178,6 +181,24 @@ class MachineSettings(Table):
                     "a drawn bearing with an exponent of its own needs its factor K", "load_deflection_n_per_m_to_n"
                 )
         return self
+
+    @property
+    def most_rows(self) -> int:
+        """Rows of rolling elements of the bearing with most of them that can be drawn."""
+        return max(possible_words(self.rows) if self.rows is not None else self._of_catalogue("rows"))
+
+    @property
+    def ball_counts(self) -> tuple[int, ...]:
+        """Numbers of rolling elements in a row that can be drawn; none if they follow from how many fit."""
+        if self.fill is not None:
+            return ()
+        return possible_words(self.balls) if self.balls is not None else self._of_catalogue("balls")
+
+    def _of_catalogue(self, number: str) -> tuple[int, ...]:
+        """A number of every bearing that can be drawn; it must be stated where a bearing is drawn number by number."""
+        rigs = possible_words(self.rig)
+        names = possible_words(self.bearing) if self.bearing is not None else [RIGS[rig].bearing for rig in rigs]
+        return tuple(int(getattr(BEARINGS[name], number).value) for name in names)
 
     def _require(self, what: str, groups: tuple[tuple[str, ...], ...]) -> None:
         for group in groups:

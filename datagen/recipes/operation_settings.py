@@ -7,20 +7,23 @@ from typing import Annotated
 from pydantic import model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.settings.table import Between, Table, at_most_one
+from datagen.settings.table import Angle, Between, Table, at_most_one
+from physics.operation import HEAVIEST_LOAD
 
-Degrees = Annotated[Distribution, Between()]
+# Below it a record holds nothing but rest; above it no bearing survives.
+SLOWEST_RPM, FASTEST_RPM = 1e-3, 1e6
+Degrees = Annotated[Distribution, Angle()]
 ANY_ANGLE = Uniform(0.0, 360.0)
 
 
 class OperationSettings(Table):
     """Speed, load, the cage's start and slip, and loads that turn with the shaft."""
 
-    speed_rpm: Annotated[Distribution, Between(0.0, 1e6, above=True)] | None = None
+    speed_rpm: Annotated[Distribution, Between(SLOWEST_RPM, FASTEST_RPM)] | None = None
     """Shaft speed, rpm; the rig's rated speed if neither this nor speed_of_rated is given."""
-    speed_of_rated: Annotated[Distribution, Between(0.0, 1e3, above=True)] | None = None
-    """Shaft speed as a multiple of the rig's rated speed."""
-    load_n: Annotated[Distribution, Between(0.0, 1e7)] | None = None
+    speed_of_rated: Annotated[Distribution, Between(1e-6, 1e3)] | None = None
+    """Shaft speed as a multiple of the rig's rated speed; a speed of 0.001 to 1e6 rpm must come of it."""
+    load_n: Annotated[Distribution, Between(0.0, HEAVIEST_LOAD)] | None = None
     """Static radial load, N; the rig's rated load if neither this nor load_of_rated is given."""
     load_of_rated: Annotated[Distribution, Between(0.0, 1e3)] | None = None
     """Static radial load as a multiple of the rig's rated load."""
@@ -34,7 +37,7 @@ class OperationSettings(Table):
     """Standard deviation of the cage's slip, as a share of its speed."""
     slip_correlation_passes: Annotated[Distribution, Between(0.1, 1e4)] = Fixed(1.0)
     """Correlation time of the slip, in nominal ball passes of the outer race."""
-    unbalance_n: Annotated[Distribution, Between(0.0, 1e7)] | None = None
+    unbalance_n: Annotated[Distribution, Between(0.0, HEAVIEST_LOAD)] | None = None
     """Load that turns with the shaft, N; none if neither this nor unbalance_grade_mm_per_s is given."""
     unbalance_grade_mm_per_s: Annotated[Distribution, Between(0.0, 1e4)] | None = None
     """Balance quality grade G of ISO 21940, mm/s: the load is G times mass of inner ring and shaft times speed."""

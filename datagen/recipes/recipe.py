@@ -50,7 +50,7 @@ class Signal(Table):
 
     @model_validator(mode="after")
     def _long_enough(self) -> Signal:
-        rate, duration = min(self.rate_hz.stated()), min(self.duration_s.stated())
+        rate, duration = self.rate_hz.lowest, self.duration_s.lowest
         if rate * duration < FEWEST_STORED_SAMPLES:
             shortest = f"at least {FEWEST_STORED_SAMPLES / rate:g} at {rate:g} Hz"
             raise refuse(f"a record would hold fewer than {FEWEST_STORED_SAMPLES} samples", "duration_s", shortest)
@@ -60,7 +60,7 @@ class Signal(Table):
     def _band_below_nyquist(self) -> Signal:
         if self.envelope_band_hz is not None:
             low, high = self.envelope_band_hz
-            nyquist = min(self.rate_hz.stated()) / 2.0
+            nyquist = self.rate_hz.lowest / 2.0
             if not 0.0 <= low < high <= nyquist:
                 problem = "the band is empty" if low >= high else "the band is not below half the sampling rate"
                 raise refuse(problem, "envelope_band_hz", f"0 <= low < high <= {nyquist:g}")
@@ -74,7 +74,7 @@ class Signal(Table):
 
         Where rate or duration are drawn the band must be as wide as the lines of the shortest record lie apart.
         """
-        rate, seconds = min(self.rate_hz.stated()), min(self.duration_s.stated())
+        rate, seconds = self.rate_hz.lowest, self.duration_s.lowest
         spacing = rate / round(rate * seconds)
         drawn = not (isinstance(self.rate_hz, Fixed) and isinstance(self.duration_s, Fixed))
         wide = band[1] - band[0] >= spacing if drawn else holds_a_line(band, round(rate * seconds), rate)
@@ -166,6 +166,12 @@ class Part(Table):
         if self.defect is not None and self.defect.healthy_records > self.records_per_machine:
             most = f"at most {self.records_per_machine}, the records of each machine"
             raise refuse("a machine has fewer records", "defect.healthy_records", most)
+        return self
+
+    @model_validator(mode="after")
+    def _can_have_its_spalls(self) -> Part:
+        if self.defect is not None:
+            self.defect.check_against_bearings(self.machine.most_rows, self.machine.ball_counts)
         return self
 
     @model_validator(mode="after")

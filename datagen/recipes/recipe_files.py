@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 
 from datagen.errors import BadInput
 from datagen.files.places import dataset_folders, refuse_other_than_file
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 FILE_NAME = "recipe.toml"
 

@@ -43,7 +43,7 @@ class RecordedLayerSettings(Table):
     """Variable of the one channel, or of x and y, written as in the SPEC of an import; the only one if not given."""
     csv: CsvLayout = CsvLayout()
     """Layout of a text table."""
-    gain_m_s2: Annotated[Distribution, Between(0.0)] = Fixed(1.0)
+    gain_m_s2: Annotated[Distribution, Between(0.0, 1e9)] = Fixed(1.0)
     """Acceleration for one unit of the file, m/s²; of whole numbers in .wav, for the full scale."""
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", json_schema_extra=_without_default)] = ""
     """SHA-256 of the file, found on reading; a recipe that states it accepts no other file."""

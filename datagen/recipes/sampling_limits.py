@@ -29,7 +29,7 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
 
     `text` is what was read from `path`, for the line of the setting.
     """
-    nyquist = min(recipe.signal.rate_hz.stated()) / 2.0
+    nyquist = recipe.signal.rate_hz.lowest / 2.0
 
     def refuse(location: Location, problem: str, value: object, allowed: str) -> BadInput:
         line = line_of(text, location)
@@ -37,7 +37,7 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
 
     def require_below(place: Location, frequencies: Iterable[Frequency]) -> None:
         for location, setting, name in frequencies:
-            highest = max(setting.stated())
+            highest = setting.highest
             if highest >= nyquist:
                 problem = f"the {name} must lie below half the sampling rate of {2.0 * nyquist:g} Hz"
                 raise refuse((*place, *location), problem, highest, f"below {nyquist:g}")
@@ -124,7 +124,7 @@ def _misfit(recipe: Recipe, background: BackgroundSettings) -> tuple[str, str, o
         stated = ", ".join(f"{value:g}" for value in rate.stated())
         problem = f"{recording.file} is not sampled at the records' rate, and recordings are not resampled"
         return "rate_hz", problem, recording.rate_hz, f"{stated} (signal.rate_hz)"
-    longest = max(duration.stated())
+    longest = duration.highest
     if recording.samples < round(longest * recording.rate_hz):
         seconds = recording.samples / recording.rate_hz
         problem = f"{recording.file} is {seconds:g} s long, a record {longest:g} s, and recordings are not repeated"

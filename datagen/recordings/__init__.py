@@ -2,7 +2,8 @@
 
 - `spec_files`: where a SPEC is found; `spec`: the whole; `settings`: what it says of a recording; `values`: its numbers
 - `listing`: which records it asks for, with `file_names` and `label_table`
-- `source`: one opened file; `recorded`: its records; `doubts`: what is odd about them
+- `source`: one opened file; `recorded`: its records; `doubts`: what is odd about them;
+  `unchanged`: files that must not change meanwhile
 - `sample_times`: the sampling rate; `shaft_speed`: the speed, with `pulses` of a tach
 - `description`: labels; `dataset`: the records as a shard holds them; `importing`: the whole import
 """

@@ -29,6 +29,7 @@ from datagen.recordings.recorded import Key, Recorded, read_recording
 from datagen.recordings.source import remembered_files, source_hash
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
+from datagen.recordings.unchanged import require_unchanged
 from datagen.telling import Say, unheard
 from datagen.versions import program_hash, program_versions
 from labels.schema import UNKNOWN
@@ -117,6 +118,8 @@ def _import(spec: Spec, folder: Path, root: Path, tell: Say) -> Imported:
             write_index(staging, finished_shards(staging))
             manifest = manifest.with_shards(staging, finished_shards(staging))
             write_manifest(staging, manifest)
+        for path in {*(request.path for request in listing.requests), *listing.tables}:
+            require_unchanged(path)  # so that what was read is what the hashes in the manifest are of
     return Imported(
         str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
         len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped), tuple(plan.dead),

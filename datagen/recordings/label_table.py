@@ -12,7 +12,7 @@ from datagen.errors import BadInput
 from datagen.files.csv_rows import read_csv_rows
 from datagen.recordings.settings import RecordingSettings
 from datagen.settings.problems import bad_settings
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 FILE_COLUMN = "file"
 NOT_COLUMNS = ("csv", "channel", "tach", "envelope_band_hz", "notes")

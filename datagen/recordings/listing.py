@@ -13,6 +13,7 @@ from datagen.recordings.file_names import FileNames, fits, hidden
 from datagen.recordings.label_table import TableRow, read_label_table
 from datagen.recordings.settings import ALTERNATIVES, Channel, merged
 from datagen.recordings.spec import Recording, Spec
+from datagen.recordings.unchanged import require_unchanged
 
 SPEED_SETTINGS = ALTERNATIVES[0]
 
@@ -110,6 +111,7 @@ class _Finder:
         if path is None:
             raise BadInput("no such file", str(self.spec.source), "table", recording.table)
         self.tables.append(path)
+        require_unchanged(path)
         return read_label_table(path, recording.note_columns)
 
     def _globbed(self, recording: Recording, place: str) -> list[Path]:

@@ -26,6 +26,7 @@ from datagen.formats.reading import read_arrays
 from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
 from datagen.recordings.listing import Request
 from datagen.recordings.sample_times import rate_of
+from datagen.recordings.unchanged import first_state, require_unchanged
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from physics.arrays import Array
 
@@ -205,7 +206,11 @@ def _within(found: NDArray[Any], span: Span) -> NDArray[Any]:
 
 
 def open_source(request: Request) -> Source:
-    """The opened file of a request; the file read last is kept, as its channels come one after the other."""
+    """The opened file of a request; the file read last is kept, as its channels come one after the other.
+
+    Raises BadInput if it cannot be read, or has changed since it was first opened.
+    """
+    require_unchanged(request.path)
     layout = request.settings.get("csv", CsvLayout())
     return Source(request, _opened(request.path, request.settings.get("format"), layout))
 
@@ -224,15 +229,18 @@ def source_hash(path: Path) -> str:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
 
 
+REMEMBERED = (_opened, source_hash, first_state)
+
+
 @contextmanager
 def remembered_files() -> Iterator[None]:
     """What is remembered of files inside is forgotten before and afterwards."""
-    for remembered in (_opened, source_hash):
+    for remembered in REMEMBERED:
         remembered.cache_clear()
     try:
         yield
     finally:
-        for remembered in (_opened, source_hash):
+        for remembered in REMEMBERED:
             remembered.cache_clear()
 
 

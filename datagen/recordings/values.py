@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
 from datagen.settings.table import Between, Table, refuse
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 # Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
 RANGES = {

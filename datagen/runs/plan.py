@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -16,12 +17,14 @@ from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.telling import Say, unheard
 from labels.schema import LAYERS
 from labels.variables import AXES, SIGNALS
 from physics.words import STIFFNESS_COMPONENTS
 
 # What a shard takes beside its signals: labels, tables, scenarios and the library's blocks.
 SHARD_BYTES = 250_000.0
+SECONDS_UNTOLD = 10.0
 
 
 @dataclass(frozen=True)
@@ -40,17 +43,21 @@ class PlannedShard:
     record_seconds: float
 
 
-def plan_shards(recipe: Recipe, stop: int) -> list[PlannedShard]:
+def plan_shards(recipe: Recipe, stop: int, say: Say = unheard) -> list[PlannedShard]:
     """The shards that hold records 0 … `stop` − 1 of the recipe, the last ones perhaps not yet full.
 
     Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
-    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. Raises BadInput if a record
-    can hardly be drawn.
+    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. Where it takes long, `say`
+    hears how far it has got. Raises BadInput if a record can hardly be drawn.
     """
     shards: list[PlannedShard] = []
     growing: dict[Hashable, int] = {}
     forces_kept: set[tuple[str, str]] = set()
+    told = time.monotonic()
     for record in range(stop):
+        if time.monotonic() - told >= SECONDS_UNTOLD:
+            told = time.monotonic()
+            say(f"{record} of {stop} records are drawn; none is made before all are")
         scenario = draw_scenario(recipe, record)
         stored = stored_signals(recipe, scenario, forces_kept)
         kind = (shard_key(scenario), stored)

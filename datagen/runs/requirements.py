@@ -72,7 +72,7 @@ def lowest_rate(scenario: Scenario) -> float:
 
 def require_memory(recipe: Recipe) -> None:
     """Raise BadInput if even the shortest record of the recipe does not fit into memory; nothing is drawn."""
-    rate, duration = min(recipe.signal.rate_hz.stated()), min(recipe.signal.duration_s.stated())
+    rate, duration = recipe.signal.rate_hz.lowest, recipe.signal.duration_s.lowest
     _require_record(recipe, rate, duration, SAMPLE_BYTES * rate * (duration + recipe.signal.settle_s))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import shutil
 from collections.abc import Callable, Iterator, Sequence
@@ -12,7 +13,7 @@ from typing import Any
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.index import write_index
-from datagen.corpus_files.manifest import Manifest, Span, add_spans, manifest_path, read_manifest, write_manifest
+from datagen.corpus_files.manifest import Manifest, Span, write_manifest
 from datagen.corpus_files.shard import Failure, Sidecar, finished_shards
 from datagen.files.atomic import NO_SPACE, sweep_temporaries, write_atomically
 from datagen.recipes.recipe import Recipe
@@ -52,7 +53,7 @@ class Summary:
 
 
 class Run:
-    """The records `asked` for, made in `folder`; call make, then finish whatever happened."""
+    """The records `wanted` of all `asked` for so far, made in `folder`; call make, then finish whatever happened."""
 
     def __init__(
         self,
@@ -60,17 +61,17 @@ class Run:
         folder: Path,
         identity: Identity,
         asked: tuple[Span, ...],
+        wanted: tuple[Span, ...],
         listener: Listener,
     ) -> None:
-        earlier = read_manifest(folder) if manifest_path(folder).exists() else None
         self.recipe, self.folder, self.listener = recipe, folder, listener
-        self.wanted = frozenset(record for start, stop in asked for record in range(start, stop))
+        self.wanted = frozenset(record for start, stop in wanted for record in range(start, stop))
         self.manifest = Manifest(
             name=recipe.name,
             identity=identity,
             recipe=recipe.model_dump(mode="json"),
             recipe_records=recipe.count,
-            asked=add_spans(earlier.asked if earlier else (), asked),
+            asked=asked,
             made_with=program_versions(),
         )
         self.errors: dict[int, tuple[PlannedShard, str]] = {}
@@ -91,7 +92,7 @@ class Run:
             if problem.errno not in NO_SPACE:
                 raise
             self._rescan()
-            self.problem = self._out_of_space(self._unfinished(planned))
+            self.problem = self._out_of_space(problem, self._unfinished(planned))
 
     def _begin(self) -> None:
         """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
@@ -224,11 +225,16 @@ class Run:
             started.add(shard.number)
             yield self.recipe, folder, shard, self.manifest.identity
 
-    def _out_of_space(self, todo: Sequence[PlannedShard]) -> str:
+    def _out_of_space(self, problem: OSError, todo: Sequence[PlannedShard]) -> str:
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
+        largest = max((needed_bytes([shard]) for shard in todo), default=0.0)
+        cause, needed = {
+            errno.EFBIG: ("files may not be as large as a shard here (ulimit -f)", f"files of {for_people(largest)}"),
+            errno.EDQUOT: ("the quota of this disk is used up", for_people(needed_bytes(todo))),
+        }.get(problem.errno or 0, ("the disk is full", f"{for_people(missing)} more"))
         return (
-            f"the disk is full: {sum(len(shard.records) for shard in todo)} records have not been made, and about "
-            f"{for_people(missing)} more are needed; finished shards are kept; the same command continues from there"
+            f"{cause}: {sum(len(shard.records) for shard in todo)} records have not been made, and about {needed} are "
+            "needed; finished shards are kept; the same command continues from there"
         )
 
     def _failures(self) -> list[Failure]:

@@ -9,12 +9,13 @@ import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from datagen.errors import BadInput
 
 BACKENDS = ("loky", "dask")
+MOST_WORKERS = 1024  # more are a slip of the finger, and would bring the machine to a halt
 PARENT_POLL = 0.25
 SCHEDULER_PATIENCE = 5.0  # s
 
@@ -31,12 +32,16 @@ class Engine:
     scheduler: str | None = None
 
     def __post_init__(self) -> None:
-        if self.workers is not None and self.workers < 1:
-            raise BadInput(field="--workers", value=self.workers, allowed="1 or more")
+        if self.workers is not None and not 1 <= self.workers <= MOST_WORKERS:
+            raise BadInput(field="--workers", value=self.workers, allowed=f"1 to {MOST_WORKERS}")
         if self.backend is not None and self.backend not in BACKENDS:
             raise BadInput(field="--backend", value=self.backend, allowed=", ".join(BACKENDS))
         if self.scheduler is not None and self.backend != "dask":
             raise BadInput("a scheduler needs --backend dask", field="--scheduler", value=self.scheduler)
+
+    def for_tasks(self, count: int) -> Engine:
+        """The same with no more workers than there are tasks."""
+        return self if self.workers is None else replace(self, workers=min(self.workers, max(count, 1)))
 
 
 class WorkerLost(RuntimeError):

@@ -74,6 +74,7 @@ def _draw_shape(settings: SpallSettings, race: str, profile: str, bearing: Beari
     if profile == "table" and settings.table is not None:
         return _measured_spall(race, settings.table)
     require(depth > 0.0 or roughness > 0.0, "a spall with neither depth nor roughness is none", "depth")
+    _require_arcs(extent, entry, exit_, bearing, race)
     return Spall(race, 1, 0.0, extent, depth, entry, exit_, profile, roughness)
 
 
@@ -90,6 +91,30 @@ def _draw_extent(settings: SpallSettings, race: str, bearing: Bearing, pick: Pic
     if settings.extent_deg is not None:
         return math.radians(number)
     return number / 1e3 / bearing.raceway_radius(race) if settings.extent_mm is not None else number * bearing.spacing
+
+
+def _require_arcs(extent: float, entry: float, exit_: float, bearing: Bearing, race: str) -> None:
+    """Raise InvalidParameter, in the units of recipes, unless spall and tapers (rad) fit on their raceway."""
+    covered = math.degrees(extent)
+    require(
+        extent <= math.pi,
+        f"the spall covers {covered:.4g} degrees; allowed: at most 180 degrees, on this raceway "
+        f"{math.pi * bearing.raceway_radius(race) * 1e3:.4g} mm or {math.pi / bearing.spacing:.4g} ball spacings",
+        "extent",
+    )
+    for field, taper in (("entry_taper", entry), ("exit_taper", exit_)):
+        require(
+            taper <= extent,
+            f"the {field.replace('_', ' ')} of {math.degrees(taper):.4g} degrees is longer than the spall of "
+            f"{covered:.4g} degrees",
+            field,
+        )
+    require(
+        entry + exit_ <= extent * (1.0 + 1e-12),
+        f"entry and exit taper of {math.degrees(entry):.4g} and {math.degrees(exit_):.4g} degrees are together longer "
+        f"than the spall of {covered:.4g} degrees",
+        "entry_taper",
+    )
 
 
 def _draw_taper(

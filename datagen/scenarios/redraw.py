@@ -7,21 +7,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from datagen.errors import BadInput
-from datagen.settings.toml_lines import line_of_setting, text_of
+from datagen.errors import BadInput, setting_text
+from datagen.scenarios.deciders import deciders
+from datagen.settings.problems import dotted
+from datagen.settings.toml_lines import Location, place_in_file
 
 if TYPE_CHECKING:
     from datagen.recipes.recipe import Part, Recipe
 
 MOST_ATTEMPTS = 200
-# Parameters of the physics whose keys in recipes begin with another word.
-KEYS = {
-    "amplitudes": "amplitude",
-    "bits": "recorder_bits",
-    "cutoff": "mounting_cutoff",
-    "full_scale": "recorder_range",
-    "shaft_speed": "speed",
-}
 
 
 @dataclass(frozen=True)
@@ -61,15 +55,28 @@ def add_refused(counted: Iterable[dict[str, Refused]]) -> dict[str, Refused]:
 
 
 def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw]) -> BadInput:
-    """The error of a part that can hardly be drawn: says how often each parameter was refused and the last reason."""
+    """The error of a part that can hardly be drawn: names the settings that decided the last refusal, and its reason.
+
+    Where the reasons differ, or what was refused, it also says how often each parameter was.
+    """
+    place: Location = ("part", recipe.part.index(part))
+    last = redraws[-1]
+    decided_by = deciders(recipe, recipe.part.index(part), last.field, last.reason)
+    location, value = decided_by[0] if decided_by else (place, None)
+    others = ", ".join(setting_text(dotted(where), said) for where, said in decided_by[1:])
+    return BadInput(
+        f'{what} of part "{part.name}": {_tally(redraws)}' + (f" (this also follows from {others})" if others else ""),
+        file=place_in_file(recipe.source, location),
+        field=dotted(location),
+        value=value,
+    )
+
+
+def _tally(redraws: list[Redraw]) -> str:
+    """How many draws were impossible, and why."""
+    last = redraws[-1].reason
+    if all(redraw.reason == last for redraw in redraws):
+        return f"all {len(redraws)} draws were impossible for the same reason: {last}"
     counts = Counter(redraw.field or "other" for redraw in redraws)
     refused = ", ".join(f"{field} {count} times" for field, count in counts.most_common())
-    place = ("part", recipe.part.index(part))
-    refused_last = redraws[-1].field
-    line = line_of_setting(text_of(recipe.source), place, KEYS.get(refused_last, refused_last))
-    return BadInput(
-        f'part "{part.name}", {what}: {len(redraws)} draws in a row were impossible (refused: {refused}); '
-        f"the last: {redraws[-1].reason}",
-        file=f"{recipe.source}, line {line}" if line else recipe.source,
-        field=f"part[{place[1] + 1}]",
-    )
+    return f"{len(redraws)} draws in a row were impossible (refused: {refused}); the last: {last}"

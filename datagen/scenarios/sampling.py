@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.operation_settings import OperationSettings
+from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM, OperationSettings
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.record_order import Place
 from datagen.scenarios.accuracy import Accuracy
@@ -21,7 +21,7 @@ from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
 from datagen.scenarios.scenario import Scenario, Seeds
 from physics.bearing import Bearing
 from physics.cage import CagePath, draw_slip_knots
-from physics.checks import InvalidParameter
+from physics.checks import InvalidParameter, require_between
 from physics.operation import Operation
 from physics.rig import Rig
 from physics.scene import Scene
@@ -104,6 +104,8 @@ def _spalls(draw: Draw, machine: Machine, place: Place, load: float) -> tuple[Sp
 def _draw_operation(settings: OperationSettings, rig: Rig, pick: Picker) -> Operation:
     speed = _absolute_or_relative(settings.speed_rpm, RPM_PER_RAD_S, settings.speed_of_rated, rig.rated_speed, pick)
     load = _absolute_or_relative(settings.load_n, 1.0, settings.load_of_rated, rig.rated_load, pick)
+    rpm = float(f"{speed * RPM_PER_RAD_S:.12g}")  # as a recipe writes it, which may be the last that is allowed
+    require_between("shaft_speed", rpm, SLOWEST_RPM, FASTEST_RPM, "rpm", "the shaft speed")
     unbalance = _draw_unbalance(settings, rig, speed, pick)
     unbalance_phase = pick.number(settings.unbalance_phase_deg)
     fluctuation, fluctuation_phase = pick.number(settings.load_fluctuation), pick.number(settings.fluctuation_phase_deg)

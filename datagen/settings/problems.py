@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from datagen.errors import BadInput
 from datagen.settings.toml_lines import Location, line_of
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 MOST_LISTED = 16
 SCALARS = ("str", "float", "int", "bool")
@@ -42,13 +42,14 @@ def bad_settings(error: ValidationError, model: type[BaseModel], path: Path | st
     own = [one for one in errors if not _follows(one, errors)]
     first = min(own, key=lambda one: (one["type"] != "extra_forbidden", _is_other_kind(one)))
     context = first.get("ctx", {})
-    location = _place(first) + ((context["field"],) if context.get("field") else ())
+    field = tuple(context.get("field", "").split(".")) if context.get("field") else ()
+    location = _place(first) + field
     line = line_of(text, location)
     return BadInput(
         _problem(first, location, model),
         f"{path}, line {line}" if line else str(path),
         dotted(location),
-        _value(first, location, context.get("field", "")),
+        _value(first, location, field),
         _allowed(first, [one for one in errors if _place(one) == _place(first)]),
     )
 
@@ -98,14 +99,15 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
     return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
 
 
-def _value(first: dict[str, Any], location: Location, field: str) -> object:
+def _value(first: dict[str, Any], location: Location, field: tuple[str, ...]) -> object:
     if first["type"] in ("missing", "extra_forbidden"):
         return None
     given = first["input"]
     if not field:
         return None if isinstance(given, BaseModel) or location == ("part",) else given
-    value = given.get(field) if isinstance(given, dict) else None
-    return None if field == "part" else value
+    for key in field:
+        given = given.get(key) if isinstance(given, dict) else None
+    return None if field == ("part",) else given
 
 
 def _settings_beside(first: dict[str, Any], location: Location, model: type[BaseModel]) -> list[str]:

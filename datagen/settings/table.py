@@ -19,7 +19,7 @@ from datagen.distributions.kinds import (
     distribution_schema,
     parse_distribution,
 )
-from datagen.spelling import suggestion
+from physics.spelling import suggestion
 
 
 class Table(BaseModel):
@@ -116,6 +116,17 @@ class Between(_Setting):
 
 
 @dataclass(frozen=True)
+class Angle(Between):
+    """An angle in degrees, of so few turns that enough decimals remain; a normal distribution of them has its tails."""
+
+    low: float = -1e6
+    high: float = 1e6
+
+    def confined(self, distribution: Distribution) -> Distribution:
+        return distribution
+
+
+@dataclass(frozen=True)
 class Whole(_Setting):
     """A whole number from `low` to `high`, fixed or chosen from a list."""
 
@@ -144,7 +155,7 @@ class OneOf(_Setting):
     options: tuple[str | int | bool, ...]
 
     def allowed(self) -> str:
-        return ", ".join(str(option) for option in self.options)
+        return ", ".join(str(option).lower() if isinstance(option, bool) else str(option) for option in self.options)
 
     def accepts(self, value: Any) -> bool:
         return any(type(option) is type(value) and option == value for option in self.options)
@@ -155,7 +166,10 @@ class OneOf(_Setting):
         return distribution
 
     def _hint(self, value: object) -> str:
-        return self.allowed() + suggestion(str(value), [str(option) for option in self.options])
+        bare = [str(option).lower() for option in self.options if not isinstance(option, str)]
+        if isinstance(value, str) and value.lower() in bare:
+            return f"{self.allowed()}; did you mean {value.lower()}, without quotes?"
+        return self.allowed() + suggestion(str(value), [option for option in self.options if isinstance(option, str)])
 
     def value_schema(self) -> dict[str, Any]:
         return {"enum": list(self.options)}

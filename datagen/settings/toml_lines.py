@@ -38,14 +38,6 @@ def text_of(path: str) -> str:
         return ""
 
 
-def line_of_setting(text: str, table: Location, name: str) -> int | None:
-    """Line of the first setting under `table` whose key begins with `name`, else of the table; None if not found."""
-    for location, line in _lines(text).items():
-        if name and location[: len(table)] == table and str(location[-1]).startswith(name):
-            return line
-    return line_of(text, table)
-
-
 def _lines(text: str) -> dict[Location, int]:
     lines: dict[Location, int] = {}
     arrays: Counter[tuple[str, ...]] = Counter()

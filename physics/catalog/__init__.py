@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Iterator
 
 from physics.bearing import Bearing
@@ -15,6 +14,7 @@ from physics.catalog.rigs import RIGS, CatalogRig
 from physics.catalog.sourced import CatalogRow, sourced_fields
 from physics.checks import InvalidParameter
 from physics.rig import Rig
+from physics.spelling import suggestion
 
 __all__ = ["BEARINGS", "RIGS", "CatalogBearing", "CatalogRig", "bearing", "catalog_rows", "rig"]
 
@@ -51,6 +51,5 @@ def _require_known(kind: str, name: str, known: Iterable[str]) -> None:
     names = list(known)
     if name in names:
         return
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.4)
-    hint = f'; did you mean "{near[0]}"?' if near else ""
-    raise InvalidParameter(f'{kind} = "{name}" is not in the catalogue: {", ".join(names)}{hint}', kind)
+    problem = f'{kind} = "{name}" is not in the catalogue: {", ".join(names)}{suggestion(name, names)}'
+    raise InvalidParameter(problem, kind)

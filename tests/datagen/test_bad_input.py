@@ -49,8 +49,8 @@ CASES = {
         "depth_um = 12",
         "depth_um = 12\nentry_taper_deg = 4",
         14,
-        "entry_taper = 0.0698",
-        "allowed: 0 to 0.0523599 rad",
+        "part[1].defect.entry_taper_deg = 4.0",
+        "the entry taper of 4 degrees is longer than the spall of 3 degrees",
     ),
     "tapers longer than the spall together": (
         "depth_um = 12",
@@ -140,8 +140,8 @@ CASES = {
         "extent_spacing = 0.1",
         "extent_spacing = {uniform = [1, 2]}",
         12,
-        "part[1]",
-        "reaches the ball spacing of 30 degrees",
+        "part[1].defect.extent_spacing = {uniform = [1, 2]}",
+        "1 is no line spall; allowed: below 1 ball spacing",
     ),
     "a misspelt distribution": (
         "depth_um = 12",

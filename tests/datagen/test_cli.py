@@ -170,6 +170,26 @@ def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_all
     assert said.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [
+        (("generate", "RECIPE", "--out", ""), "--out"),
+        (("generate", "RECIPE", "--out="), "--out"),
+        (("generate", "", "--out", "corpus"), "an argument"),
+        (("check", ""), "an argument"),
+        (("generate", "RECIPE", "--out", "corpus", "--records", ""), "--records"),
+    ],
+)
+def test_an_empty_value_is_refused_and_does_not_mean_the_current_folder(
+    arguments: tuple[str, ...], field: str, tiny_recipe: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, _, told = run(*(str(tiny_recipe) if argument == "RECIPE" else argument for argument in arguments))
+    assert code == 2
+    assert told == f'error: {field} = ""; allowed: a value that is not empty\n'
+    assert list(tmp_path.iterdir()) == []
+
+
 LEARNED = "a file that --save wrote, impulse-trains or impulse-trains-without-INGREDIENT"
 
 

@@ -39,7 +39,6 @@ FLOORS = (
         "exits",
         "own_code",
         "scored_runs",
-        "spelling",
         "telling",
         "versions",
     ),

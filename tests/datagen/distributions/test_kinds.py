@@ -14,9 +14,11 @@ from scipy import stats
 from datagen.distributions.kinds import (
     DISTRIBUTIONS,
     Balanced,
+    Choice,
     DistributionError,
     Fixed,
     Normal,
+    Uniform,
     distribution_schema,
     parse_distribution,
 )
@@ -167,3 +169,11 @@ def test_the_schema_of_a_number_names_every_distribution_and_that_of_a_word_only
     word = distribution_schema({"enum": ["a", "b"]})["anyOf"]
     assert word[0] == {"enum": ["a", "b"]}
     assert [next(iter(option["properties"])) for option in word[1:]] == ["choice", "balanced"]
+
+
+def test_the_extremes_of_a_normal_distribution_are_its_ends_where_draws_come_near_them_and_else_its_mean() -> None:
+    cut, open_ended = Normal(12.0, 4.0, 4.0, 20.0), Normal(9000.0, 500.0, 1e-3, 1e7)
+    assert (cut.lowest, cut.highest) == (4.0, 20.0)
+    assert (open_ended.lowest, open_ended.highest) == (9000.0, 9000.0)
+    assert (Uniform(2.0, 8.0).lowest, Uniform(2.0, 8.0).highest) == (2.0, 8.0)
+    assert (Choice((3, 1, 2)).lowest, Choice((3, 1, 2)).highest) == (1.0, 3.0)

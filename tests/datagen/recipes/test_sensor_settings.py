@@ -63,7 +63,7 @@ def load(folder: Path, text: str) -> Recipe:
 
 BAD = [
     (f"{MODES}\ncount = 51", "part[1].chain.modes[1].count = 51; allowed: a whole number from 0 to 50"),
-    (MODES.replace("500", "-5"), "part[1].chain.modes[1].frequency_hz = -5; allowed: a number above 0"),
+    (MODES.replace("500", "-5"), "part[1].chain.modes[1].frequency_hz = -5; allowed: a number from 0.001"),
     (
         MODES.replace("500", "{uniform = [900, 20000]}"),
         "line 11: part[1].chain.modes[1].frequency_hz = 20000.0: the resonance must lie below half the sampling rate "
@@ -76,7 +76,7 @@ BAD = [
         "part[1].chain.mounting_cutoff_hz = 16384.0: the cutoff must lie below half the sampling rate of 32768 Hz",
     ),
     ("[part.chain]\nmounting_cutof_hz = 1", 'did you mean "mounting_cutoff_hz"?'),
-    ("[part.chain]\nrecorder_range_m_s2 = 0", "part[1].chain.recorder_range_m_s2 = 0; allowed: a number above 0"),
+    ("[part.chain]\nrecorder_range_m_s2 = 0", "part[1].chain.recorder_range_m_s2 = 0; allowed: a number from 1e-06"),
     ("[part.background]\nwhite_rms_m_s2 = -0.1", "part[1].background.white_rms_m_s2 = -0.1; allowed: a number from 0"),
     ("[part.background.pink]\nrms_m_s2 = -1", "part[1].background.pink.rms_m_s2 = -1; allowed: a number from 0"),
     ("[part.background.pink]\nrms_m_s2 = 1\nlowest_hz = 17000", "the band of the noise must lie below half"),

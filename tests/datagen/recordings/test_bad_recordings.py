@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +13,9 @@ from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.corpus import Corpus
+from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
+from datagen.recordings import importing
 from datagen.recordings.source import source_hash
 
 Bring = Callable[..., Corpus]
@@ -235,6 +239,55 @@ def test_a_file_that_changes_during_the_import_is_noticed(
     with pytest.raises(BadInput, match=r"a\.mat: the file changed while it was being imported"):
         bring(GOOD)
     assert not (tmp_path / "corpus").exists()
+
+
+def changed(path: Path) -> None:
+    """Write the file again with its bytes in reverse, at a time that any clock tells from that of its first version."""
+    then = path.stat().st_mtime_ns
+    path.write_bytes(path.read_bytes()[::-1])
+    os.utime(path, ns=(then + 10**9, then + 10**9))
+
+
+@pytest.mark.parametrize("moment", ["source_hash", "write_index", "write_manifest"])
+def test_a_single_file_that_changes_during_the_import_is_noticed(
+    moment: str, bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    step = getattr(importing, moment)
+
+    def meddling(*arguments: object) -> object:
+        changed(tmp_path / "a.mat")
+        return step(*arguments)
+
+    mat("a.mat")
+    monkeypatch.setattr(importing, moment, meddling)
+    with pytest.raises(BadInput, match=r"a\.mat: the file changed while it was being imported"):
+        bring(GOOD)
+    assert {path.name for path in tmp_path.iterdir()} == {"a.mat", "spec.toml"}
+
+
+@pytest.mark.parametrize("change", [Path.unlink, lambda path: path.write_text("file,location\na.mat,outer\n")])
+def test_a_table_of_labels_that_changes_during_the_import_is_noticed(
+    change: Callable[[Path], object], bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    table = tmp_path / "t.csv"
+
+    def meddling(*arguments: Any) -> None:
+        change(table)
+        write_manifest(*arguments)
+
+    mat("a.mat")
+    table.write_text("file,location\na.mat,inner \n")
+    monkeypatch.setattr(importing, "write_manifest", meddling)
+    with pytest.raises(BadInput, match=r"t\.csv: (no such file|the file changed while it was being imported)"):
+        bring(GOOD.replace("files =", "table = 't.csv'\nfiles ="))
+    assert not (tmp_path / "corpus").exists()
+
+
+def test_a_file_that_changed_between_two_imports_is_no_matter(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", noise(seed=1))
+    before = bring(GOOD, "one").waveform(0)
+    mat("a.mat", noise(seed=2))
+    assert not np.array_equal(bring(GOOD, "two").waveform(0), before)
 
 
 def test_a_cut_of_sixteen_samples_is_the_shortest(bring: Bring, mat: Mat, tmp_path: Path) -> None:

@@ -7,6 +7,8 @@ import shutil
 import signal
 import threading
 from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +29,7 @@ from datagen.runs.generate import generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.progress import Lines
 from datagen.runs.task import ShardRow, make_shard
-from datagen.runs.workers import Engine
+from datagen.runs.workers import Engine, engaged
 from datagen.telling import Listener
 
 ALONE = Engine(workers=1)
@@ -247,6 +249,43 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
     monkeypatch.undo()
     assert generate(tiny, tmp_path / "out", engine=ALONE).complete
     assert contents(tmp_path / "out") == expected
+
+
+@pytest.mark.parametrize(
+    ("number", "told"),
+    [
+        (
+            errno.EFBIG,
+            "files may not be as large as a shard here (ulimit -f): 14 records have not been made",
+        ),
+        (errno.EDQUOT, "the quota of this disk is used up: 14 records have not been made, and about"),
+    ],
+)
+def test_a_limit_of_files_or_a_quota_is_not_called_a_full_disk(
+    number: int, told: str, tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def limited(path: Path, data: bytes | memoryview) -> None:
+        raise OSError(number, "limited")
+
+    monkeypatch.setattr(datagen.corpus_files.shard, "write_atomically", limited)
+    run = generate(tiny, tmp_path / "out", engine=ALONE)
+    assert run.problem.startswith(told)
+    assert " 0.0 MB" not in run.problem
+
+
+def test_a_run_has_no_more_workers_than_records_to_make(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    engines: list[Engine] = []
+
+    def noted(engine: Engine) -> AbstractContextManager[None]:
+        engines.append(engine)
+        return engaged(replace(engine, workers=1))
+
+    monkeypatch.setattr("datagen.runs.generate.engaged", noted)
+    generate(tiny, tmp_path / "out", limit=3, engine=Engine(workers=1000))
+    generate(tiny, tmp_path / "out", limit=3, engine=Engine(workers=2))
+    assert [engine.workers for engine in engines] == [3, 2]
 
 
 def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(

@@ -67,3 +67,12 @@ def test_shards_that_take_longest_are_handed_out_first(tiny: Recipe) -> None:
     lengths = {0: (4, 0.5), 1: (1, 3.0), 2: (32, 1.0), 3: (5, 0.1)}
     shards = [PlannedShard(number, (0,) * count, (), 1.0, 1.0, seconds) for number, (count, seconds) in lengths.items()]
     assert [shard.number for shard in longest_first(shards)] == [2, 1, 0, 3]
+
+
+def test_a_plan_that_takes_long_tells_how_far_it_has_got(tiny: Recipe, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[str] = []
+    plan_shards(tiny, 3, told.append)
+    assert told == []
+    monkeypatch.setattr("datagen.runs.plan.SECONDS_UNTOLD", 0.0)
+    plan_shards(tiny, 3, told.append)
+    assert told == [f"{record} of 3 records are drawn; none is made before all are" for record in range(3)]

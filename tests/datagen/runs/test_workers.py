@@ -80,7 +80,8 @@ def test_a_task_that_never_ends_on_dask_is_reported_as_lost_after_its_time_limit
 @pytest.mark.parametrize(
     ("settings", "sentence"),
     [
-        ({"workers": 0}, r"--workers = 0\b.*allowed: 1 or more"),
+        ({"workers": 0}, r"--workers = 0\b.*allowed: 1 to 1024"),
+        ({"workers": 100_000}, r"--workers = 100000; allowed: 1 to 1024"),
         ({"backend": "ray"}, r'--backend = "ray".*allowed: loky, dask'),
         ({"scheduler": "tcp://localhost:1"}, "a scheduler needs --backend dask"),
     ],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from datagen.settings.toml_lines import line_of, line_of_setting
+from datagen.settings.toml_lines import line_of
 
 TEXT = '''name = "x"
 summary = """
@@ -49,10 +49,3 @@ def test_a_setting_or_its_innermost_table_is_found_on_its_line(
     location: tuple[str | int, ...], line: int | None
 ) -> None:
     assert line_of(TEXT, location) == line
-
-
-def test_a_setting_is_found_by_the_beginning_of_its_key_and_else_by_its_table() -> None:
-    assert line_of_setting(TEXT, ("part", 0), "depth") == line_of(TEXT, ("part", 0, "defect", "depth_um"))
-    assert line_of_setting(TEXT, ("part", 1), "depth") == line_of(TEXT, ("part", 1))
-    assert line_of_setting(TEXT, ("part", 1), "") == line_of(TEXT, ("part", 1))
-    assert line_of_setting(TEXT, ("none",), "depth") is None

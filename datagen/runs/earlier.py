@@ -1,0 +1,94 @@
+"""What earlier runs left in a folder: as its manifest says, or, where it is lost, as the sidecars of its shards say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from datagen.corpus_files.format import Identity
+from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
+from datagen.corpus_files.shard import Sidecar, finished_shards
+from datagen.errors import BadInput
+from datagen.files.places import OUT, require_folder
+
+VERSIONS = {
+    "recipe_hash": "the recipe",
+    "model_hash": "the physics",
+    "format_hash": "the file format",
+    "program_hash": "the program",
+}
+# What a run leaves that was interrupted before its first shard.
+BEGINNING = (".lock", "shards")
+
+
+@dataclass(frozen=True)
+class Earlier:
+    """The spans [start, stop) of records that earlier runs were asked for, none in a new folder.
+
+    `lost` is a sentence if the manifest was lost or damaged. Then the spans are those of the records that are settled
+    in finished shards: what else was asked for is not known.
+    """
+
+    asked: tuple[Span, ...] = ()
+    lost: str = ""
+
+
+def earlier_runs(folder: Path, identity: Identity) -> Earlier:
+    """What earlier runs left in `folder`; BadInput if it is neither empty nor a corpus of the same `identity`.
+
+    A manifest that is there and cannot be opened is refused, as is one that is damaged where no shard is finished.
+    """
+    require_folder(folder)
+    try:
+        if manifest_path(folder).exists():
+            manifest = read_manifest(folder)
+            _require_same(identity, manifest.identity, folder)
+            return Earlier(manifest.asked)
+        damage = None
+    except DamagedManifest as problem:
+        damage = problem
+    spans, count = _settled_spans(finished_shards(folder), identity, folder)
+    if count:
+        state = "cannot be read" if damage else "is lost"
+        return Earlier(
+            spans,
+            f"manifest.json {state}; it is written anew from {count} finished shards, and of the records asked for "
+            "earlier it lists only those in them",
+        )
+    if damage is not None:
+        raise damage
+    _refuse_strangers(folder)
+    return Earlier()
+
+
+def _settled_spans(sidecars: Iterable[Sidecar], identity: Identity, folder: Path) -> tuple[tuple[Span, ...], int]:
+    """Spans of the records that `sidecars` settle, and the number of these; BadInput if any is of another identity."""
+    settled: set[int] = set()
+    count = 0
+    for sidecar in sidecars:
+        _require_same(identity, sidecar.identity, folder)
+        settled |= sidecar.settled
+        count += 1
+    return add_spans((), ((record, record + 1) for record in settled)), count
+
+
+def _require_same(identity: Identity, found: Identity, folder: Path) -> None:
+    names = [name for part, name in VERSIONS.items() if getattr(found, part) != getattr(identity, part)]
+    if names:
+        raise BadInput(
+            f"the corpus in this folder was begun with another version of {' and '.join(names)}, and a corpus never "
+            "mixes versions: choose another folder, or delete this one",
+            str(folder),
+            OUT,
+        )
+
+
+def _refuse_strangers(folder: Path) -> None:
+    """Raise BadInput if `folder` holds what an interrupted beginning of a run does not explain."""
+    if not folder.exists():
+        return
+    names = [path.name for path in folder.iterdir() if path.name not in BEGINNING and not path.name.endswith(".part")]
+    strangers = sorted(names) or sorted(path.name for path in (folder / "shards").glob("*.nc"))
+    if strangers:
+        raise BadInput(f"this folder holds no corpus but other things ({', '.join(strangers[:3])})", str(folder), OUT)

@@ -1,0 +1,114 @@
+"""Which settings of a recipe decide a parameter of the physics, so that a refusal can name them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
+
+from datagen.distributions.distribution import Distribution
+from datagen.recipes.defect_settings import ENTRY_TAPERS, EXIT_TAPERS, EXTENTS
+from datagen.settings.toml_lines import Location
+
+if TYPE_CHECKING:
+    from datagen.recipes.recipe import Recipe
+
+BALL_DIAMETERS = ("ball_diameter_mm", "ball_diameter_of_pitch", "ball_diameter")
+PITCH_DIAMETERS = ("pitch_diameter_mm", "pitch_diameter")
+RATED_LOADS = ("rated_load_n", "rated_load_of_static_rating")
+RESONATORS = (
+    "resonator_frequency_hz",
+    "resonator_stiffness_n_per_m",
+    "resonator_stiffness",
+    "resonator_mass_kg",
+    "resonator_mass",
+)
+# The settings that decide each parameter, the likeliest to be wrong first. A parameter that is not here is decided by
+# the settings whose names begin with its own.
+DECIDERS: dict[str, tuple[str, ...]] = {
+    "amplitude": ("amplitude_um", "waviness_scale", "decay"),
+    "amplitudes": ("amplitude_m_s2",),
+    "angle": ("separation_deg", "count", *EXTENTS),
+    "ball_diameter": (*BALL_DIAMETERS, "balls", "fill", *PITCH_DIAMETERS),
+    "balls": ("balls", "fill", *BALL_DIAMETERS, *PITCH_DIAMETERS),
+    "bits": ("recorder_bits",),
+    "correlation_time": (
+        "slip_correlation_passes",
+        "speed_rpm",
+        "speed_of_rated",
+        "rated_speed_rpm",
+        "duration_s",
+        "settle_s",
+    ),
+    "cage": ("mean_slip", "slip_deviation"),
+    "cutoff": ("mounting_cutoff_hz",),
+    "depth": ("depth_um", "roughness_um"),
+    "duration_s": ("duration_s", "rate_hz", *RESONATORS),
+    "entry_taper": (*ENTRY_TAPERS, *EXIT_TAPERS, *EXTENTS),
+    "exit_taper": (*EXIT_TAPERS, *EXTENTS),
+    "film_damping": ("film_damping_us", "film_damping_n_s_per_m", "film_damping", *RATED_LOADS, "clearance_um"),
+    "full_scale": ("recorder_range_m_s2",),
+    "load": (
+        "load_n",
+        "load_of_rated",
+        *RATED_LOADS,
+        "load_deflection_n_per_m_to_n",
+        "clearance_um",
+        "amplitude_um",
+        "waviness_scale",
+    ),
+    "order": ("mounting_order", "orders"),
+    "resonator_stiffness": (*RESONATORS, "outer_mass_kg", "outer_mass", "rate_hz"),
+    "row": ("row", "rows", "bearing", "rig"),
+    "second_cage": ("mean_slip", "slip_deviation"),
+    "shaft_speed": ("speed_rpm", "speed_of_rated", "rated_speed_rpm"),
+}
+
+
+def deciders(recipe: Recipe, part: int, parameter: str, reason: str) -> list[tuple[Location, object]]:
+    """Where the recipe says something that decides the `parameter` of the part with that index, and what, as in TOML.
+
+    The likeliest to be wrong comes first; of settings of one name that whose table, such as `extended`, is a word of
+    the `reason`. Nothing is found of what the recipe leaves at its default.
+    """
+    names = DECIDERS.get(parameter)
+    found = [
+        (location, value) for location, value in _said(recipe, part) if parameter and _decides(location[-1], parameter)
+    ]
+    words = set(reason.replace(",", " ").split())
+
+    def likelihood(setting: tuple[Location, object]) -> tuple[int, bool]:
+        *tables, name = setting[0]
+        return (names.index(str(name)) if names else 0, not words.intersection(map(str, tables)))
+
+    return sorted(found, key=likelihood)
+
+
+def _decides(name: str | int, parameter: str) -> bool:
+    names = DECIDERS.get(parameter)
+    return str(name) in names if names is not None else str(name).startswith(parameter)
+
+
+def _said(recipe: Recipe, index: int) -> Iterator[tuple[Location, object]]:
+    """Every setting of a part that the recipe states, with those of the whole recipe that hold for it."""
+    part = recipe.part[index]
+    yield from _settings(part, ("part", index))
+    for name in ("signal", *(name for name in ("chain", "background") if getattr(part, name) is None)):
+        yield from _settings(getattr(recipe, name), (name,))
+
+
+def _settings(table: BaseModel, place: Location) -> Iterator[tuple[Location, object]]:
+    for name in type(table).model_fields:
+        if name in table.model_fields_set:
+            yield from _inside(getattr(table, name), (*place, name))
+
+
+def _inside(value: Any, place: Location) -> Iterator[tuple[Location, object]]:
+    if isinstance(value, BaseModel):
+        yield from _settings(value, place)
+    elif isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+        for index, entry in enumerate(value):
+            yield from _settings(entry, (*place, index))
+    else:
+        yield place, value.to_toml() if isinstance(value, Distribution) else value

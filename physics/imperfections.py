@@ -16,8 +16,8 @@ class Waviness:
     """One harmonic of a race: depth(ψ) = amplitude · cos(order · ψ + phase), ψ the angle on that race at t = 0.
 
     Positive depth is material missing (it relieves the ball), like the depth of a spall. Applies to every row.
-    InvalidParameter unless `race` is "outer" or "inner", `order` a whole number from 1 to 2000 and the amplitude above 0,
-    10 mm at most.
+    InvalidParameter unless `race` is "outer" or "inner", `order` a whole number from 1 to 2000 and the amplitude above
+    0, 10 mm at most.
     """
 
     race: str

@@ -138,7 +138,9 @@ def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, Rows]:
     own = Parallel(WORKERS)(delayed(read)(folder, label, name) for _, label in labels.iterrows())
     owner = np.concatenate([np.full(len(found.rows), record) for record, found in zip(records, own, strict=True)])
     rejected = {int(record): found.reason for record, found in zip(records, own, strict=True) if found.reason}
-    return labels, Rows(np.array([row.values for found in own for row in found.rows]), owner, rejected)
+    rows = [row for found in own for row in found.rows]
+    axes = np.array([row.axis for row in rows], dtype=np.int64)
+    return labels, Rows(np.array([row.values for row in rows]), owner, rejected, axis=axes)
 
 
 def scores(tested: list[Tested]) -> list[tuple[str, str, str, str]]:

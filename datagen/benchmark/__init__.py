@@ -6,7 +6,7 @@
 - `training`, `trained` (what came of it, as a file), `learning` (the curve), `importance`
 - `impulse_train`, `impulse_training`: learning without physics
 - `machines`: no record is scored of a machine that was learned from; `answers`: what an estimator says, checked
-- `votes`, `verdicts`: one answer a record; `predictions`: these as a table
+- `verdicts`: one answer a record; `predictions`: these as a table
 - `summary`: scores, which `model_scores` holds; `results`: all that a run gives; `log_line`: what the log beside each
   scored corpus says of it
 """

@@ -129,6 +129,7 @@ def _learn(
     facts: dict[str, Any] = {
         "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
         "rule_threshold": rule.threshold,
+        "rule_of_several_axes": rule.of_several,
         "alarms": {model.name: _plain(model.alarm) for model in models},
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
     }

@@ -60,7 +60,7 @@ def learning_curve(
 
 def _score(model: Model, held_out: TrainingSet) -> Interval:
     records, first = np.unique(held_out.records, return_index=True)
-    _, said, _ = vote(model, held_out.table, held_out.records, records)
+    _, said, _ = vote(model, held_out.table, held_out.records, records, held_out.axes)
     truth = _locations(held_out.classes[first])
     return bootstrap(balanced_accuracy, truth, _locations(said), groups=held_out.bearings[first], draws=300)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import repeat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -64,11 +64,13 @@ class Reading:
 
 @dataclass(frozen=True)
 class Row:
-    """Values (F,) of the feature table of one axis and window, whether noise was added, and why not to classify it."""
+    """Values (F,) of the feature table of one axis and window, whether noise was added, why not to classify it, and
+    which axis of its record it is."""
 
     values: Array
     noisy: bool
     reason: str
+    axis: int = 0
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,8 @@ class RecordRows:
 @dataclass(frozen=True)
 class Rows:
     """Rows (N, F) of the feature table, the record (N,) of each, per record why it must not be classified, how many
-    glitches and how many shocks it had (where any), and which rows (N,) had noise added (None: none)."""
+    glitches and how many shocks it had (where any), which rows (N,) had noise added (None: none), and which axis (N,)
+    of its record each is (None: not told, as of one)."""
 
     table: NDArray[Any]
     record: NDArray[np.int64]
@@ -93,6 +96,12 @@ class Rows:
     noisy: NDArray[np.bool_] | None = None
     glitches: dict[int, int] = field(default_factory=dict)
     shocks: dict[int, int] = field(default_factory=dict)
+    axis: NDArray[np.int64] | None = None
+
+    @property
+    def axes(self) -> NDArray[np.int64]:
+        """The axis (N,) of each row, 0 where it is not told."""
+        return np.zeros(len(self.record), dtype=np.int64) if self.axis is None else self.axis
 
 
 def read_rows(
@@ -110,6 +119,7 @@ def read_rows(
     tables = [rows.table for rows in found] or [np.empty((0, len(FEATURE_NAMES)))]
     owners = [rows.record for rows in found] or [np.empty(0, dtype=np.int64)]
     noisy = [rows.noisy for rows in found if rows.noisy is not None] or [np.empty(0, dtype=bool)]
+    axes = [rows.axes for rows in found] or [np.empty(0, dtype=np.int64)]
     rejected: dict[int, str] = {}
     glitches: dict[int, int] = {}
     shocks: dict[int, int] = {}
@@ -117,7 +127,15 @@ def read_rows(
         rejected |= rows.rejected
         glitches |= rows.glitches
         shocks |= rows.shocks
-    return Rows(np.concatenate(tables), np.concatenate(owners), rejected, np.concatenate(noisy), glitches, shocks)
+    return Rows(
+        np.concatenate(tables),
+        np.concatenate(owners),
+        rejected,
+        np.concatenate(noisy),
+        glitches,
+        shocks,
+        np.concatenate(axes),
+    )
 
 
 def _results(
@@ -150,6 +168,7 @@ def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> Rows:
         np.array([row.noisy for row in rows], dtype=bool),
         {record: own.glitches for record, own in found.items() if own.glitches},
         {record: own.shocks for record, own in found.items() if own.shocks},
+        np.array([row.axis for row in rows], dtype=np.int64),
     )
 
 
@@ -178,7 +197,7 @@ def record_rows(
             signal, cut = without_shocks(signal, turns)
         found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
         glitches, shocks = glitches + drawn_over, shocks + cut
-        rows += found
+        rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
     return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks)
 

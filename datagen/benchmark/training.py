@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.known import true_class
 from datagen.benchmark.rows import Reading, Rows, read_rows
-from datagen.benchmark.votes import averaged
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import own_code
@@ -20,8 +19,9 @@ from datagen.telling import Count, Say, unheard
 from labels.classifier.alarm import Alarm
 from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS
-from labels.classifier.rule import Rule, fit_rule
+from labels.classifier.rule import Rule, fit_rule, line_heights
 from labels.classifier.spall_classifier import SpallClassifier
+from labels.classifier.votes import vote_shares
 from physics.arrays import Array, Flags
 
 if TYPE_CHECKING:
@@ -42,13 +42,14 @@ ROWS_TO_TRY = 8
 @dataclass(frozen=True)
 class TrainingSet:
     """Rows (N, F) to learn from, their classes (N,) and virtual bearings (N,), the records (N,) that they came from,
-    and which (N,) had noise added."""
+    which (N,) had noise added, and the axis (N,) of its record that each is (None: of one)."""
 
     table: Array
     classes: NDArray[np.str_]
     bearings: NDArray[np.str_]
     records: NDArray[np.int64]
     noisy: NDArray[np.bool_]
+    axes: NDArray[np.int64] | None = None
 
     def subset(self, chosen: NDArray[np.bool_]) -> TrainingSet:
         """The rows (M, F) that are `chosen` (N,), with all that is known of them."""
@@ -58,6 +59,7 @@ class TrainingSet:
             self.bearings[chosen],
             self.records[chosen],
             self.noisy[chosen],
+            None if self.axes is None else self.axes[chosen],
         )
 
 
@@ -75,16 +77,24 @@ class Model:
     takes_windows: bool = False
     given: str = ""
 
-    def alarms(self, table: Array) -> Array:
-        """Probability (N,) of a spall at which each row is called."""
-        return self.alarm.at(table) if isinstance(self.alarm, Alarm) else np.full(len(table), self.alarm)
+    def alarms(self, table: Array, several: Flags) -> Array:
+        """Probability (N,) of a spall at which each row is called; `several` (N,) marks those of records of several
+        axes."""
+        return self.alarm.at(table, several) if isinstance(self.alarm, Alarm) else np.full(len(table), self.alarm)
 
-    def by_lines_alone(self, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]) -> Flags:
-        """Whether (R,) each of `records` (R,) is called for its lines alone, by the mean of its rows; `owner` (N,) are
-        the records of the rows."""
+    def shares(self, margin: Array, owner: NDArray[np.int64], axis: NDArray[np.int64]) -> Array | None:
+        """Shares (N,) of rows in the vote of their record, by the `margin` (N,) in log odds that each has over its
+        alarm; even (None) for an estimator of the user's, whose alarm knows nothing of axes."""
+        return vote_shares(margin, owner, axis) if isinstance(self.alarm, Alarm) else None
+
+    def by_lines_alone(
+        self, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64], axis: NDArray[np.int64]
+    ) -> Flags:
+        """Whether (R,) each of `records` (R,) is called for its lines alone, by the vote of its rows; `owner` (N,) are
+        the records of the rows and `axis` (N,) their axes."""
         if not isinstance(self.alarm, Alarm):  # an estimator of the user's, whose table may hold raw windows
             return np.zeros(len(records), dtype=bool)
-        return self.alarm.by_lines_alone(averaged(table, owner, records))
+        return self.alarm.by_lines_alone(line_heights(table, owner, records, axis, self.alarm.height_several))
 
     def probability(self, table: Array) -> Array:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
@@ -128,7 +138,7 @@ def joined_labels(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
     classes = np.array([class_of[record] for record in owners], dtype=np.str_)
     bearings = np.array([bearing_of[record] for record in owners], dtype=np.str_)
     noisy = np.zeros(len(owners), dtype=bool) if rows.noisy is None else rows.noisy
-    return TrainingSet(rows.table, classes, bearings, rows.record, noisy)
+    return TrainingSet(rows.table, classes, bearings, rows.record, noisy, rows.axes)
 
 
 def train_rule(training: TrainingSet) -> Rule:
@@ -137,7 +147,8 @@ def train_rule(training: TrainingSet) -> Rule:
     if not healthy.any():
         raise BadInput("no healthy record to set the rule's threshold on", field="--train")
     records = training.records[healthy]
-    return fit_rule(averaged(training.table[healthy], records, np.unique(records)))
+    axes = np.zeros_like(records) if training.axes is None else training.axes[healthy]
+    return fit_rule(training.table[healthy], records, axes)
 
 
 def train_models(training: TrainingSet, learner: str, step: Say = unheard) -> list[Model]:
@@ -155,7 +166,7 @@ def train_models(training: TrainingSet, learner: str, step: Say = unheard) -> li
 
 def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
     return SpallClassifier(name).fit(
-        training.table, training.classes, training.bearings, training.records, training.noisy
+        training.table, training.classes, training.bearings, training.records, training.noisy, training.axes
     )
 
 

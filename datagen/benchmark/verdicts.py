@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
-from datagen.benchmark.votes import averaged, joined
 from labels.classifier.classes import called, location_probability
 from labels.classifier.log_odds import logit, probability_of
-from labels.classifier.rule import Rule
+from labels.classifier.rule import Rule, line_heights
+from labels.classifier.votes import averaged, joined, of_several_axes
 from labels.schema import LOCATIONS
 from physics.arrays import Array
 
@@ -100,20 +100,20 @@ def judge(
 
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
-    means = averaged(rows.table, rows.record, records)
-    score = rule.score(means)
+    heights = line_heights(rows.table, rows.record, records, rows.axes, rule.of_several)
+    score = rule.score(heights)
     missing = np.isnan(score)
     rejected = missing | (reasons != "")
-    location = np.where(rejected, REJECTED, rule.locations(means))
+    location = np.where(rejected, REJECTED, rule.locations(heights))
     condition = np.where(location == "none", "healthy", np.where(rejected, REJECTED, "line"))
-    race = np.where(missing, REJECTED, rule.races(means))
+    race = np.where(missing, REJECTED, rule.races(heights))
     return Verdicts(RULE, location, condition, race, score, np.where(missing, np.nan, rule.threshold))
 
 
 def _of_model(
     model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], reject: float
 ) -> Verdicts:
-    votes, called, alarm = vote(model, rows.table, rows.record, records)
+    votes, called, alarm = vote(model, rows.table, rows.record, records, rows.axes)
     said = np.char.split(called)
     where = location_probability(votes)
     place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
@@ -126,19 +126,26 @@ def _of_model(
 
 
 def vote(
-    model: Model, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
+    model: Model,
+    table: Array,
+    owner: NDArray[np.int64],
+    records: NDArray[np.int64],
+    axis: NDArray[np.int64] | None = None,
 ) -> tuple[Array, NDArray[np.str_], Array]:
     """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
     is called, and the alarm that its rows agree on, 0 where its lines alone call it; `owner` (N,) are the records of
-    the rows.
+    the rows and `axis` (N,) their axes, one for all if None.
 
     A record without rows is called healthy, with NaN for probabilities and alarm.
     """
+    axis = np.zeros_like(owner) if axis is None else axis
     own = model.probability(table) if len(table) else np.empty((0, 5))
-    votes = joined(own, owner, records)
-    levels, alarms = logit(1.0 - own[:, 0]), logit(model.alarms(table))
-    margin, alarm = averaged(levels - alarms, owner, records), averaged(alarms, owner, records)
-    by_lines = model.by_lines_alone(table, owner, records)
+    alarms = logit(model.alarms(table, of_several_axes(owner, axis, owner)))
+    margins = logit(1.0 - own[:, 0]) - alarms
+    shares = model.shares(margins, owner, axis)
+    votes = joined(own, owner, records, shares)
+    margin, alarm = averaged(margins, owner, records, shares), averaged(alarms, owner, records, shares)
+    by_lines = model.by_lines_alone(table, owner, records, axis)
     return votes, called(votes, (margin > 0.0) | by_lines), np.where(by_lines, 0.0, probability_of(alarm))
 
 

@@ -6,6 +6,7 @@
   are parts of them
 - `alarm`: the probability at which a spall is called
 - `rule`: the yardstick without learning
+- `votes`: one answer a record, of all its windows and axes
 - `liveness`: whether a record shows a running machine at all
 - `scores`, `reliability`: how good answers are, with intervals
 """

@@ -8,17 +8,21 @@ which their median spectral kurtosis tells.
 
 Whatever the probability, a record is called faulty too where a race's lines stand higher over the floor than in nearly
 all healthy records. Learners want impulsiveness beside lines, and a spall heard through a narrow band has little.
+
+Both are set for the mean of a record's axes, as for a single one, and lie higher for the vote of several axes, in which
+the one that says most counts twice, by as much as that vote raises healthy records.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from labels.classifier.log_odds import EDGE, logit, probability_of
-from labels.classifier.rule import strengths
+from labels.classifier.rule import raised_heights, strengths
+from labels.classifier.votes import averaged, of_several_axes, raised, vote_shares
 from labels.features.table import FEATURE_NAMES
 from physics.arrays import Array, Flags
 
@@ -45,44 +49,73 @@ def clearness(table: Array) -> Array:
 class Alarm:
     """Probabilities of a spall at which a record like noise and a clear one are called, their logits between; and the
     height over the floor (infinite: none) of a race's line family above which a record is called whatever its
-    probability."""
+    probability.
+
+    Of records of several axes these hold for what their axes say on average: their votes have to pass `several` more
+    log odds, and their heights are divided by `height_several` before they are compared.
+    """
 
     in_noise: float
     in_clear: float
     height: float = np.inf
+    several: float = 0.0
+    height_several: float = 1.0
 
-    def at(self, table: Array) -> Array:
-        """Probability (N,) of a spall at which each row of the feature table is called."""
+    def at(self, table: Array, several: Flags | None = None) -> Array:
+        """Probability (N,) of a spall at which each row of the feature table is called; those marked `several` (N,) are
+        of records of several axes, none if None."""
         clear = clearness(table)
         low, high = logit(np.array([self.in_noise, self.in_clear]))
-        return probability_of(low * (1.0 - clear) + high * clear)
+        more = 0.0 if several is None else self.several * several
+        return probability_of(low * (1.0 - clear) + high * clear + more)
 
-    def by_lines_alone(self, table: Array) -> Flags:
-        """Whether (N,) the lines of each row of the feature table are an alarm by themselves; not in a row of NaN."""
-        return np.asarray(strengths(table).max(axis=1) > self.height)
+    def by_lines_alone(self, heights: Array) -> Flags:
+        """Whether (R,) the `heights` (R, 2) of the races' lines are an alarm by themselves; NaN is none."""
+        return np.asarray(heights.max(axis=1) > self.height)
 
 
-def fit_alarm(spall: Array, table: Array, records: NDArray[np.int64], noisy: NDArray[np.bool_], share: float) -> Alarm:
-    """The alarm that at most a `share` of healthy records pass by their probability, SHARE_IN_NOISE times that of the
-    rows like noise, and 1 − LINES_QUANTILE of the records by their lines.
+def fit_alarm(
+    spall: Array,
+    table: Array,
+    records: NDArray[np.int64],
+    noisy: NDArray[np.bool_],
+    share: float,
+    axes: NDArray[np.int64] | None = None,
+) -> Alarm:
+    """The alarm that at most a `share` of healthy records pass by the mean of their probabilities, SHARE_IN_NOISE times
+    that of the rows like noise, and 1 − LINES_QUANTILE of the records by their lines.
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise
-    does, not how often a record alarms. ValueError if all are noisy.
+    does, not how often a record alarms. `axes` (N,) are the axes of the rows, one for all if None; without records of
+    several, nothing is known of what a vote of several raises. ValueError if all are noisy.
     """
     if np.all(noisy):
         raise ValueError("no healthy record without added noise to set the alarm on")
     level, clear = logit(spall), clearness(table)
     hidden = level[clear == 0.0] if np.sum(clear == 0.0) >= FEWEST_ROWS else level
     low = float(np.quantile(hidden, 1.0 - SHARE_IN_NOISE * share))
-    own, place = np.unique(records[~noisy], return_inverse=True)
-    rows = np.bincount(place)
-    above = np.bincount(place, (level - low * (1.0 - clear))[~noisy]) / rows
-    weight = np.bincount(place, clear[~noisy]) / rows
+    level, clear, table, records = level[~noisy], clear[~noisy], table[~noisy], records[~noisy]
+    axes = np.zeros_like(records) if axes is None else axes[~noisy]
+    own = np.unique(records)
+    above, weight = averaged(np.column_stack([level - low * (1.0 - clear), clear]), records, own).T
     # A record alarms where its mean level passes low (1 − clear) + high clear, that is where high lies below this:
     needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
     high = np.sort(needed)[::-1][min(int(share * own.size), own.size - 1)]
     in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
-    heights = [np.bincount(place, race) / rows for race in np.log(strengths(table[~noisy])).T]
-    height = np.exp(np.quantile(np.max(heights, axis=0), LINES_QUANTILE))
-    return Alarm(float(in_noise), float(in_clear), float(height))
+    heights = averaged(np.log(strengths(table)), records, own).max(axis=1)
+    alarm = Alarm(float(in_noise), float(in_clear), float(np.exp(np.quantile(heights, LINES_QUANTILE))))
+    margin = level - logit(alarm.at(table))
+    return replace(
+        alarm,
+        several=_raised_votes(margin, records, axes),
+        height_several=raised_heights(table, records, axes),
+    )
+
+
+def _raised_votes(margin: Array, records: NDArray[np.int64], axes: NDArray[np.int64]) -> float:
+    """Log odds by which the votes of records of several axes lie above the means of their rows' `margin` (N,)."""
+    several = np.unique(records)
+    several = several[of_several_axes(records, axes, several)]
+    votes = averaged(margin, records, several, vote_shares(margin, records, axes))
+    return raised(votes, averaged(margin, records, several))

@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_limits
 from labels.classifier.alarm import fit_alarm
 from labels.classifier.classes import CLASSES, HEALTHY, called
 from labels.classifier.learners import SEED, learner
+from labels.classifier.rule import strengths
 from labels.classifier.stage import Stage
 from labels.features.table import FEATURE_NAMES
 from physics.arrays import Array
@@ -57,14 +58,15 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         groups: NDArray[Any] | None = None,
         records: NDArray[np.int64] | None = None,
         noisy: NDArray[np.bool_] | None = None,
+        axes: NDArray[np.int64] | None = None,
     ) -> SpallClassifier:
         """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) are virtual bearings.
 
-        `records` (N,) are the records that the rows are of, each its own if None; `noisy` (N,) marks rows of a record
-        to which noise was added.
+        `records` (N,) are the records that the rows are of, each its own if None, and `axes` (N,) their axes, one for
+        all if None; `noisy` (N,) marks rows of a record to which noise was added.
         """
         with threadpool_limits(1):  # trees this small are fitted faster alone than by threads that wait for each other
-            return self._fit(X, y, groups, records, noisy)
+            return self._fit(X, y, groups, records, noisy, axes)
 
     def _fit(
         self,
@@ -73,6 +75,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         groups: NDArray[Any] | None,
         records: NDArray[np.int64] | None,
         noisy: NDArray[np.bool_] | None,
+        axes: NDArray[np.int64] | None,
     ) -> SpallClassifier:
         X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
@@ -82,7 +85,12 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         faulty = y != HEALTHY
         self.spall_ = self._stage(SIGNS, DIVISIONS).fit(_spall_columns(X), faulty, groups, noisy)
         self.alarm_ = fit_alarm(
-            self.spall_.held_out[~faulty], X[~faulty], records[~faulty], noisy[~faulty], self.false_alarms
+            self.spall_.held_out[~faulty],
+            X[~faulty],
+            records[~faulty],
+            noisy[~faulty],
+            self.false_alarms,
+            None if axes is None else np.asarray(axes)[~faulty],
         )
         faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
         inner = _ends_with(y[faulty], "inner")
@@ -106,7 +114,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         """The likeliest class (N,) of the rows whose probability of a spall, or whose lines, pass the alarm; "healthy"
         for others."""
         probability = self.predict_proba(X)
-        return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | self.alarm_.by_lines_alone(X))
+        by_lines = self.alarm_.by_lines_alone(strengths(X))
+        return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | by_lines)
 
     def _stage(self, signs: tuple[int, ...] | None = None, divisions: int = 1) -> Stage:
         return Stage(learner(self.kind, self.seed, signs), self.seed, divisions)

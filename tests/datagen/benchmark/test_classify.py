@@ -19,7 +19,6 @@ from datagen.benchmark.training import (
     train_rule,
     training_records,
 )
-from datagen.benchmark.votes import averaged, joined
 from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.cli import app
 from datagen.corpus import Corpus
@@ -28,6 +27,7 @@ from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scored_runs import log_path, write_line
+from labels.classifier.votes import averaged, joined
 from labels.features.table import FEATURE_NAMES
 
 
@@ -250,6 +250,7 @@ def test_how_many_records_are_read_is_told(workers, tiny_corpus, monkeypatch):
     told = []
     found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *counts: told.append(counts))
     assert sorted({*found.record.tolist(), *found.rejected}) == list(range(14))
+    assert found.axis.tolist() == [0, 1] * (len(found.record) // 2)
     assert told == [(0, 14), (5, 14), (10, 14), (14, 14)]
 
 

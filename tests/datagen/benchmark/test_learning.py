@@ -7,12 +7,13 @@ import pytest
 
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.training import ROWS_TO_TRY, TrainingSet
+from datagen.benchmark.verdicts import vote
 from labels.classifier.classes import CLASSES
 from labels.features.table import FEATURE_NAMES
 
 
 def made_up(bearings, classes=CLASSES):
-    """Two records of each bearing, each of two rows as they are and one in noise, in which nothing is seen."""
+    """Two records of each bearing, each of two axes as they are and one in noise, in which nothing is seen."""
     generator = np.random.default_rng(3)
     records = np.repeat(np.arange(2 * bearings), 3)
     own = np.array(classes)[(records + records // 2) % len(classes)]
@@ -20,15 +21,29 @@ def made_up(bearings, classes=CLASSES):
     noisy = np.tile([False, False, True], 2 * bearings)
     table[:, FEATURE_NAMES.index("outer_evidence")] += 4.0 * ((own != "healthy") & ~noisy)
     table[:, FEATURE_NAMES.index("race_evidence")] += 4.0 * (np.char.endswith(own, "outer") & ~noisy)
-    return TrainingSet(table, own, np.char.add("b", (records // 2).astype(str)), records, noisy)
+    axes = np.tile([0, 1, 0], 2 * bearings)
+    return TrainingSet(table, own, np.char.add("b", (records // 2).astype(str)), records, noisy, axes)
 
 
 def test_a_subset_keeps_what_is_known_of_each_row():
     whole = made_up(6)
     part = whole.subset(np.arange(len(whole.table)) % 5 == 2)
     assert len(part.table) == 7
-    for name in ("table", "classes", "bearings", "records", "noisy"):
+    for name in ("table", "classes", "bearings", "records", "noisy", "axes"):
         np.testing.assert_array_equal(getattr(part, name), getattr(whole, name)[2::5])
+
+
+def test_axes_of_held_out_records_are_told_apart(monkeypatch):
+    heard = []
+
+    def said(model, table, owner, records, axis=None):
+        heard.append(axis)
+        return vote(model, table, owner, records, axis)
+
+    monkeypatch.setattr("datagen.benchmark.learning.vote", said)
+    learning_curve(made_up(20), "logistic")
+    assert heard
+    assert all(axis.tolist() == [0, 1] * (axis.size // 2) for axis in heard)
 
 
 def test_points_are_of_different_shares_and_records_without_noise():

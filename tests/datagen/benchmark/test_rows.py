@@ -55,6 +55,11 @@ def test_a_window_without_signal_leaves_the_vote_to_the_others():
     assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows([], DEAD)
 
 
+def test_rows_tell_the_axis_that_they_are_of():
+    found = record_rows(np.column_stack([shaking(3000), shaking(3001)[1:]]), labels(), Reading(window=1500 / RATE))
+    assert [row.axis for row in found.rows] == [0, 0, 1, 1]
+
+
 def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatch):
     told = []
 

@@ -80,6 +80,10 @@ def test_the_same_is_said_by_what_was_kept(learned, divided, tmp_path):
     assert again["predictions"] == test["predictions"]
     assert {entry["bearing_id"] for entry in again["predictions"]} == {LEFT_OUT}
     assert after["alarms"] == before["alarms"]
+    # The corpus has two axes, so it is known by how much a vote of several is raised.
+    assert after["alarms"]["logistic"]["several"] > 0.0
+    assert after["alarms"]["logistic"]["height_several"] > 1.0
+    assert after["rule_of_several_axes"] == after["alarms"]["logistic"]["height_several"]
     assert after["training_records"] == before["training_records"]
 
 

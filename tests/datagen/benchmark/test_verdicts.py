@@ -17,6 +17,7 @@ from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
 from datagen.commands.classify import score_line, tell_results
 from datagen.commands.tables import verdict_table
 from labels.classifier.alarm import CLEARNESS, Alarm
+from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule
 from labels.features.table import FEATURE_NAMES
 
@@ -212,6 +213,37 @@ def test_a_record_is_called_for_its_lines_alone_whatever_its_probability():
     assert called.tolist() == ["line inner", "healthy", "healthy"]  # the last has no rows
     assert alarm[:2].tolist() == [0.0, pytest.approx(0.5)]
     assert np.isnan(alarm[2])
+
+
+def test_a_quiet_axis_does_not_outvote_a_clear_one():
+    """Log odds of 3 and −1 lie 5/3 above an alarm at even odds where the clear axis counts twice, not 1; an estimator
+    of the user's, whose alarm knows nothing of axes, is heard evenly."""
+    level = np.array([-1.0, 3.0, -1.0, 3.0])
+    spall = probability_of(level)
+    said = Said(np.column_stack([1.0 - spall, spall, *np.zeros((3, 4))]))
+    table, owner, axis = np.zeros((4, len(FEATURE_NAMES))), np.array([0, 0, 1, 1]), np.array([0, 1, 0, 0])
+    for several, names in ((1.6, ["line outer", "line outer"]), (1.7, ["healthy", "line outer"])):
+        model = Model("said", said, Alarm(0.5, 0.5, several=several))
+        votes, called, alarm = vote(model, table, owner, np.arange(2), axis)
+        assert called.tolist() == names  # the rows of record 1 are windows of one axis: a mean of 1
+        np.testing.assert_allclose(logit(alarm), [several, 0.0], atol=1e-9)
+    assert np.log(votes[0, 1] / votes[0, 0]) == pytest.approx(5.0 / 3.0)
+    labels, _ = corpus(["outer", "outer"])
+    judgement = judge(Path("made-up"), labels, Rows(table, owner, axis=axis), RULE, [model], 0.0, True)
+    assert judgement.verdicts[1].location.tolist() == ["none", "outer"]
+    votes, _, _ = vote(Model("own", said, 0.5), table, owner, np.arange(2), axis)
+    assert np.log(votes[0, 1] / votes[0, 0]) == pytest.approx(1.0)
+
+
+def test_of_several_axes_the_rule_lowers_the_height_and_lines_alone_too():
+    labels, _ = corpus(["inner", "inner"])
+    table = np.zeros((3, len(FEATURE_NAMES)))
+    table[:, FEATURE_NAMES.index("inner_strength")] = np.log([8.0, 1.0, 4.0])  # 4 high by the vote, either record
+    rows = Rows(table, np.array([0, 0, 1]), axis=np.array([0, 1, 0]))
+    model = Model("said", Said([[0.9, 0.04, 0.06, 0.0, 0.0]] * 3), Alarm(0.5, 0.5, 3.0, height_several=1.5))
+    rule, said = judge(Path("made-up"), labels, rows, Rule(3.0, 1.5), [model], 0.0, True).verdicts
+    np.testing.assert_allclose(rule.score, [4.0 / 1.5, 4.0])
+    assert rule.location.tolist() == said.location.tolist() == ["none", "inner"]
 
 
 def test_the_race_named_is_the_likelier_one_even_where_no_spall_is_called():

@@ -1,0 +1,76 @@
+"""One vote a record: what its windows and axes say, joined. Of several axes the one that says most counts twice.
+
+Sensors beside a spall may hear it or not, and a healthy machine shakes most of them alike. So one clear axis shall not
+be outvoted by a quiet one, nor shall the loudest of many healthy ones decide alone.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics.arrays import Array, Flags
+
+SMALLEST = 1e-6
+# Times that the axis which says most counts, where another counts once.
+LOUDEST_COUNTS = 2.0
+# Highest records, as a share of all, from which it is taken how much higher records lie because their loudest axis
+# counts more: alarms are decided there, and the few above one alarm alone would be chance.
+HIGHEST = 0.2
+
+
+def joined(
+    probability: Array, owner: NDArray[np.int64], records: NDArray[np.int64], shares: Array | None = None
+) -> Array:
+    """Probabilities (R, C) of `records` (R,): the geometric mean of those (N, C) of the rows each owns (N,), sum 1.
+
+    The `shares` (N,) of rows in it are even if None. NaN for a record without rows.
+    """
+    level = np.exp(averaged(np.log(np.maximum(probability, SMALLEST)), owner, records, shares))
+    return np.asarray(level / level.sum(axis=1, keepdims=True))
+
+
+def averaged(values: Array, owner: NDArray[np.int64], records: NDArray[np.int64], shares: Array | None = None) -> Array:
+    """Means (R, …) of the values (N, …) of the rows that each of `records` (R,) owns (N,); NaN without rows.
+
+    The `shares` (N,) of rows in them are even if None. A record may be asked for more than once; rows of others are
+    left out.
+    """
+    own, place = np.unique(records, return_inverse=True)
+    nearest = np.minimum(np.searchsorted(own, owner), max(own.size - 1, 0))
+    asked = own[nearest] == owner if own.size else np.zeros(owner.size, dtype=bool)
+    weight = np.ones(owner.size) if shares is None else shares
+    total = np.zeros((own.size, *values.shape[1:]))
+    np.add.at(total, nearest[asked], (values.T * weight).T[asked])
+    count = np.bincount(nearest[asked], weight[asked], minlength=own.size).astype(np.float64)
+    count[count == 0.0] = np.nan
+    return np.asarray((total.T / count).T[place])
+
+
+def vote_shares(level: Array, owner: NDArray[np.int64], axis: NDArray[np.int64]) -> Array:
+    """Shares (N,) of rows in the vote of their record, 1 in sum: of its axes, the one of highest mean `level` (N,)
+    counts twice; rows of one `axis` (N,) of one `owner` (N,), which are its windows, share alike."""
+    axes, place = np.unique(np.stack([owner, axis]), axis=1, return_inverse=True)
+    _, record = np.unique(axes[0], return_inverse=True)
+    rows = np.bincount(place)
+    loudest = np.lexsort((np.bincount(place, level) / rows, record))[np.cumsum(np.bincount(record)) - 1]
+    voices = np.ones(rows.size)
+    voices[loudest] = LOUDEST_COUNTS
+    return np.asarray((voices / np.bincount(record, voices)[record] / rows)[place])
+
+
+def of_several_axes(owner: NDArray[np.int64], axis: NDArray[np.int64], records: NDArray[np.int64]) -> Flags:
+    """Which of `records` (R,) have rows (N,) of more than one `axis` (N,)."""
+    axes = np.unique(np.stack([owner, axis]), axis=1)[0]
+    return np.isin(records, axes[1:][axes[1:] == axes[:-1]])
+
+
+def raised(votes: Array, means: Array) -> float:
+    """How much higher the `votes` (R,) of records of several axes lie than the plain `means` (R,) of their axes, on
+    average over the highest fifth of each; 0 without records.
+
+    Of n axes it is about the same for any n: the largest of more normal numbers lies farther from their mean, and
+    counts for less of it.
+    """
+    count = int(np.ceil(HIGHEST * votes.size))
+    return float(np.mean(np.sort(votes)[-count:]) - np.mean(np.sort(means)[-count:])) if count else 0.0

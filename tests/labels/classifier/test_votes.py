@@ -1,0 +1,51 @@
+"""One vote a record."""
+
+import numpy as np
+import pytest
+
+from labels.classifier.votes import averaged, joined, of_several_axes, raised, vote_shares
+
+
+def test_rows_of_a_record_agree_on_the_geometric_mean_of_their_probabilities():
+    probability = np.array([[0.9, 0.1], [0.2, 0.8], [0.5, 0.5]])
+    found = joined(probability, np.array([7, 8, 7]), np.array([7, 8, 9]))
+    # Odds of 9 and of 1 have a geometric mean of 3.
+    assert found[:2] == pytest.approx(np.array([[0.75, 0.25], [0.2, 0.8]]))
+    assert np.isnan(found[2]).all()
+
+
+def test_other_values_are_averaged_as_they_are():
+    found = averaged(np.array([9.0, 2.0, 1.0]), np.array([7, 8, 7]), np.array([8, 7, 9]))
+    assert found == pytest.approx([2.0, 5.0, np.nan], nan_ok=True)
+
+
+def test_rows_count_by_their_shares():
+    owner, shares = np.array([7, 8, 7]), np.array([0.75, 1.0, 0.25])
+    found = averaged(np.array([[8.0], [3.0], [4.0]]), owner, np.array([7, 8, 9]), shares)
+    assert found[:, 0] == pytest.approx([7.0, 3.0, np.nan], nan_ok=True)
+    # Odds of 81 and of 1: three quarters of the one.
+    probability = np.array([[81.0, 1.0], [1.0, 1.0], [41.0, 41.0]]) / 82.0
+    assert joined(probability, owner, np.array([7]), shares)[0] == pytest.approx([27.0 / 28.0, 1.0 / 28.0])
+
+
+def test_the_axis_that_says_most_counts_twice_and_its_windows_share():
+    owner = np.array([3, 3, 3, 3, 3, 1, 1, 2])
+    axis = np.array([0, 0, 1, 1, 2, 0, 1, 5])
+    # Of record 3 axis 1 says most on average, though its second window says little.
+    level = np.array([1.0, 1.0, 9.0, -1.0, 0.0, -5.0, -4.0, 0.0])
+    assert vote_shares(level, owner, axis) == pytest.approx([1 / 8, 1 / 8, 1 / 4, 1 / 4, 1 / 4, 1 / 3, 2 / 3, 1.0])
+    assert vote_shares(np.empty(0), owner[:0], axis[:0]).size == 0
+
+
+def test_windows_of_one_axis_are_no_axes():
+    owner, axis = np.array([4, 4, 7, 7, 7]), np.array([0, 1, 0, 0, 0])
+    assert of_several_axes(owner, axis, np.array([7, 4, 5, 4])).tolist() == [False, True, False, True]
+    assert not of_several_axes(owner[:0], axis[:0], np.array([1])).any()
+
+
+def test_votes_are_raised_by_what_lifts_the_highest_fifth():
+    means = np.arange(10.0)
+    votes = np.where(means >= 8.0, means + 0.5, means + 3.0)[::-1]  # 0 to 7 rise to 3 … 10, above 8.5 and 9.5
+    assert raised(votes, means) == pytest.approx((10.0 + 9.5) / 2.0 - 8.5)
+    assert raised(means, means) == 0.0
+    assert raised(np.empty(0), np.empty(0)) == 0.0

@@ -30,7 +30,7 @@ class Program(TyperGroup):
         """The context of a run with these `args`; those of the command are kept for messages."""
         self._given = [str(part) for part in args]
         with self._told():
-            _refuse_empty(self._given)
+            _refuse_empty(self.commands.get(next(iter(self._given), "")), self._given)
             return super().make_context(info_name, args, *more, **extra)
 
     def invoke(self, ctx: Any) -> Any:
@@ -72,20 +72,26 @@ class Program(TyperGroup):
         return BadInput(said[:1].lower() + said[1:], field=str(context.info_name), allowed=_usage(context))
 
 
-def _refuse_empty(given: Sequence[str]) -> None:
-    """Tell of an empty value, as of a variable of the shell that is not set: as a path it would be the current folder.
+def _refuse_empty(command: Any, given: Sequence[str]) -> None:
+    """Say so if an argument or a path among those `given` is empty, as where a variable of the shell is not set: it
+    would be the current folder. `command` is None if there is no such one.
 
     Raises typer.Exit.
     """
+    options = {name: parameter.name for parameter in getattr(command, "params", ()) for name in parameter.opts}
     for before, part in zip(("", *given), given, strict=False):
-        if part.startswith("--") and part.endswith("="):
-            field = part[:-1]
-        elif not part:
-            field = before if before.startswith("-") else "an argument"
-        else:
+        name, equals, value = part.partition("=")
+        option = name if equals else before
+        if value or (part and not equals) or (option.startswith("-") and not _is_path(command, options.get(option))):
             continue
+        field = option if option.startswith("-") else "an argument"
         print_error(BadInput(field=field, value="", allowed="a value that is not empty"))
         raise typer.Exit(BAD_INPUT)
+
+
+def _is_path(command: Any, name: str | None) -> bool:
+    """Whether the parameter `name` of a command is a path."""
+    return name is not None and Path in _kinds(_annotation(command, name)[0])
 
 
 def _of_parameter(problem: Any, command: Any, parameter: Any, given: Sequence[str]) -> BadInput:
@@ -136,13 +142,18 @@ def _value(names: Sequence[str], given: Sequence[str]) -> str | None:
 
 def _allowed(command: Any, name: str) -> str:
     """What the parameter `name` of a command takes, in words, from its annotation."""
-    kind, *notes = get_args(get_type_hints(command.callback, include_extras=True)[name])
+    kind, *notes = _annotation(command, name)
     plain = next((kind for kind in _kinds(kind) if kind in KINDS), str)
     note = next((note for note in notes if hasattr(note, "min")), None)
     low, high = (note.min, note.max) if note is not None else (None, None)
     if low is not None and high is not None:
         return f"{KINDS[plain]} from {low:g} to {high:g}"
     return KINDS[plain] + (f" from {low:g}" if low is not None else "")
+
+
+def _annotation(command: Any, name: str) -> tuple[Any, ...]:
+    """The type of the parameter `name` of a command, and what typer is told of it."""
+    return get_args(get_type_hints(command.callback, include_extras=True)[name])
 
 
 def _kinds(kind: Any) -> tuple[Any, ...]:

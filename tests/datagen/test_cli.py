@@ -177,7 +177,7 @@ def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_all
         (("generate", "RECIPE", "--out="), "--out"),
         (("generate", "", "--out", "corpus"), "an argument"),
         (("check", ""), "an argument"),
-        (("generate", "RECIPE", "--out", "corpus", "--records", ""), "--records"),
+        (("report", "RECIPE", "--json", "", "--out", "card"), "--json"),
     ],
 )
 def test_an_empty_value_is_refused_and_does_not_mean_the_current_folder(

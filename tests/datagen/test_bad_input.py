@@ -183,7 +183,7 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("pitch_diameter_mm = 1e10", "pitch_diameter_mm = 10000000000.0; allowed: a number from 0.1 to 100000"),
         ("ball_diameter_mm = 1e-300", "ball_diameter_mm = 1e-300; allowed: a number from 0.1 to 100000"),
@@ -195,11 +195,11 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
         (f"balls = {'[' * 100_000}", "nested too deeply"),
     ],
 )
-def test_numbers_beyond_all_machines_are_refused(line: str, told: str, tmp_path: Path) -> None:
+def test_numbers_beyond_all_machines_are_refused(line: str, message: str, tmp_path: Path) -> None:
     (tmp_path / "recipe.toml").write_text(GOOD.replace("machine.rig", f"machine.{line}\nmachine.rig"))
     done = CliRunner().invoke(app, ["generate", str(tmp_path), "--out", str(tmp_path / "out")], catch_exceptions=False)
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
-    assert told in done.output
+    assert message in done.output
     assert not (tmp_path / "out").exists()
 
 

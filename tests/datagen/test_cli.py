@@ -66,15 +66,15 @@ def test_every_command_shows_an_example_and_takes_json(command: str) -> None:
 
 def test_the_help_of_classify_names_every_kind_of_training_set() -> None:
     _, shown, _ = run("classify", "--help")
-    told = "".join(shown.split())  # lines end at blanks and behind hyphens
+    message = "".join(shown.split())  # lines end at blanks and behind hyphens
     for kind in ("Simulatedcorpus", "afilethat--savewrote", "impulse-trains,", "impulse-trains-without-INGREDIENT"):
-        assert kind in told
+        assert kind in message
 
 
 def test_generate_check_and_info_work_and_write_their_results(tiny_recipe: Path, tmp_path: Path) -> None:
     out, results = tmp_path / "out", tmp_path / "results.json"
-    code, shown, told = run("generate", tiny_recipe, "--out", out, "--limit", 3, "--workers", 1, "--json", results)
-    assert code == 0, told
+    code, shown, message = run("generate", tiny_recipe, "--out", out, "--limit", 3, "--workers", 1, "--json", results)
+    assert code == 0, message
     assert f"3 of 3 records are in {out}" in shown
     assert json.loads(results.read_text())["made"] == 3
     code, shown, _ = run("check", out, "--json", results)
@@ -92,10 +92,10 @@ def test_check_ends_with_1_and_says_what_is_wrong(tiny_recipe: Path, tmp_path: P
     run("generate", tiny_recipe, "--out", tmp_path / "out", "--records", "1", "--workers", 1)
     shard = next((tmp_path / "out" / "shards").glob("*.nc"))
     shard.write_bytes(shard.read_bytes()[:-7])
-    code, shown, told = run("check", tmp_path / "out")
+    code, shown, message = run("check", tmp_path / "out")
     assert code == 1
     assert "NOT sound" in shown
-    assert f"{shard.name}: its bytes have changed" in told
+    assert f"{shard.name}: its bytes have changed" in message
 
 
 def test_the_catalogue_gives_every_number_with_its_source(tmp_path: Path) -> None:
@@ -134,15 +134,15 @@ def test_bad_input_ends_with_2_and_one_clear_message_and_writes_nothing(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     places = {"RECIPE": str(tiny_recipe), "OUT": str(tmp_path / "out")}
-    code, _, told = run(*(places.get(argument, argument) for argument in arguments))
-    assert code == 2, told
-    assert words in told
-    assert "Traceback" not in told
+    code, _, message = run(*(places.get(argument, argument) for argument in arguments))
+    assert code == 2, message
+    assert words in message
+    assert "Traceback" not in message
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("frobnicate", "frobnicate: there is no such command; allowed: catalog, chart, check,"),
         ("generat", 'generat: there is no such command, did you mean "generate"?; allowed: '),
@@ -162,11 +162,11 @@ def test_bad_input_ends_with_2_and_one_clear_message_and_writes_nothing(
         ("generate a b --out c", "generate: got unexpected extra argument(s) (b); allowed: "),
     ],
 )
-def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_allowed(line: str, told: str) -> None:
+def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_allowed(line: str, message: str) -> None:
     code, shown, said = run(*line.split())
     assert code == 2
     assert shown == ""
-    assert said.startswith(f"error: {told}")
+    assert said.startswith(f"error: {message}")
     assert said.count("\n") == 1
 
 
@@ -184,9 +184,9 @@ def test_an_empty_value_is_refused_and_does_not_mean_the_current_folder(
     arguments: tuple[str, ...], field: str, tiny_recipe: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    code, _, told = run(*(str(tiny_recipe) if argument == "RECIPE" else argument for argument in arguments))
+    code, _, message = run(*(str(tiny_recipe) if argument == "RECIPE" else argument for argument in arguments))
     assert code == 2
-    assert told == f'error: {field} = ""; allowed: a value that is not empty\n'
+    assert message == f'error: {field} = ""; allowed: a value that is not empty\n'
     assert list(tmp_path.iterdir()) == []
 
 
@@ -194,7 +194,7 @@ LEARNED = "a file that --save wrote, impulse-trains or impulse-trains-without-IN
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         (
             "classify --train nowhere --test nowhere",
@@ -214,12 +214,12 @@ LEARNED = "a file that --save wrote, impulse-trains or impulse-trains-without-IN
     ],
 )
 def test_what_is_not_there_is_told_with_what_may_be_given(
-    line: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    line: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     code, shown, said = run(*line.split())
     assert (code, shown) == (2, "")
-    assert said.startswith(f"error: {told}")
+    assert said.startswith(f"error: {message}")
     assert said.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 
@@ -231,25 +231,25 @@ def test_the_version_is_told() -> None:
 
 
 def test_without_a_command_the_help_is_shown() -> None:
-    _, shown, told = run()
-    assert "Commands:" in shown + told
-    assert "error" not in shown + told
+    _, shown, message = run()
+    assert "Commands:" in shown + message
+    assert "error" not in shown + message
 
 
 def test_a_misspelt_setting_of_a_recipe_is_named_with_the_nearest_known(tiny_recipe: Path, tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.toml"
     wrong.write_text(tiny_recipe.read_text().replace("duration_s", "duratoin_s"))
-    code, _, told = run("generate", wrong, "--out", tmp_path / "out")
+    code, _, message = run("generate", wrong, "--out", tmp_path / "out")
     assert code == 2
-    assert "duratoin_s" in told
-    assert '"duration_s"' in told
+    assert "duratoin_s" in message
+    assert '"duration_s"' in message
     assert not (tmp_path / "out").exists()
 
 
 def test_results_that_cannot_be_written_are_bad_input(tiny_corpus: Path, tmp_path: Path) -> None:
-    code, _, told = run("info", tiny_corpus, "--json", tmp_path / "no" / "such.json")
+    code, _, message = run("info", tiny_corpus, "--json", tmp_path / "no" / "such.json")
     assert code == 2
-    assert "--json" in told
+    assert "--json" in message
 
 
 def test_json_of_results_has_null_where_a_number_is_not_finite() -> None:
@@ -261,11 +261,11 @@ def test_json_of_results_has_null_where_a_number_is_not_finite() -> None:
 
 @pytest.mark.usefixtures("record_3_fails")
 def test_generate_ends_with_1_and_names_the_record_that_could_not_be_made(tiny_recipe: Path, tmp_path: Path) -> None:
-    code, shown, told = run("generate", tiny_recipe, "--out", tmp_path / "out", "--limit", 4, "--workers", 1)
+    code, shown, message = run("generate", tiny_recipe, "--out", tmp_path / "out", "--limit", 4, "--workers", 1)
     assert code == 1
     assert "3 of 4 records are in" in shown
-    assert "record 3 could not be made: " in told
-    assert "the response stopped being finite" in told
+    assert "record 3 could not be made: " in message
+    assert "the response stopped being finite" in message
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")

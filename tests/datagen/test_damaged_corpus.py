@@ -46,12 +46,12 @@ COMMANDS = {
 def test_a_damaged_shard_is_named_and_nothing_is_written(damage: str, command: str, copy: Path, tmp_path: Path) -> None:
     DAMAGES[damage](shard_path(copy, 0))
     out = tmp_path / "out"
-    code, _, told = run(*(part.replace("CORPUS", str(copy)).replace("OUT", str(out)) for part in COMMANDS[command]))
+    code, _, message = run(*(part.replace("CORPUS", str(copy)).replace("OUT", str(out)) for part in COMMANDS[command]))
     assert code == 2
-    assert told.count("\n") == 1
-    assert told.startswith(f"error: {shard_path(copy, 0)}: this shard ")
-    assert "generate again" in told
-    assert "--out" not in told
+    assert message.count("\n") == 1
+    assert message.startswith(f"error: {shard_path(copy, 0)}: this shard ")
+    assert "generate again" in message
+    assert "--out" not in message
     assert sorted(path.name for path in tmp_path.iterdir()) == ["copy"]
 
 
@@ -87,11 +87,11 @@ def test_check_says_how_to_mend_it_and_that_mends_it(
 ) -> None:
     path = shard_path(copy, 2)
     DAMAGES[damage](path)
-    code, _, told = run("check", copy)
+    code, _, message = run("check", copy)
     assert code == 1
     first = "" if damage == "missing" else "delete shards/shard_000002.nc and "
     again = f"run `spallgen generate` again with the same recipe and --out {copy}\n"
-    assert told.endswith(f"to mend it, {first}{again}")
+    assert message.endswith(f"to mend it, {first}{again}")
     if path.is_dir():
         shutil.rmtree(path)
     path.unlink(missing_ok=True)
@@ -102,6 +102,6 @@ def test_check_says_how_to_mend_it_and_that_mends_it(
 
 def test_going_on_with_a_whole_corpus_says_that_only_sizes_were_compared(copy: Path, tiny_recipe: Path) -> None:
     flip(shard_path(copy, 2))
-    code, _, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
+    code, _, message = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
     assert code == 0
-    assert "in files of the right size; `spallgen check` reads them" in told
+    assert "in files of the right size; `spallgen check` reads them" in message

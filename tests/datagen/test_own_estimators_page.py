@@ -61,8 +61,8 @@ def test_the_page_names_the_classes_in_their_order():
 
 
 def test_the_page_names_every_ingredient_of_an_impulse_train():
-    told = PAGE.split("impulse-trains-without-INGREDIENT")[1].split("\n## ")[0]
-    assert re.findall(r"^\| `(\w+)` \|", told, re.MULTILINE) == [field.name for field in fields(Ingredients)]
+    section = PAGE.split("impulse-trains-without-INGREDIENT")[1].split("\n## ")[0]
+    assert re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE) == [field.name for field in fields(Ingredients)]
 
 
 def test_the_tables_are_those_that_the_script_writes(load_script, tmp_path):

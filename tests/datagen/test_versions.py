@@ -47,6 +47,6 @@ def test_a_measurement_is_told_with_its_processor_cores_physics_and_packages():
 
 def test_the_same_in_words_leaves_nothing_out():
     made = versions.measured_on("numpy")
-    told = versions.in_words(made)
-    assert all(value in told for value in made.values())
-    assert f"numpy {made['numpy']}" in told
+    words = versions.in_words(made)
+    assert all(value in words for value in made.values())
+    assert f"numpy {made['numpy']}" in words

@@ -69,9 +69,9 @@ def judgement(scenario: Scenario, made: Record) -> dict[str, float]:
     rows = record_rows(made.acceleration, pandas.Series(made.labels), Reading()).rows
     bearing = scenario.scene.rig.bearing
     situation = situation_of(made.labels, (bearing.load_deflection, bearing.exponent))
-    told = default_estimator().estimate(made.acceleration.astype(np.float64), scenario.rate, situation)
+    estimate = default_estimator().estimate(made.acceleration.astype(np.float64), scenario.rate, situation)
     features = zip(FEATURE_NAMES, rows[1].values.tolist(), strict=True)
-    sizes = {"lag": told.lag, "extent": told.extent, "extent_mm": told.extent_mm, "trust": told.trust}
+    sizes = {"lag": estimate.lag, "extent": estimate.extent, "extent_mm": estimate.extent_mm, "trust": estimate.trust}
     return {f"features {name}": value for name, value in features} | {f"size {n}": v for n, v in sizes.items()}
 
 

@@ -42,8 +42,8 @@ def test_a_dry_run_tells_what_differs_and_writes_nothing(
     file = tmp_path / "records.json"
     file.write_text(before := json.dumps(pinned))
     assert golden.main(["--dry-run"], file) == 1
-    told = capsys.readouterr().out.splitlines()
-    assert [" ".join(line.split()[:4]) for line in told] == [
+    printed = capsys.readouterr().out.splitlines()
+    assert [" ".join(line.split()[:4]) for line in printed] == [
         "corpus 6: loudness is",
         "quickstart 0: rms_m_s2 y",
         "quickstart 46: release_s 0",

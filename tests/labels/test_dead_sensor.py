@@ -1,4 +1,4 @@
-"""A sensor without a signal is told from a quiet one."""
+"""A sensor without a signal is known from a quiet one."""
 
 import numpy as np
 

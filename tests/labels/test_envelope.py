@@ -87,7 +87,7 @@ def test_a_band_that_holds_a_line_is_one_that_has_an_envelope(size):
     bands = [*zip(edges[:, 0], edges[::-1, 0], strict=True), *zip(lines[:, 0], lines[:, 0] + widths[0, 0], strict=True)]
     bands += [(low, low + width) for low in edges[:, 0] for width in widths[0]]
     tried = [band for band in bands if band[0] < band[1] <= 22050.0]
-    told = {holds_a_line(band, size, 44100.0) for band in tried}
+    answers = {holds_a_line(band, size, 44100.0) for band in tried}
     for band in tried:
         if holds_a_line(band, size, 44100.0):
             assert band_envelope(np.ones(size), 44100.0, band).size == size
@@ -95,7 +95,7 @@ def test_a_band_that_holds_a_line_is_one_that_has_an_envelope(size):
             assert band[1] - band[0] < 44100.0 / size
             with pytest.raises(ValueError, match="holds no component"):
                 band_envelope(np.ones(size), 44100.0, band)
-    assert told == {True, False}
+    assert answers == {True, False}
     assert not holds_a_line((0.0, 1e-3), size, 44100.0)  # the mean is no line
 
 

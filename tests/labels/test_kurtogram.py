@@ -1,4 +1,4 @@
-"""The band that is chosen of signals whose impacts ring where they are told to."""
+"""The band that is chosen of signals whose impacts ring where they are made to."""
 
 import numpy as np
 import pytest

@@ -92,8 +92,8 @@ def searched(scene, ball, entry, leave):
     """Time of the first fall and the last rise of the load of `ball` of row 1, of all balls' loads at 4001 instants."""
     time = np.linspace(entry, leave, 4001)
     pressed, due = (carried(one, time).ball_load[:, 0, ball - 1] for one in (scene, replace(scene, spalls=())))
-    told = due > 0.0
-    time, enough = time[told], (pressed > 0.5 * due)[told]
+    loaded = due > 0.0
+    time, enough = time[loaded], (pressed > 0.5 * due)[loaded]
     falls, rises = (time[1:][enough[:-1] & ~enough[1:]], time[1:][~enough[:-1] & enough[1:]])
     return (falls[0], rises[-1]) if falls.size and rises.size and falls[0] < rises[-1] else (np.nan, np.nan)
 

@@ -1,4 +1,4 @@
-"""A case and outputs that no march has made, so that what is to be done about responses is told from chosen ones."""
+"""A case and outputs that no march has made, so that what is to be done about responses follows from chosen ones."""
 
 import math
 from types import SimpleNamespace

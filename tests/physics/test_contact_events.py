@@ -27,7 +27,7 @@ def events(initial, log, *passes):
 
 
 @pytest.mark.parametrize(
-    ("initial", "log", "told"),
+    ("initial", "log", "expected"),
     [
         (True, [], (NEVER, NEVER, True)),
         (False, [], (NEVER, NEVER, False)),
@@ -43,9 +43,9 @@ def events(initial, log, *passes):
         (True, [(6.5, False), (7.5, True)], (NEVER, NEVER, True)),
     ],
 )
-def test_a_pass_from_4_to_6_tells_what_its_own_ball_does(initial, log, told):
+def test_a_pass_from_4_to_6_tells_what_its_own_ball_does(initial, log, expected):
     release, regain, loaded = events(initial, log, (4.0, 6.0))
-    assert (release[0], regain[0], loaded[0]) == pytest.approx(told, nan_ok=True)
+    assert (release[0], regain[0], loaded[0]) == pytest.approx(expected, nan_ok=True)
 
 
 def test_a_pass_that_begins_before_the_record_takes_contact_as_it_stands_at_0():

@@ -113,8 +113,8 @@ def test_a_cage_faster_than_the_shaft_over_an_inner_spall_is_refused_with_both_s
     shaft = healthy.operation.shaft_speed
     fast = CagePath(1.25 * shaft, 0.5)
     assert dataclasses.replace(healthy, spalls=(SPALL,), **{field: fast}).defective_race == "outer"
-    told = r"54\.9779 rad/s at its fastest; .* below the shaft's 43\.9823"
-    with pytest.raises(InvalidParameter, match=told) as refused:
+    message = r"54\.9779 rad/s at its fastest; .* below the shaft's 43\.9823"
+    with pytest.raises(InvalidParameter, match=message) as refused:
         dataclasses.replace(healthy, spalls=(inner,), **{field: fast})
     assert refused.value.field == field
     for share in (0.99, 1.0):

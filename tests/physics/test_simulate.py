@@ -26,7 +26,7 @@ def with_bearing(scene, **changes):
 
 
 @pytest.mark.parametrize(
-    ("kind", "choice", "told"),
+    ("kind", "choice", "message"),
     [
         (FixedSteps, {"method": "euler"}, 'method = "euler"; allowed: exponential_rk4, '),
         (FixedSteps, {"method": "modal"}, 'method = "modal"; allowed: exponential_rk4, '),
@@ -50,8 +50,8 @@ def with_bearing(scene, **changes):
         (LeadIn, {"seconds": math.inf}, "lead-in = inf s"),
     ],
 )
-def test_a_choice_out_of_range_is_refused_with_its_value(kind, choice, told):
-    with pytest.raises(InvalidParameter, match=told):
+def test_a_choice_out_of_range_is_refused_with_its_value(kind, choice, message):
+    with pytest.raises(InvalidParameter, match=message):
         kind(**choice)
 
 

@@ -82,8 +82,8 @@ def test_the_balls_turn_as_fast_as_their_cage_says_and_not_as_the_shaft_does(gea
 def test_a_cage_that_does_not_fit_the_shaft_is_told(gearbox, cage):
     scene = scene_of(gearbox)
     faster = dataclasses.replace(scene, operation=Operation(2.0 * gearbox.rated_speed, gearbox.rated_load))
-    told = "The cage turns at a nominal 17.95 rad/s, but without slip the shaft would turn it at 35.9 rad/s"
-    assert [note.split(":")[0] for note in assess(faster)] == [told]
+    message = "The cage turns at a nominal 17.95 rad/s, but without slip the shaft would turn it at 35.9 rad/s"
+    assert [note.split(":")[0] for note in assess(faster)] == [message]
     slow = dataclasses.replace(scene, **{cage: CagePath(9.0, 0.5)})
     assert any("The cage turns at a nominal 9 rad/s" in note for note in assess(slow))
     slipping = dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, mean_slip=0.1))
@@ -146,7 +146,7 @@ def test_the_paper_s_rigs_at_their_own_operating_points_are_in_range(request, na
 def test_fast_running_brings_ball_inertia_and_centrifugal_force_into_the_note(fan):
     notes = assess(scene_of(fan, (line(2.6),), speed=8000 * RPM))
     peak = peak_by_search(fan, 100.0)
-    assert peak == pytest.approx(23.28, abs=0.05)  # three digits, as told; 15.6 N if there were no clearance
+    assert peak == pytest.approx(23.28, abs=0.05)  # three digits, as shown; 15.6 N if there were no clearance
     assert notes[0] == (
         "The centrifugal force of a ball (5.62 N) is left out but is 0.24 times the peak ball load (23.3 N)."
     )
@@ -195,8 +195,8 @@ def test_no_load_and_reversed_load_are_noted_with_their_numbers(gearbox):
 def test_a_load_above_the_static_rating_is_noted_with_both(gearbox):
     [note] = assess(scene_of(gearbox, load=22e3))
     # ISO 76 with one factor: 14.7 N/mm² · 2 rows · 12 balls · (7.12 mm)² = 17.9 kN
-    told = "The load on the shaft (2.2e+04 N at its largest) exceeds the static rating of the bearing (1.788e+04 N)"
-    assert note.startswith(told)
+    message = "The load on the shaft (2.2e+04 N at its largest) exceeds the static rating of the bearing (1.788e+04 N)"
+    assert note.startswith(message)
 
 
 def with_clearance(machine, clearance):

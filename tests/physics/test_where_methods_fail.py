@@ -135,7 +135,7 @@ def test_a_ball_that_is_pressed_and_let_go_of_within_a_step_is_not_missed(refere
     exact = simulate(scene, RATE, FixedSteps(64))
     trace = simulate(scene, RATE)
     assert trace.changes.time.size == exact.changes.time.size > 100
-    # The fixed steps are right to 1e-5; the estimate is told to be kept.
+    # The fixed steps are right to 1e-5; the estimate must say so.
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
 
 
@@ -166,7 +166,7 @@ def test_a_free_ball_that_touches_a_ridge_between_two_spalls_within_a_step_is_no
     exact = simulate(scene, RATE, FixedSteps(64))
     trace = simulate(scene, RATE)
     assert trace.changes.time.size == exact.changes.time.size > 100
-    # The fixed steps are right to 1e-5; the estimate is told to be kept.
+    # The fixed steps are right to 1e-5; the estimate must say so.
     assert rms(trace.acceleration - exact.acceleration) < trace.error_estimate * rms(exact.acceleration)
 
 

@@ -182,9 +182,9 @@ def test_the_rule_is_set_on_healthy_records_as_they_are():
 
 
 def test_plain_impulse_trains_are_as_many_as_asked():
-    told = []
-    made = impulse_training(Ingredients(), Reading(), 1, 12, lambda done, total: told.append((done, total)))
-    assert told == [(3, 12), (6, 12), (9, 12), (12, 12)]
+    counts = []
+    made = impulse_training(Ingredients(), Reading(), 1, 12, lambda done, total: counts.append((done, total)))
+    assert counts == [(3, 12), (6, 12), (9, 12), (12, 12)]
     assert sorted(set(made.classes)) == ["healthy", "line inner", "line outer"]
     assert len(made.classes) == 12
 
@@ -247,11 +247,11 @@ def test_how_far_it_has_got_is_told_on_standard_error(classify, other_corpus, in
 @pytest.mark.parametrize("workers", [1, 2])
 def test_how_many_records_are_read_is_told(workers, tiny_corpus, monkeypatch):
     monkeypatch.setattr("datagen.benchmark.rows.RECORDS_A_TASK", 5)
-    told = []
-    found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *counts: told.append(counts))
+    counts = []
+    found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *counts: counts.append(counts))
     assert sorted({*found.record.tolist(), *found.rejected}) == list(range(14))
     assert found.axis.tolist() == [0, 1] * (len(found.record) // 2)
-    assert told == [(0, 14), (5, 14), (10, 14), (14, 14)]
+    assert counts == [(0, 14), (5, 14), (10, 14), (14, 14)]
 
 
 def test_that_no_noise_is_added_to_simulated_records_is_said(classify):

@@ -1,4 +1,4 @@
-"""Records that say too little to be judged are told from others by their labels and their length alone."""
+"""Records that say too little to be judged are known from others by their labels and their length alone."""
 
 import pytest
 

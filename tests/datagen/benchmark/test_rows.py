@@ -61,10 +61,10 @@ def test_rows_tell_the_axis_that_they_are_of():
 
 
 def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatch):
-    told = []
+    pieces = []
 
     def listening(piece, rate, given, bandwidth, turning):
-        told.append((piece.size, turning.revolutions))
+        pieces.append((piece.size, turning.revolutions))
         return analyse(piece, rate, given, bandwidth, turning)
 
     monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
@@ -72,7 +72,7 @@ def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatc
     turning = Turning(2.0 * np.pi * (20.0 * time + 10.0 * time**2))
     assert len(record_rows(shaking(12000), labels(), Reading(window=0.5), turning).rows) == 2
     # From 20 turns a second to 30 and from there to 40.
-    assert told == [(6000, pytest.approx(12.5, rel=1e-3)), (6000, pytest.approx(17.5, rel=1e-3))]
+    assert pieces == [(6000, pytest.approx(12.5, rel=1e-3)), (6000, pytest.approx(17.5, rel=1e-3))]
 
 
 def test_a_record_that_begins_in_silence_is_heard():
@@ -131,17 +131,17 @@ def test_noise_added_has_the_level_asked_for(level, monkeypatch):
 
 
 def test_the_speed_told_in_training_is_off_by_up_to_its_share_either_way(monkeypatch):
-    told = []
+    speeds = []
 
     def listening(piece, rate, given, *others):
-        told.append(given.shaft_hz)
+        speeds.append(given.shaft_hz)
         return analyse(piece, rate, given, *others)
 
     monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
     known = known_kinematics(labels())
     for seed in range(60):
         signal_rows(shaking(1200)[:, 0], RATE, known, Reading(speed_error=0.02), [seed])
-    share = np.array(told) / 30.0 - 1.0
+    share = np.array(speeds) / 30.0 - 1.0
     # Of 60 even draws from −2 to 2 % the outermost lie beyond 1.5 % on either side but in one case of 3000.
     assert -0.02 <= share.min() < -0.015
     assert 0.015 < share.max() <= 0.02

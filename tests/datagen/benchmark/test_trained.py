@@ -130,7 +130,7 @@ def test_learning_needs_no_test(divided, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "message"),
     [
         (("--learner", "forest"), "--learner: {model} has learned already"),
         (("--first", 5), "--first: {model} has learned already"),
@@ -140,11 +140,13 @@ def test_learning_needs_no_test(divided, tmp_path):
         (("--save", "other"), "--save: {model} has learned already"),
     ],
 )
-def test_options_of_learning_are_refused_for_what_has_learned(learned, divided, options, told, tmp_path, monkeypatch):
+def test_options_of_learning_are_refused_for_what_has_learned(
+    learned, divided, options, message, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     done = run("--train", learned[0], "--test", divided, *options)
     assert done.exit_code == 2
-    assert told.format(model=learned[0]) in done.output
+    assert message.format(model=learned[0]) in done.output
     assert not list(tmp_path.iterdir())
 
 
@@ -177,7 +179,7 @@ class Bomb:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         (lambda head, body: b"", "holds no learned classifiers"),
         (lambda head, body: b"\x80\x04 nothing of ours", "holds no learned classifiers"),
@@ -208,11 +210,11 @@ class Bomb:
         "another pickle",
     ],
 )
-def test_a_file_that_would_not_say_the_same_is_refused(learned, change, told, tmp_path, monkeypatch):
+def test_a_file_that_would_not_say_the_same_is_refused(learned, change, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     head, _, body = learned[0].read_bytes().partition(b"\n")
     (tmp_path / "model").write_bytes(change(head + b"\n", body))
     with pytest.raises(BadInput) as problem:
         load_trained(tmp_path / "model")
-    assert told in str(problem.value)
+    assert message in str(problem.value)
     assert not (tmp_path / "exploded").exists()

@@ -310,7 +310,7 @@ def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
 
 
 @pytest.mark.parametrize(
-    ("location", "score", "told"),
+    ("location", "score", "message"),
     [
         ("none", 0.71, "none (0.71 ≤ 0.73)"),
         ("outer", 0.8, "outer (0.80 > 0.73)"),
@@ -318,10 +318,10 @@ def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
         ("rejected", 0.5, "rejected"),
     ],
 )
-def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, told):
+def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, message):
     where = {"none": 1.0 - score, "outer": score, "inner": 0.0}
     answers = {"forest": ModelAnswer(location, score, 0.73, where), "rule": ModelAnswer("inner", 30.0, 9.0)}
     table = verdict_table([Prediction(0, "a", "b", "unknown", "", 0, 0, answers)], ["forest", "rule"])
     columns = {str(column.header): list(column.cells) for column in table.columns}
-    assert (columns["forest"], columns["rule"]) == ([told], ["inner"])
+    assert (columns["forest"], columns["rule"]) == ([message], ["inner"])
     assert "a spall, and the alarm above which one is called" in str(table.caption)

@@ -155,7 +155,7 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
     assert Path(written.folder) == measured / "report"
     text = (measured / "report" / CARD).read_text()
     kinds = ("| healthy | none | 1 |", "| unknown | outer | 1 |")
-    for told in (
+    for sentence in (
         "recordings of real machines",
         "CC BY 4.0",
         "A. Nybody, 2020",
@@ -163,7 +163,7 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
         *kinds,
         "| records | 2 |",
     ):
-        assert told in text
+        assert sentence in text
     assert "asked for" not in text
     document = json.loads((measured / "report" / METADATA).read_text())
     assert (document["license"], document["citeAs"]) == ("CC BY 4.0", "A. Nybody, 2020")
@@ -227,10 +227,10 @@ def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured:
 def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_corpus(
     measured: Path, tmp_path: Path
 ) -> None:
-    told = tmp_path / "facts.json"
-    arguments = ["report", str(measured), "--out", str(tmp_path / "card"), "--json", str(told)]
+    results = tmp_path / "facts.json"
+    arguments = ["report", str(measured), "--out", str(tmp_path / "card"), "--json", str(results)]
     assert CliRunner().invoke(app, arguments).exit_code == 0
-    assert json.loads(told.read_text())["facts"]["info"]["records"] == 2
+    assert json.loads(results.read_text())["facts"]["info"]["records"] == 2
     done = CliRunner().invoke(app, ["report", str(tmp_path), "--out", str(tmp_path / "none")])
     assert done.exit_code == 2
     assert "no manifest.json" in done.stderr

@@ -29,9 +29,9 @@ from physics.outcome import Outcome, SimulationFailed
 )
 def test_bad_input_ends_with_2_and_nothing_is_written(arguments, words, tmp_path):
     out = tmp_path / "out"
-    code, _, told = run(*(str(out) if argument == "OUT" else argument for argument in arguments))
-    assert code == 2, told
-    assert words in told
+    code, _, message = run(*(str(out) if argument == "OUT" else argument for argument in arguments))
+    assert code == 2, message
+    assert words in message
     assert not out.exists()
 
 
@@ -40,10 +40,10 @@ def test_a_scene_that_cannot_be_simulated_ends_with_1_and_one_line(monkeypatch, 
         raise SimulationFailed(Outcome.NO_START, "no position carries the load")
 
     monkeypatch.setattr(measuring, "simulate", refuse)
-    code, _, told = run("chart", "F1", "--quick", "--out", tmp_path)
+    code, _, message = run("chart", "F1", "--quick", "--out", tmp_path)
     assert code == 1
-    assert "this cannot be simulated: no position carries the load; " in told
-    assert "Traceback" not in told
+    assert "this cannot be simulated: no position carries the load; " in message
+    assert "Traceback" not in message
     assert list(tmp_path.iterdir()) == []
 
 
@@ -53,8 +53,8 @@ def test_a_full_disk_is_one_line_that_names_the_folder(monkeypatch, tmp_path, sm
 
     monkeypatch.setattr(measuring, "measure", lambda *_: small_chart)
     monkeypatch.setattr("datagen.files.atomic.write_atomically", full)
-    code, _, told = run("chart", "F1", "--out", tmp_path)
+    code, _, message = run("chart", "F1", "--out", tmp_path)
     assert code == 2
-    assert "cannot write here: No space left on device" in told
-    assert str(tmp_path) in told
-    assert "Traceback" not in told
+    assert "cannot write here: No space left on device" in message
+    assert str(tmp_path) in message
+    assert "Traceback" not in message

@@ -111,7 +111,7 @@ def test_everything_of_a_record_is_read_through_the_file_that_is_open(
 ) -> None:
     with Corpus(tiny_corpus) as corpus:
         text = str(corpus.waveform(0, "scenario"))
-        monkeypatch.setattr(NetCDF4DataStore, "open", None)  # which opens what is told by its path
+        monkeypatch.setattr(NetCDF4DataStore, "open", None)  # which opens what is known by its path
         assert corpus.dataset(0)["scenario"].item() == text
 
 

@@ -71,10 +71,10 @@ def test_every_panel_is_drawn_whatever_is_unknown() -> None:
 def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
     assert heading(portrait()) == "mine, record 4: 105 DE, line defect on the outer race"
     assert heading(portrait(**UNKNOWN)) == "mine, record 4: 105 DE, state unknown"
-    told = summary(portrait())
-    assert "1500 rpm (nominal)" in told
-    assert "load unknown" in told
-    assert "0.5 mm" in told
+    message = summary(portrait())
+    assert "1500 rpm (nominal)" in message
+    assert "load unknown" in message
+    assert "0.5 mm" in message
     assert "speed unknown" in summary(portrait(**UNKNOWN))
 
 

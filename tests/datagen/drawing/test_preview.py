@@ -222,11 +222,11 @@ def test_the_heading_says_what_is_drawn(portrait):
         assert part in summary(drawn)
 
 
-@pytest.mark.parametrize(("layers", "told"), [("white", "no signal"), ("", "no background")])
-def test_the_summary_says_why_there_is_no_ratio_of_signal_to_noise(portrait, layers, told):
+@pytest.mark.parametrize(("layers", "reason"), [("white", "no signal"), ("", "no background")])
+def test_the_summary_says_why_there_is_no_ratio_of_signal_to_noise(portrait, layers, reason):
     drawn = portrait("healthy")
     silent = replace(drawn, labels={**drawn.labels, "snr_db": math.nan, "background_layers": layers})
-    assert told in summary(silent)
+    assert reason in summary(silent)
 
 
 def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file, tmp_path):

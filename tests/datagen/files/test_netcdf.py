@@ -50,7 +50,7 @@ def test_names_types_attributes_chunks_and_filters_are_the_same(
 ) -> None:
     ours, theirs = both(dataset, compression, tmp_path, monkeypatch)
 
-    def told(file: netCDF4.Dataset) -> object:
+    def layout(file: netCDF4.Dataset) -> object:
         variables = {
             name: (one.dtype, one.dimensions, one.chunking(), one.filters(), one.__dict__)
             for name, one in file.variables.items()
@@ -58,7 +58,7 @@ def test_names_types_attributes_chunks_and_filters_are_the_same(
         return variables, {name: len(one) for name, one in file.dimensions.items()}, file.__dict__
 
     with netCDF4.Dataset(ours) as first, netCDF4.Dataset(theirs) as second:
-        assert told(first) == told(second)
+        assert layout(first) == layout(second)
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)

@@ -73,9 +73,9 @@ def refused(tiny_recipe, tiny_corpus, monkeypatch):
 @pytest.mark.parametrize("command", ["size", "paper", "chart", "classify"])
 def test_results_are_not_put_among_the_files_of_a_corpus(command, refused, copy):
     before = sorted(copy.rglob("*"))
-    told = refused(FOLDERS[command], copy)
-    assert f'--out = "{copy}": this is the folder of a corpus' in told
-    assert told.endswith("allowed: a folder of its own\n")
+    message = refused(FOLDERS[command], copy)
+    assert f'--out = "{copy}": this is the folder of a corpus' in message
+    assert message.endswith("allowed: a folder of its own\n")
     assert sorted(copy.rglob("*")) == before
 
 
@@ -109,9 +109,9 @@ def test_a_place_for_a_file_is_looked_at_first(arguments, place, refused, tmp_pa
     if arguments[0] == "preview":
         place = place.removesuffix(".json") + ".png"
     words = {"a": "this is a folder", "nowhere": "no such folder", "locked": "cannot write into"}
-    told = refused(arguments, tmp_path / place)
-    assert words[place.replace("/", " ").split(" ")[0]] in told
-    assert "allowed: a file in an existing folder that you may write into" in told
+    message = refused(arguments, tmp_path / place)
+    assert words[place.replace("/", " ").split(" ")[0]] in message
+    assert "allowed: a file in an existing folder that you may write into" in message
 
 
 def test_a_name_too_long_for_a_file_is_refused(tmp_path):

@@ -69,7 +69,7 @@ def test_columns_of_text_tables_are_read_however_they_are_laid_out(
 
 
 @pytest.mark.parametrize(
-    ("text", "layout", "told"),
+    ("text", "layout", "message"),
     [
         ("a,b\n\n1,2\n\n3\n", PLAIN, "line 5: 1 cells, but the table has 2 columns"),
         ("by hand\n\n1,2\n3\n", CsvLayout(header=False, skip_lines=1), "line 4: 1 cells"),
@@ -81,12 +81,12 @@ def test_columns_of_text_tables_are_read_however_they_are_laid_out(
     ids=["blank", "skipped", "blanks", "head", "unclosed quote", "endless cell"],
 )
 def test_a_line_of_a_text_table_that_is_wrong_is_named_by_its_number_in_the_file(
-    text: str, layout: CsvLayout, told: str, tmp_path: Path
+    text: str, layout: CsvLayout, message: str, tmp_path: Path
 ) -> None:
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(BadInput) as problem:
         read_arrays(tmp_path / "a.csv", None, layout)
-    assert str(problem.value).startswith(f"{tmp_path / 'a.csv'}, {told}")
+    assert str(problem.value).startswith(f"{tmp_path / 'a.csv'}, {message}")
 
 
 def test_a_file_without_an_ending_is_read_by_the_stated_format(tmp_path: Path) -> None:

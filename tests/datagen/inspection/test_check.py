@@ -143,7 +143,7 @@ def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "told"),
+    ("name", "value", "message"),
     [
         ("name", "other", "name or recipe_records disagree with its recipe"),
         ("recipe_records", 99, "name or recipe_records disagree with its recipe"),
@@ -155,11 +155,11 @@ def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
     ],
 )
 def test_a_manifest_that_says_other_things_than_the_shards_is_found(
-    copy: Path, name: str, value: object, told: str
+    copy: Path, name: str, value: object, message: str
 ) -> None:
     manifest = json.loads((copy / "manifest.json").read_text()) | {name: value}
     (copy / "manifest.json").write_text(json.dumps(manifest))
-    assert f"manifest.json: {told}" in " / ".join(check_corpus(copy).problems)
+    assert f"manifest.json: {message}" in " / ".join(check_corpus(copy).problems)
 
 
 def test_a_folder_without_manifest_is_no_corpus(tmp_path: Path) -> None:

@@ -41,8 +41,8 @@ def told_by(command: str, folder: Path) -> str:
 def test_a_manifest_that_is_none_is_told_in_words(text: str, tmp_path: Path) -> None:
     manifest_path(tmp_path).write_bytes(text.encode("latin-1"))
     for command in ("info", "check", "report"):
-        told = told_by(command, tmp_path)
-        assert f"{manifest_path(tmp_path)}: not a manifest of a corpus: {MANIFESTS[text]}" in told
+        message = told_by(command, tmp_path)
+        assert f"{manifest_path(tmp_path)}: not a manifest of a corpus: {MANIFESTS[text]}" in message
 
 
 @pytest.mark.parametrize("key", ["recipe", "shards", "asked", "refused", "bytes"])
@@ -127,9 +127,9 @@ def test_an_index_that_is_none_is_told_in_words_with_what_to_do(case: str, copy:
     text = index_path(copy).read_text()
     assert change(text) != text
     index_path(copy).write_bytes(change(text).encode("latin-1"))
-    told = told_by("info", copy)
-    assert expected in told
-    assert "delete it and generate again into the same folder" in told
+    message = told_by("info", copy)
+    assert expected in message
+    assert "delete it and generate again into the same folder" in message
     with pytest.raises(BadInput):
         read_index(copy)
 

@@ -146,8 +146,8 @@ def test_info_names_shards_that_cannot_be_read_and_advises_check(damage: str, co
     assert run("info", copy)[::2] == (0, "")
     shards = read_manifest(copy).shards
     DAMAGES[damage](copy / shards[1].file)
-    code, shown, told = run("info", copy, "--json", tmp_path / "info.json")
-    assert (code, told) == (0, f"1 of {len(shards)} shards cannot be read: run `spallgen check {copy}`\n")
+    code, shown, message = run("info", copy, "--json", tmp_path / "info.json")
+    assert (code, message) == (0, f"1 of {len(shards)} shards cannot be read: run `spallgen check {copy}`\n")
     assert f"{shards[1].file}, with 2 records" in " ".join(shown.replace("│", " ").split())
     field = "missing_files" if damage == "gone" else "damaged_files"
     assert json.loads((tmp_path / "info.json").read_text())[field] == {shards[1].file: 2}
@@ -155,9 +155,9 @@ def test_info_names_shards_that_cannot_be_read_and_advises_check(damage: str, co
     for shard in shards:
         if (copy / shard.file).exists():
             DAMAGES[damage](copy / shard.file)
-    code, _, told = run("info", copy)
+    code, _, message = run("info", copy)
     assert code == 1
-    assert told.startswith(f"{len(shards)} of {len(shards)} shards cannot be read: ")
+    assert message.startswith(f"{len(shards)} of {len(shards)} shards cannot be read: ")
 
 
 def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(copy: Path) -> None:

@@ -17,8 +17,8 @@ DOCS = Path(__file__).parents[3] / "docs" / "paper"
 
 def test_the_command_writes_pictures_tables_page_and_results(tmp_path):
     out, results = tmp_path / "a" / "paper", tmp_path / "results.json"
-    code, shown, told = run("paper", "--out", out, "--figures", "7,6", "--json", results)
-    assert code == 0, told
+    code, shown, message = run("paper", "--out", out, "--figures", "7,6", "--json", results)
+    assert code == 0, message
     assert {path.name for path in out.iterdir()} == {
         "figure6.png", "figure6.csv", "figure7.png", "figure7.csv", "paper.json", "README.md",
     }  # fmt: skip
@@ -41,20 +41,20 @@ def test_the_table_has_the_paper_s_number_ours_difference_and_comment(tmp_path):
 
 @pytest.mark.parametrize("figures", ["4", "5,,6", "5;6", "q4", ""])
 def test_an_unknown_figure_is_bad_input_and_nothing_is_written(figures, tmp_path):
-    code, _, told = run("paper", "--out", tmp_path / "out", "--figures", figures)
+    code, _, message = run("paper", "--out", tmp_path / "out", "--figures", figures)
     assert code == 2
-    assert "--figures" in told
-    assert "q3" in told
+    assert "--figures" in message
+    assert "q3" in message
     assert not (tmp_path / "out").exists()
 
 
 def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path):
     (tmp_path / "file").write_text("")
     for out in (tmp_path / "file", tmp_path / "file" / "below"):
-        code, _, told = run("paper", "--out", out, "--figures", "6")
+        code, _, message = run("paper", "--out", out, "--figures", "6")
         assert code == 2
-        assert "--out" in told
-        assert "Traceback" not in told
+        assert "--out" in message
+        assert "Traceback" not in message
 
 
 def test_a_folder_that_cannot_be_written_into_is_bad_input(tmp_path, monkeypatch):
@@ -72,10 +72,10 @@ def test_a_disk_that_fills_up_is_bad_input_that_names_the_folder(tmp_path, monke
         raise OSError(errno.ENOSPC, "No space left on device", str(path))
 
     monkeypatch.setattr("datagen.files.atomic.write_atomically", full)
-    code, _, told = run("paper", "--out", tmp_path, "--figures", "6")
+    code, _, message = run("paper", "--out", tmp_path, "--figures", "6")
     assert code == 2
-    assert "No space left on device" in told
-    assert str(tmp_path) in told
+    assert "No space left on device" in message
+    assert str(tmp_path) in message
 
 
 def test_chapters_come_in_the_order_of_the_paper():
@@ -116,8 +116,8 @@ def test_the_numbers_in_the_documentation_are_those_computed_now(key, chapter):
 
 @pytest.mark.slow
 def test_the_whole_command_writes_every_chapter_and_agrees_with_the_documentation(tmp_path):
-    code, _, told = run("paper", "--out", tmp_path / "out")
-    assert code == 0, told
+    code, _, message = run("paper", "--out", tmp_path / "out")
+    assert code == 0, message
     now = json.loads((tmp_path / "out" / "paper.json").read_text(encoding="utf-8"))
     then = json.loads((DOCS / "paper.json").read_text(encoding="utf-8"))
     assert list(now) == list(then)

@@ -37,7 +37,7 @@ def speed_of(rated_rpm: float, times: float) -> float:
 
 
 @pytest.mark.parametrize(
-    ("table", "settings", "told"),
+    ("table", "settings", "message"),
     [
         (
             "imperfections",
@@ -93,10 +93,10 @@ def speed_of(rated_rpm: float, times: float) -> float:
         ),
     ],
 )
-def test_a_value_that_no_machine_has_is_refused_by_its_key(table: str, settings: dict[str, Any], told: str) -> None:
+def test_a_value_that_no_machine_has_is_refused_by_its_key(table: str, settings: dict[str, Any], message: str) -> None:
     with pytest.raises(BadInput) as refused:
         recipe_of(table, settings)
-    assert told in str(refused.value)
+    assert message in str(refused.value)
 
 
 def test_a_wave_that_no_race_has_is_refused_whatever_made_it_so_high() -> None:

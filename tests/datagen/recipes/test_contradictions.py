@@ -21,7 +21,7 @@ def recipe_of(machine: dict[str, Any], defect: dict[str, Any]) -> Recipe:
 
 
 @pytest.mark.parametrize(
-    ("machine", "defect", "told"),
+    ("machine", "defect", "message"),
     [
         (CWRU, LINE | {"row": 2}, "part[1].defect.row = 2: no bearing of this part has a second row; allowed: 1, any"),
         (GEARBOX | {"rows": 1}, LINE | {"row": "both"}, 'part[1].defect.row = "both": no bearing of this part has'),
@@ -81,11 +81,11 @@ def recipe_of(machine: dict[str, Any], defect: dict[str, Any]) -> Recipe:
     ],
 )
 def test_what_can_never_go_together_is_refused_by_name(
-    machine: dict[str, Any], defect: dict[str, Any], told: str
+    machine: dict[str, Any], defect: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(BadInput) as refused:
         recipe_of(machine, defect)
-    assert told in str(refused.value)
+    assert message in str(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -143,20 +143,20 @@ BAD_RECORDINGS = [
 ]
 
 
-@pytest.mark.parametrize(("text", "told"), BAD)
-def test_an_impossible_chain_or_background_is_refused_in_one_line(text: str, told: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("text", "message"), BAD)
+def test_an_impossible_chain_or_background_is_refused_in_one_line(text: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(BadInput) as caught:
         load(tmp_path, text)
-    assert told in str(caught.value)
+    assert message in str(caught.value)
     assert str(tmp_path / "recipe.toml") in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(("file", "more", "told"), BAD_RECORDINGS)
-def test_a_recording_that_does_not_fit_is_refused_in_one_line(file: str, more: str, told: str, folder: Path) -> None:
+@pytest.mark.parametrize(("file", "more", "message"), BAD_RECORDINGS)
+def test_a_recording_that_does_not_fit_is_refused_in_one_line(file: str, more: str, message: str, folder: Path) -> None:
     with pytest.raises(BadInput) as caught:
         load(folder, RECORDING.format(file=file) + more)
-    assert told in str(caught.value)
+    assert message in str(caught.value)
     assert "part[1].background.recording" in str(caught.value)
     assert "\n" not in str(caught.value)
 

@@ -37,7 +37,7 @@ def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         (('y = "sig"', 'y = "sog"'), 'a.mat: y = "sog": the file has no such variable; did you mean "sig"?; allowed'),
         (("rate_hz = 1000\n", ""), "spec.toml: recording[1] (all): rate_hz: the sampling rate is not given"),
@@ -51,14 +51,14 @@ def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
     ],
 )  # fmt: skip
 def test_a_setting_that_is_wrong_or_missing_is_named(
-    change: tuple[str, str], told: str, bring: Bring, mat: Mat, tmp_path: Path
+    change: tuple[str, str], message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
-    assert told in refusal(bring, GOOD.replace(*change), tmp_path)
+    assert message in refusal(bring, GOOD.replace(*change), tmp_path)
 
 
 @pytest.mark.parametrize(
-    ("more", "told"),
+    ("more", "message"),
     [
         ('location = "iner"', 'location = "iner"; allowed: none, outer, inner, ball, cage, several, unknown; did'),
         ('condition = "broken"', 'condition = "broken"; allowed: healthy, line, extended, unknown'),
@@ -97,15 +97,15 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
     ],
 )  # fmt: skip
 def test_a_label_or_setting_that_cannot_be_is_refused(
-    more: str, told: str, bring: Bring, mat: Mat, tmp_path: Path
+    more: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
     text = GOOD.replace('y = "sig"\n', "") if "channel" in more else GOOD
-    assert told in refusal(bring, text + more + "\n", tmp_path)
+    assert message in refusal(bring, text + more + "\n", tmp_path)
 
 
 @pytest.mark.parametrize(
-    ("samples", "told"),
+    ("samples", "message"),
     [
         (np.array([0.0, np.nan, np.inf] + [1.0] * 30), "2 of 33 samples are not finite numbers, the first at sample 1"),
         (np.zeros(0), 'y = "sig": holds 0 samples; allowed: at least 16 samples'),
@@ -116,10 +116,10 @@ def test_a_label_or_setting_that_cannot_be_is_refused(
     ids=["not finite", "empty", "short", "table", "complex"],
 )
 def test_samples_that_are_no_recording_are_refused(
-    samples: np.ndarray, told: str, bring: Bring, tmp_path: Path
+    samples: np.ndarray, message: str, bring: Bring, tmp_path: Path
 ) -> None:
     np.savez(tmp_path / "a.npz", sig=samples)
-    assert told in refusal(bring, GOOD.replace("*.mat", "*.npz"), tmp_path)
+    assert message in refusal(bring, GOOD.replace("*.mat", "*.npz"), tmp_path)
 
 
 def test_one_bad_file_among_good_ones_leaves_nothing_behind(bring: Bring, mat: Mat, tmp_path: Path) -> None:
@@ -132,28 +132,28 @@ def test_one_bad_file_among_good_ones_leaves_nothing_behind(bring: Bring, mat: M
 def test_the_same_samples_twice_are_refused_or_left_out(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat", noise(seed=1))
     mat("b.mat", noise(seed=1))
-    told = refusal(bring, GOOD, tmp_path)
-    assert 'b.mat: same_samples = "refuse": record "b" has exactly the samples of "a", a.mat (' in told
-    assert 'allowed: "skip", which leaves such repeats out, or "keep"' in told
+    message = refusal(bring, GOOD, tmp_path)
+    assert 'b.mat: same_samples = "refuse": record "b" has exactly the samples of "a", a.mat (' in message
+    assert 'allowed: "skip", which leaves such repeats out, or "keep"' in message
     assert bring('same_samples = "skip"\n' + GOOD).labels["recording"].tolist() == ["a"]
 
 
 def test_a_name_twice_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
-    told = refusal(bring, GOOD + GOOD.replace('"all"', '"again"'), tmp_path)
-    assert 'spec.toml: recording[2] (again): recording = "a": this name is already taken by a.mat' in told
+    message = refusal(bring, GOOD + GOOD.replace('"all"', '"again"'), tmp_path)
+    assert 'spec.toml: recording[2] (again): recording = "a": this name is already taken by a.mat' in message
 
 
 def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     mat("b.mat")
     (tmp_path / "t.csv").write_text("file,split,bearing_id\na.mat,train,one\nb.mat,test,one\n")
-    told = refusal(bring, GOOD + 'table = "t.csv"\n', tmp_path)
-    assert 't.csv, line 3: split = "test": the records of bearing one would be in the splits train and test' in told
+    message = refusal(bring, GOOD + 'table = "t.csv"\n', tmp_path)
+    assert 't.csv, line 3: split = "test": the records of bearing one would be in the splits train and test' in message
 
 
 @pytest.mark.parametrize(
-    ("table", "told"),
+    ("table", "message"),
     [
         ("fil,location\na.mat,inner\n", 't.csv, line 1: fil: unknown column; did you mean "file"?'),
         ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
@@ -168,16 +168,18 @@ def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Pa
         ('\nfile,recording\n\na.mat,"a\nb"\n\na.mat\n', "t.csv, line 7: 1 cells, but the table has 2 columns"),
     ],
 )  # fmt: skip
-def test_a_wrong_line_of_a_label_table_is_named(table: str, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+def test_a_wrong_line_of_a_label_table_is_named(
+    table: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
     mat("a.mat")
     (tmp_path / "t.csv").write_text(table)
-    assert told in refusal(bring, GOOD + 'table = "t.csv"\nspeed_hz = 20\n', tmp_path)
+    assert message in refusal(bring, GOOD + 'table = "t.csv"\nspeed_hz = 20\n', tmp_path)
 
 
 def test_a_table_without_the_column_that_the_samples_should_be_in_is_refused(bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("time,acc\n0,1\n")
-    told = refusal(bring, GOOD.replace("*.mat", "*.csv"), tmp_path)
-    assert 'a.csv: y = "sig": the file has no such variable; allowed: acc, time' in told
+    message = refusal(bring, GOOD.replace("*.mat", "*.csv"), tmp_path)
+    assert 'a.csv: y = "sig": the file has no such variable; allowed: acc, time' in message
 
 
 def test_a_rate_that_contradicts_the_wave_file_is_refused(bring: Bring, tmp_path: Path) -> None:
@@ -188,8 +190,8 @@ def test_a_rate_that_contradicts_the_wave_file_is_refused(bring: Bring, tmp_path
         file.setsampwidth(2)
         file.setframerate(8000)
         file.writeframes(b"\1\0" * 50)
-    told = refusal(bring, GOOD.replace("*.mat", "*.wav").replace('"sig"', '"data"'), tmp_path)
-    assert "a.wav: rate_hz = 1000.0: the file states another rate; allowed: 8000" in told
+    message = refusal(bring, GOOD.replace("*.mat", "*.wav").replace('"sig"', '"data"'), tmp_path)
+    assert "a.wav: rate_hz = 1000.0: the file states another rate; allowed: 8000" in message
 
 
 def test_a_folder_that_is_not_empty_is_refused_and_kept(bring: Bring, mat: Mat, tmp_path: Path) -> None:
@@ -292,6 +294,6 @@ def test_a_file_that_changed_between_two_imports_is_no_matter(bring: Bring, mat:
 
 def test_a_cut_of_sixteen_samples_is_the_shortest(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
-    told = refusal(bring, GOOD + "cut_s = 0.015\n", tmp_path)
-    assert "cut_s = 0.015; allowed: 0.016 to 0.4 s, the length of a.mat" in told
+    message = refusal(bring, GOOD + "cut_s = 0.015\n", tmp_path)
+    assert "cut_s = 0.015; allowed: 0.016 to 0.4 s, the length of a.mat" in message
     assert len(bring(GOOD + "cut_s = 0.016\n").labels) == 25  # of 400 samples

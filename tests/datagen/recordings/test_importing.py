@@ -267,11 +267,11 @@ def test_a_dead_sensor_comes_in_with_a_warning(mat: Mat, tmp_path: Path) -> None
         'name = "mine"\n[[recording]]\nname = "all"\nfiles = "*.mat"\nrate_hz = 1000\nunit = "g"\n'
         'x = "other"\ny = "sig"\n'
     )
-    code, shown, told = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out", "--json", tmp_path / "j")
+    code, shown, message = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out", "--json", tmp_path / "j")
     assert code == 0
     assert shown.startswith("3 records of 3 files")
     names = ["dead (x, y)", "gone (x, y)", "half (x)"]
-    assert told == f"3 without a signal, as if the sensor were not connected: {', '.join(names)}\n"
+    assert message == f"3 without a signal, as if the sensor were not connected: {', '.join(names)}\n"
     assert json.loads((tmp_path / "j").read_text())["dead"] == names
     with Corpus(tmp_path / "out") as corpus:
         stored = [json.loads(str(corpus.waveform(record, "provenance"))).get("no_signal") for record in range(3)]
@@ -285,14 +285,14 @@ DOUBTED = 'name = "mine"\n[[recording]]\nname = "all"\nunit = "g"\n'
 def told_of(settings: str, tmp_path: Path) -> str:
     """What the import of recordings with these settings says on standard error."""
     (tmp_path / "spec.toml").write_text(DOUBTED + settings)
-    code, _, told = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out")
+    code, _, message = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out")
     assert code == 0
     assert run("check", tmp_path / "out")[0] == 0
-    return told
+    return message
 
 
 @pytest.mark.parametrize(
-    ("level", "mean", "told"),
+    ("level", "mean", "message"),
     [
         (659.0, 0.0, "1 louder than machines are, as if `scale` or `unit` were wrong: a (y 659 g RMS)\n"),
         (99.0, 0.0, ""),
@@ -302,15 +302,15 @@ def told_of(settings: str, tmp_path: Path) -> str:
     ],
 )  # fmt: skip
 def test_a_level_that_hardly_any_machine_has_comes_in_with_a_warning(
-    level: float, mean: float, told: str, mat: Mat, tmp_path: Path
+    level: float, mean: float, message: str, mat: Mat, tmp_path: Path
 ) -> None:
     signal = noise()
     mat("a.mat", mean + level * (signal - signal.mean()) / signal.std())
-    assert told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path) == told
+    assert told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path) == message
 
 
 @pytest.mark.parametrize(
-    ("setting", "told"),
+    ("setting", "message"),
     [
         ("speed_hz = 1797", "1 with a shaft faster than 60000 rpm, as if `speed_hz` were in rpm: a (107820 rpm)\n"),
         ("speed_rpm = 107820", "1 with a shaft faster than 60000 rpm: a (107820 rpm)\n"),
@@ -318,14 +318,14 @@ def test_a_level_that_hardly_any_machine_has_comes_in_with_a_warning(
     ],
 )
 def test_a_speed_that_hardly_any_machine_has_comes_in_with_a_warning(
-    setting: str, told: str, mat: Mat, tmp_path: Path
+    setting: str, message: str, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat", noise())
-    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{setting}\n', tmp_path) == told
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{setting}\n', tmp_path) == message
 
 
 @pytest.mark.parametrize(
-    ("kind", "scale", "told"),
+    ("kind", "scale", "message"),
     [
         (np.int16, "", "1 in whole numbers of .wav without `scale`, taken as ±1 g at full scale: a\n"),
         (np.int16, "scale = 1.0\n", ""),
@@ -333,18 +333,18 @@ def test_a_speed_that_hardly_any_machine_has_comes_in_with_a_warning(
     ],
 )
 def test_a_wave_file_whose_full_scale_is_not_stated_comes_in_with_a_warning(
-    kind: type, scale: str, told: str, tmp_path: Path
+    kind: type, scale: str, message: str, tmp_path: Path
 ) -> None:
     counts = (1000.0 * noise()).astype(kind) if kind is np.int16 else noise().astype(kind)
     wavfile.write(tmp_path / "a.wav", 1000, counts)
-    assert told_of(f'files = "*.wav"\ny = "data"\n{scale}', tmp_path) == told
+    assert told_of(f'files = "*.wav"\ny = "data"\n{scale}', tmp_path) == message
 
 
 TURNS = "the shortest record, a, holds {} turns of the shaft{}\n"
 
 
 @pytest.mark.parametrize(
-    ("speed", "told"),
+    ("speed", "message"),
     [
         ("speed_rpm = 24.5", TURNS.format("0.16", ": is speed_rpm in Hz?")),
         ("nominal_speed_rpm = 24.5", TURNS.format("0.16", ": is nominal_speed_rpm in Hz?")),
@@ -356,11 +356,11 @@ TURNS = "the shortest record, a, holds {} turns of the shaft{}\n"
     ],
 )
 def test_a_record_in_which_the_shaft_hardly_turns_comes_in_with_a_warning(
-    speed: str, told: str, mat: Mat, tmp_path: Path
+    speed: str, message: str, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat", noise(400))
     mat("b.mat", noise(500, seed=1))
-    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{speed}\n', tmp_path) == told
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{speed}\n', tmp_path) == message
 
 
 def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: Bring, mat: Mat, tmp_path: Path) -> None:

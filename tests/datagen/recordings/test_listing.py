@@ -48,13 +48,13 @@ def test_an_import_that_takes_long_tells_how_far_it_has_got(
     mat("a.mat")
     mat("b.mat")
     bring(SPEC + 'files = "*.mat"\n', "first")
-    told: list[str] = []
+    said: list[str] = []
     for seconds, folder in ((2.0, "second"), (0.0, "third")):
         monkeypatch.setattr(importing, "SECONDS_UNTOLD", seconds)
-        importing.import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / folder, tell=told.append)
+        importing.import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / folder, tell=said.append)
         if seconds:
-            assert not told
-    assert told == ["checking a.mat, 1 of 2", "checking b.mat, 2 of 2", "writing shard 1 of 1"]
+            assert not said
+    assert said == ["checking a.mat, 1 of 2", "checking b.mat, 2 of 2", "writing shard 1 of 1"]
 
 
 @pytest.mark.parametrize("more", ['files = "**/*.mat"\n', 'table = "t.csv"\n', 'files = "**/*"\ntable = "t.csv"\n'])

@@ -69,9 +69,9 @@ def test_a_number_beyond_any_machine_is_refused_with_its_range(
     setting: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
-    told = refusal(bring, with_setting(setting), tmp_path)
-    assert f"recording[1].{STATED[setting]}" in told
-    assert "spec.toml, line " in told
+    message = refusal(bring, with_setting(setting), tmp_path)
+    assert f"recording[1].{STATED[setting]}" in message
+    assert "spec.toml, line " in message
 
 
 @pytest.mark.parametrize("setting", HELD)
@@ -80,22 +80,24 @@ def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
 ) -> None:
     saw = np.tile([0.0, 0.0, 1.0, 1.0, 0.0], 80)  # 200 pulses a second
     mat("a.mat", huge=1e300, minus=-3.0, saw=saw)
-    told = refusal(bring, with_setting(setting), tmp_path)
-    assert f"a.mat: {HELD[setting]}" in told
+    message = refusal(bring, with_setting(setting), tmp_path)
+    assert f"a.mat: {HELD[setting]}" in message
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"),
+    ("orders", "message"),
     [
         ("bpfo = 107.4\nbpfi = 162.2", "bpfo = 107.4: with bpfi = 162.2 it would mean a bearing with 269.6 balls"),
         ("bpfo = 5.42\nbpfi = 3.58", "bpfo = 5.42: with bpfi = 3.58 it would mean a bearing with 9 balls"),
     ],
     ids=["in Hz", "exchanged"],
 )
-def test_orders_that_no_bearing_has_are_refused(orders: str, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+def test_orders_that_no_bearing_has_are_refused(
+    orders: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
     mat("a.mat")
     allowed = "; allowed: orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most 200"
-    assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {told}{allowed}")
+    assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {message}{allowed}")
     for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42"):
         assert len(bring(f"{GOOD}{known}\n", known)) == 1
 
@@ -105,7 +107,7 @@ NOT_CAGE = "; allowed: bpfo over the number of balls, within 1%"
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"),
+    ("orders", "message"),
     [
         (
             "bpfo = 3.585\nbpfi = 5.2",
@@ -120,26 +122,26 @@ NOT_CAGE = "; allowed: bpfo over the number of balls, within 1%"
     ids=["sum", "cage", "cage without bpfi"],
 )
 def test_orders_that_do_not_fit_each_other_are_refused(
-    orders: str, told: str, bring: Bring, mat: Mat, tmp_path: Path
+    orders: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
-    assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {told}")
+    assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {message}")
     for rounded in ("bpfo = 3.6\nbpfi = 5.4\nftf = 0.398", "bpfo = 3.61\nbpfi = 5.42", "bpfo = 3.585\nftf = 0.4"):
         assert len(bring(f"{GOOD}{rounded}\n", rounded)) == 1
 
 
 def test_a_defect_longer_than_its_race_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
-    told = refusal(bring, GOOD + 'bearing = "koyo_1205"\nlocation = "outer"\nextent_mm = 150\n', tmp_path)
+    message = refusal(bring, GOOD + 'bearing = "koyo_1205"\nlocation = "outer"\nextent_mm = 150\n', tmp_path)
     # Pitch and ball diameter of the Koyo 1205, 38.75 mm and 7.12 mm, give a race of pi times 45.87 mm.
-    assert "extent_mm = 150.0; allowed: a number above 0 up to 144.1, the circumference of the outer race" in told
+    assert "extent_mm = 150.0; allowed: a number above 0 up to 144.1, the circumference of the outer race" in message
 
 
 def test_an_override_of_no_file_is_refused_unless_files_may_be_absent(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     override = '[[recording.override]]\nfiles = ["a.mat", "z*.mat"]\nload_n = 3\n'
-    told = refusal(bring, GOOD + override, tmp_path)
-    assert 'override[1]: files = "z*.mat": matches none of these recordings; allowed: a.mat' in told
+    message = refusal(bring, GOOD + override, tmp_path)
+    assert 'override[1]: files = "z*.mat": matches none of these recordings; allowed: a.mat' in message
     assert bring(GOOD + 'absent_files = "skip"\n' + override).labels["load_n"].tolist() == [3.0]
 
 
@@ -147,9 +149,9 @@ def test_a_column_that_is_there_twice_is_refused_and_one_without_a_name_is_not(b
     cells = "".join(f"{k % 7},{k % 5},\n" for k in range(50))
     spec = GOOD.replace("*.mat", "a.csv")
     (tmp_path / "a.csv").write_text("sig,sig,\n" + cells)
-    told = refusal(bring, spec, tmp_path)
-    assert "a.csv, line 1: sig: this column occurs twice" in told
-    assert "header = false" in told
+    message = refusal(bring, spec, tmp_path)
+    assert "a.csv, line 1: sig: this column occurs twice" in message
+    assert "header = false" in message
     (tmp_path / "a.csv").write_text("sig,,\n" + cells)
     assert len(bring(spec)) == 1
 
@@ -164,7 +166,7 @@ def test_a_recipe_is_no_spec_and_a_byte_order_mark_is_no_matter(tmp_path: Path) 
 
 
 @pytest.mark.parametrize(
-    ("setting", "told"),
+    ("setting", "message"),
     [
         ('rate_hz = {variabel = "fs"}', 'rate_hz.variabel: unknown key; did you mean "variable"?'),
         ('rate_hz = {variable = "fs", factor = inf}', "rate_hz.factor = inf; allowed: a finite number"),
@@ -174,7 +176,7 @@ def test_a_recipe_is_no_spec_and_a_byte_order_mark_is_no_matter(tmp_path: Path) 
     ],
 )  # fmt: skip
 def test_where_a_word_or_a_table_may_stand_the_message_is_about_what_was_written(
-    setting: str, told: str, bring: Bring, mat: Mat, tmp_path: Path
+    setting: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
-    assert f"recording[1].{told}" in refusal(bring, with_setting(setting), tmp_path)
+    assert f"recording[1].{message}" in refusal(bring, with_setting(setting), tmp_path)

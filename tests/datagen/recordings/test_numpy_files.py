@@ -19,8 +19,8 @@ NOISE = np.random.default_rng(3).standard_normal((2, 400))
 def test_python_objects_are_called_so_and_other_arrays_of_the_file_are_read(bring: Bring, tmp_path: Path) -> None:
     ragged = np.array([NOISE[0], NOISE[1, :100]], dtype=object)
     np.savez(tmp_path / "a.npz", ragged=ragged, good=NOISE[0])
-    told = r"a\.npz: its array ragged holds Python objects, which are not read; allowed: arrays of numbers, one for"
-    with pytest.raises(BadInput, match=told):
+    message = r"a\.npz: its array ragged holds Python objects, which are not read; allowed: arrays of numbers, one for"
+    with pytest.raises(BadInput, match=message):
         bring(SPEC + 'files = "a.npz"\ny = "ragged"\n')
     assert len(bring(SPEC + 'files = "a.npz"\ny = "good"\n')) == 1
 

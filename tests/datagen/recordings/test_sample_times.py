@@ -50,7 +50,7 @@ def test_exact_times_give_every_digit_of_a_rate(rate: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("times", "told"),
+    ("times", "message"),
     [
         (np.concatenate([np.arange(200), np.arange(260, 460)]) * 1e-3, "these times are not evenly spaced"),
         (np.arange(400)[::-1] * 1e-3, "is not a column of rising times; allowed: times or their step, s"),
@@ -61,12 +61,14 @@ def test_exact_times_give_every_digit_of_a_rate(rate: float) -> None:
     ],
     ids=["a gap", "falling", "still", "two columns", "a step back", "too slow"],
 )
-def test_times_that_give_no_rate_are_refused(times: object, told: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+def test_times_that_give_no_rate_are_refused(
+    times: object, message: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
     mat("a.mat", t=times)
     with pytest.raises(BadInput) as problem:
         bring(SPEC + 'rate_hz = {variable = "t", times = true}\n')
     assert str(problem.value).startswith(f"{tmp_path / 'a.mat'}: rate_hz = ")
-    assert told in str(problem.value)
+    assert message in str(problem.value)
 
 
 def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat: Mat) -> None:

@@ -41,8 +41,8 @@ def test_a_piece_has_the_mean_of_its_own_part_of_a_speed_channel(bring: Bring, m
 def test_a_column_whose_first_place_alone_holds_the_number_has_no_mean(bring: Bring, mat: Mat) -> None:
     mat("a.mat", table=np.array([[1750.0, 400.0]] + [[0.0, 0.0]] * 99))
     spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
-    told = r'a\.mat: speed_rpm = "table\[:,0\]": is 0 in 99 of 100 places, so .*a single number of it, as in "NAME'
-    with pytest.raises(BadInput, match=told):
+    message = r'a\.mat: speed_rpm = "table\[:,0\]": is 0 in 99 of 100 places, so .*a single number of it, as in "NAME'
+    with pytest.raises(BadInput, match=message):
         bring(spec + 'speed_rpm = {variable = "table[:,0]"}\n')
     corpus = bring(spec + 'speed_rpm = {variable = "table[0,0]"}\nload_n = {variable = "table[0,1]"}\n')
     assert corpus.labels[["speed_rpm", "load_n"]].to_numpy().tolist() == [[1750.0, 400.0]]
@@ -51,8 +51,8 @@ def test_a_column_whose_first_place_alone_holds_the_number_has_no_mean(bring: Br
 def test_pulses_of_another_length_need_a_rate_of_their_own(bring: Bring, mat: Mat) -> None:
     mat("a.mat", tacho=np.tile([0.0, 0.0, 0.0, 0.0, 1.0], 20))
     spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
-    told = r'a\.mat: tach\.variable = "tacho": holds 100 samples, the vibration 400; allowed: .* in tach\.rate_hz'
-    with pytest.raises(BadInput, match=told):
+    message = r'a\.mat: tach\.variable = "tacho": holds 100 samples, the vibration 400; allowed: .* in tach\.rate_hz'
+    with pytest.raises(BadInput, match=message):
         bring(spec + 'tach = {variable = "tacho"}\n')
     corpus = bring(spec + 'tach = {variable = "tacho", rate_hz = 250}\n')
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([3000.0])
@@ -92,8 +92,10 @@ def test_a_tach_is_refused_that_is_a_fifth_of_the_nominal_speed_off(
     if agrees:
         assert bring(spec).labels["speed_rpm"].tolist() == pytest.approx([1500.0] * 2)
         return
-    told = rf"a\.mat: tach\.pulses_per_rev = 1\.0: its pulses give 1500 .*, but nominal_speed_rpm = {nominal}; allowed"
-    with pytest.raises(BadInput, match=told):
+    message = (
+        rf"a\.mat: tach\.pulses_per_rev = 1\.0: its pulses give 1500 .*, but nominal_speed_rpm = {nominal}; allowed"
+    )
+    with pytest.raises(BadInput, match=message):
         bring(spec)
 
 
@@ -209,5 +211,5 @@ def test_a_steady_shaft_whose_tach_loses_a_pulse_stays_steady(bring: Bring, mat:
     corpus = bring(TACH.replace("1000", "2500"))
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([1500.0])
     assert not corpus.has(0, "shaft_angle")
-    told = json.loads(corpus.waveform(0, "provenance"))
-    assert told.get("mended_pulses", 0) == len(wrong)
+    provenance = json.loads(corpus.waveform(0, "provenance"))
+    assert provenance.get("mended_pulses", 0) == len(wrong)

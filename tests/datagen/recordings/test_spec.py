@@ -40,7 +40,7 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "message"),
     [
         ("name = 'a'\n", "recording: this setting is missing"),
         ("name = 'a'\nrecording = []\n", "line 2: recording = []; allowed: at least 1"),
@@ -50,9 +50,9 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
         ("name = a\n", "not valid TOML"),
     ],
 )
-def test_a_spec_that_says_too_little_or_too_much_is_refused(text: str, told: str, tmp_path: Path) -> None:
+def test_a_spec_that_says_too_little_or_too_much_is_refused(text: str, message: str, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(text)
     with pytest.raises(BadInput) as problem:
         load_spec(tmp_path / "s.toml")
-    assert told in str(problem.value)
+    assert message in str(problem.value)
     assert str(problem.value).startswith(str(tmp_path / "s.toml"))

@@ -25,8 +25,8 @@ ROWS = [f"{first!r},{second!r}" for first, second in CELLS]
 @pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
 def test_a_table_in_another_encoding_is_read_once_it_is_stated(encoding: str, bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("\n".join(["a,T (°C)", *ROWS]), encoding=encoding)
-    told = r'a\.csv: csv\.encoding = "utf-8": is not text in this encoding; allowed: the encoding of the file'
-    with pytest.raises(BadInput, match=told):
+    message = r'a\.csv: csv\.encoding = "utf-8": is not text in this encoding; allowed: the encoding of the file'
+    with pytest.raises(BadInput, match=message):
         bring(SPEC)
     assert len(bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')) == 1
 
@@ -39,7 +39,7 @@ def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, t
 
 
 @pytest.mark.parametrize(
-    ("rows", "layout", "told"),
+    ("rows", "layout", "message"),
     [
         (["a,b", *ROWS, "end,0"], "", 'line 52: y = "a": 1 of 51 cells are not finite numbers, the first is "end"'),
         (["a,b", "g,g", *ROWS], "", 'line 2: y = "a": 1 of 51 cells are not finite numbers, the first is "g"'),
@@ -64,13 +64,13 @@ def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, t
     ids=["footer", "units", "empty", "decimal", "delimiter"],
 )
 def test_a_cell_that_is_no_number_is_shown_with_its_line(
-    rows: list[str], layout: str, told: str, bring: Bring, tmp_path: Path
+    rows: list[str], layout: str, message: str, bring: Bring, tmp_path: Path
 ) -> None:
     (tmp_path / "a.csv").write_text("\n".join(rows))
     spec = SPEC.replace('y = "a"\n', "") if "y = " in layout else SPEC
     with pytest.raises(BadInput) as problem:
         bring(f"{spec}{layout}\n")
-    assert str(problem.value) == f"{tmp_path / 'a.csv'}, {told}"
+    assert str(problem.value) == f"{tmp_path / 'a.csv'}, {message}"
 
 
 def at_once_only(patched: pytest.MonkeyPatch) -> None:
@@ -155,8 +155,8 @@ def test_a_delimiter_at_the_end_of_each_row_makes_an_empty_column(
     columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(delimiter="\t", header=False, skip_lines=1))
     assert [columns[name].tolist() for name in ("1", "2")] == np.array(CELLS).T.tolist()
     assert np.isnan(columns["3"]).all()
-    told = r'a\.csv, line 2: y = "3": 50 of 50 cells are not finite numbers, the first is ""'
-    with pytest.raises(BadInput, match=told):
+    message = r'a\.csv, line 2: y = "3": 50 of 50 cells are not finite numbers, the first is ""'
+    with pytest.raises(BadInput, match=message):
         bring(SPEC.replace('y = "a"', 'y = "3"') + 'csv = {delimiter = "\\t", header = false, skip_lines = 1}\n')
 
 
@@ -168,7 +168,7 @@ def test_a_last_column_that_is_not_empty_everywhere_is_kept(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(
-    ("setting", "told"),
+    ("setting", "message"),
     [
         ('rate_hz = {variable = "Zeit", times = true}',
          r'a\.csv, line 4: rate_hz = "Zeit": 2 of 50 cells are not finite numbers, the first is "0,002"'),
@@ -176,13 +176,13 @@ def test_a_last_column_that_is_not_empty_everywhere_is_kept(tmp_path: Path) -> N
     ],
 )  # fmt: skip
 def test_a_number_that_a_table_does_not_hold_is_told_with_line_and_cell(
-    setting: str, told: str, bring: Bring, tmp_path: Path
+    setting: str, message: str, bring: Bring, tmp_path: Path
 ) -> None:
     times = [str(k / 1000.0) for k in range(50)]
     times[2], times[3] = '"0,002"', "?"
     rows = [f"{first!r},{time}" for (first, _), time in zip(CELLS, times, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join(["a,Zeit", *rows]))
-    with pytest.raises(BadInput, match=told):
+    with pytest.raises(BadInput, match=message):
         bring(SPEC.replace("rate_hz = 1000", setting))
 
 

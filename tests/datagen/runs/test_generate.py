@@ -252,7 +252,7 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
 
 
 @pytest.mark.parametrize(
-    ("number", "told"),
+    ("number", "message"),
     [
         (
             errno.EFBIG,
@@ -262,14 +262,14 @@ def test_a_full_disk_stops_the_run_names_what_is_missing_and_keeps_what_is_finis
     ],
 )
 def test_a_limit_of_files_or_a_quota_is_not_called_a_full_disk(
-    number: int, told: str, tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    number: int, message: str, tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def limited(path: Path, data: bytes | memoryview) -> None:
         raise OSError(number, "limited")
 
     monkeypatch.setattr(datagen.corpus_files.shard, "write_atomically", limited)
     run = generate(tiny, tmp_path / "out", engine=ALONE)
-    assert run.problem.startswith(told)
+    assert run.problem.startswith(message)
     assert " 0.0 MB" not in run.problem
 
 

@@ -38,11 +38,11 @@ def test_the_next_run_writes_it_as_it_was_and_makes_nothing_again(
     before = json.loads(manifest_path(copy).read_text())
     times = {path: path.stat().st_mtime_ns for path in (copy / "shards").iterdir()}
     DAMAGES[damage](manifest_path(copy))
-    code, out, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
+    code, out, message = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
     assert code == 0
     assert "(0 new, " in out
     state = "is lost" if damage == "is lost" else "cannot be read"
-    assert f"manifest.json {state}; it is written anew from 9 finished shards" in told
+    assert f"manifest.json {state}; it is written anew from 9 finished shards" in message
     assert json.loads(manifest_path(copy).read_text()) == before
     assert {path: path.stat().st_mtime_ns for path in (copy / "shards").iterdir()} == times
     assert check_corpus(copy, remake=0).sound
@@ -108,10 +108,12 @@ def test_a_manifest_that_cannot_be_opened_is_refused(tiny: Recipe, copy: Path) -
 def test_commands_that_read_a_corpus_say_how_it_is_written_anew(damage: str, command: str, copy: Path) -> None:
     DAMAGES[damage](manifest_path(copy))
     more = ("--out", copy.with_name("out.png")) if command == "preview" else ()
-    code, _, told = run(command, copy, *more)
+    code, _, message = run(command, copy, *more)
     assert code == 2
-    assert told.count("\n") == 1
-    assert f"`spallgen generate` with its recipe and --out {copy}, by the version that made it, writes it anew" in told
+    assert message.count("\n") == 1
+    assert (
+        f"`spallgen generate` with its recipe and --out {copy}, by the version that made it, writes it anew" in message
+    )
 
 
 def test_a_lost_index_is_told_likewise_and_written_anew(tiny: Recipe, copy: Path) -> None:
@@ -128,6 +130,6 @@ def test_a_lost_index_is_told_likewise_and_written_anew(tiny: Recipe, copy: Path
 def test_a_folder_in_the_place_of_the_index_is_told_by_its_name(copy: Path, tiny_recipe: Path) -> None:
     (copy / "index.csv").unlink()
     (copy / "index.csv").mkdir()
-    code, _, told = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
+    code, _, message = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
     assert code == 2
-    assert told.endswith(f"error: {copy / 'index.csv'}: Is a directory\n")
+    assert message.endswith(f"error: {copy / 'index.csv'}: Is a directory\n")

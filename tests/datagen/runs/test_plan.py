@@ -70,9 +70,9 @@ def test_shards_that_take_longest_are_handed_out_first(tiny: Recipe) -> None:
 
 
 def test_a_plan_that_takes_long_tells_how_far_it_has_got(tiny: Recipe, monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[str] = []
-    plan_shards(tiny, 3, told.append)
-    assert told == []
+    said: list[str] = []
+    plan_shards(tiny, 3, said.append)
+    assert said == []
     monkeypatch.setattr("datagen.runs.plan.SECONDS_UNTOLD", 0.0)
-    plan_shards(tiny, 3, told.append)
-    assert told == [f"{record} of 3 records are drawn; none is made before all are" for record in range(3)]
+    plan_shards(tiny, 3, said.append)
+    assert said == [f"{record} of 3 records are drawn; none is made before all are" for record in range(3)]

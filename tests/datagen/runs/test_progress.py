@@ -1,4 +1,4 @@
-"""How progress is told."""
+"""How progress is shown."""
 
 from datagen.runs.progress import CLEARED, steps_told
 

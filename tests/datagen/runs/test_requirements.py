@@ -62,9 +62,9 @@ def refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Refused:
 def test_a_rate_that_no_record_can_have_is_refused_with_the_lowest_that_it_can(
     refused: Refused, tmp_path: Path
 ) -> None:
-    told = refused(TEXT.replace("32768", "200").replace("0.05", "1"))
-    assert 'recipe.toml, line 4: signal.rate_hz = 200.0: part "gears": a rate of 200 Hz has to be raised' in told
-    lowest = float(re.findall(r"allowed: about ([\d.]+) Hz or more", told)[0])
+    message = refused(TEXT.replace("32768", "200").replace("0.05", "1"))
+    assert 'recipe.toml, line 4: signal.rate_hz = 200.0: part "gears": a rate of 200 Hz has to be raised' in message
+    lowest = float(re.findall(r"allowed: about ([\d.]+) Hz or more", message)[0])
     # The highest natural frequency of the gearbox rig, 10548 Hz, four times a period, at 64 times the rate.
     assert lowest == pytest.approx(4.0 * 10548.0 / 64.0, rel=0.005)  # three digits
     (tmp_path / "recipe.toml").write_text(TEXT.replace("32768", str(1.01 * lowest)).replace("0.05", "1"))
@@ -95,18 +95,20 @@ def test_a_record_that_no_memory_holds_is_refused_before_it_is_drawn(
 ) -> None:
     monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 16e9)
     monkeypatch.setattr("datagen.runs.requirements.draw_scenario", None)
-    told = refused(TEXT.replace("0.05", duration))
-    assert "recipe.toml, line 5: signal.duration_s = 3" in told
-    assert "GB of memory, and this machine has 16.0 GB" in told
-    assert "allowed: at most about 2.2e+03 s at 32768 Hz" in told  # 16e9 bytes of 220 a sample
+    message = refused(TEXT.replace("0.05", duration))
+    assert "recipe.toml, line 5: signal.duration_s = 3" in message
+    assert "GB of memory, and this machine has 16.0 GB" in message
+    assert "allowed: at most about 2.2e+03 s at 32768 Hz" in message  # 16e9 bytes of 220 a sample
 
 
 def test_a_shard_that_no_memory_holds_is_refused_with_a_smaller_one(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 4e6)
-    told = refused(TEXT.replace("records = 3", "records = 300") + "[store]\nrecords_per_shard = 300\n")
-    most = int(re.findall(r"store.records_per_shard = 300: a shard of 300 records .* allowed: at most (\d+)", told)[0])
+    message = refused(TEXT.replace("records = 3", "records = 300") + "[store]\nrecords_per_shard = 300\n")
+    most = int(
+        re.findall(r"store.records_per_shard = 300: a shard of 300 records .* allowed: at most (\d+)", message)[0]
+    )
     assert 1 < most < 300
 
 

@@ -1,4 +1,4 @@
-"""What was refused while drawing is told by the key of the recipe that it was drawn for."""
+"""What was refused while drawing is named by the key of the recipe that it was drawn for."""
 
 import re
 from collections.abc import Callable
@@ -91,14 +91,14 @@ def test_the_line_of_the_key_is_told_that_gave_the_last_impossible_value(tmp_pat
     with pytest.raises(InvalidParameter) as refused:
         REFUSED[key]()
     redraws = [Redraw("machine", k, refused.value.field, str(refused.value)) for k in range(MOST_ATTEMPTS)]
-    told = str(given_up(recipe, recipe.part[0], "machine 0", redraws))
+    words = str(given_up(recipe, recipe.part[0], "machine 0", redraws))
     lines = path.read_text(encoding="utf-8").splitlines()
     line = 1 + next(k for k, text in enumerate(lines) if text.startswith(f"{key} ="))
-    assert re.search(rf"try\.toml, line {line}: part\[1\]\.\S*\b{key} = ", told)
-    assert str(refused.value) in told
+    assert re.search(rf"try\.toml, line {line}: part\[1\]\.\S*\b{key} = ", words)
+    assert str(refused.value) in words
 
 
-def told(tmp_path: Path, text: str, *refused: tuple[str, str]) -> str:
+def words(tmp_path: Path, text: str, *refused: tuple[str, str]) -> str:
     """The message after draws of one part were refused for these parameters, with these reasons."""
     path = tmp_path / "try.toml"
     path.write_text('name = "try"\nseed = 1\n[signal]\nrate_hz = 65536\nduration_s = 0.1\n' + text, encoding="utf-8")
@@ -123,7 +123,7 @@ extent_spacing = {uniform = [1, 20]}
 
 def test_draws_refused_for_one_reason_are_told_with_every_setting_that_it_follows_from(tmp_path: Path) -> None:
     reason = "60 balls of 7.120 mm do not fit"
-    message = told(tmp_path, PART + "\n[part.machine.factors]\nball_diameter = 2\n", *[("ball_diameter", reason)] * 3)
+    message = words(tmp_path, PART + "\n[part.machine.factors]\nball_diameter = 2\n", *[("ball_diameter", reason)] * 3)
     assert message.endswith(
         'try.toml, line 12: part[1].machine.ball_diameter_mm = 7.12: record 3 of part "one": all 3 draws were '
         "impossible for the same reason: 60 balls of 7.120 mm do not fit (this also follows from "
@@ -132,7 +132,7 @@ def test_draws_refused_for_one_reason_are_told_with_every_setting_that_it_follow
 
 
 def test_draws_refused_for_several_reasons_are_counted_and_the_last_is_told(tmp_path: Path) -> None:
-    message = told(tmp_path, PART, ("load", "too much"), ("clearance", "too loose"), ("load", "too little"))
+    message = words(tmp_path, PART, ("load", "too much"), ("clearance", "too loose"), ("load", "too little"))
     assert "line 16: part[1].operation.load_n = 346.0: " in message
     assert (
         "3 draws in a row were impossible (refused: load 2 times, clearance 1 times); the last: too little" in message
@@ -141,20 +141,20 @@ def test_draws_refused_for_several_reasons_are_counted_and_the_last_is_told(tmp_
 
 def test_of_two_tables_that_of_the_kind_of_spall_that_was_refused_is_told_first(tmp_path: Path) -> None:
     for condition, line in ("line", 14), ("extended", 16):
-        message = told(tmp_path, SPALLS, ("extent", f"condition = {condition}, but the spall is not"))
+        message = words(tmp_path, SPALLS, ("extent", f"condition = {condition}, but the spall is not"))
         assert f"line {line}: part[1].defect.{condition}.extent_spacing = " in message
 
 
 def test_a_parameter_that_the_recipe_says_nothing_of_is_told_by_its_part(tmp_path: Path) -> None:
-    assert "try.toml, line 6: part[1]: record 3 of part" in told(tmp_path, SPALLS, ("cage", "too fast"))
-    assert "try.toml, line 6: part[1]: record 3 of part" in told(tmp_path, SPALLS, ("", "no field"))
+    assert "try.toml, line 6: part[1]: record 3 of part" in words(tmp_path, SPALLS, ("cage", "too fast"))
+    assert "try.toml, line 6: part[1]: record 3 of part" in words(tmp_path, SPALLS, ("", "no field"))
 
 
 def test_settings_of_the_whole_recipe_that_hold_for_the_part_are_told(tmp_path: Path) -> None:
     chain = "[chain]\nmounting_cutoff_hz = 9000\n"
-    assert "line 7: chain.mounting_cutoff_hz = 9000.0: " in told(tmp_path, chain + SPALLS, ("cutoff", "too high"))
+    assert "line 7: chain.mounting_cutoff_hz = 9000.0: " in words(tmp_path, chain + SPALLS, ("cutoff", "too high"))
     own = PART.replace("mounting_cutoff_hz = 9000\n", "")
-    assert "part[1]: record 3" in told(tmp_path, chain + own, ("cutoff", "too high"))
+    assert "part[1]: record 3" in words(tmp_path, chain + own, ("cutoff", "too high"))
 
 
 def test_every_setting_that_a_parameter_is_said_to_follow_from_is_a_key_of_recipes() -> None:

@@ -343,10 +343,10 @@ def test_what_can_never_be_drawn_is_given_up_with_its_setting_and_the_reason(
 ) -> None:
     with pytest.raises(BadInput) as caught:
         draw(**settings)
-    told = str(caught.value)
-    assert told.startswith(f"recipe.toml: part[1].{setting}: ")
-    assert f"all {MOST_ATTEMPTS} draws were impossible for the same reason: " in told
-    assert words in told
+    message = str(caught.value)
+    assert message.startswith(f"recipe.toml: part[1].{setting}: ")
+    assert f"all {MOST_ATTEMPTS} draws were impossible for the same reason: " in message
+    assert words in message
 
 
 def test_the_band_is_the_rigs_resonance_unless_the_recipe_says_otherwise() -> None:

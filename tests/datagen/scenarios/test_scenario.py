@@ -167,9 +167,11 @@ def test_the_text_tells_the_raised_rate_and_the_filter_that_lowers_it(rate: floa
     if factor == 1:
         assert sampling["lowering"] is None
         return
-    told = sampling["lowering"]
-    n = np.arange(-told["half_length"], told["half_length"] + 1)
-    shape = np.i0(told["kaiser_beta"] * np.sqrt(1.0 - (n / told["half_length"]) ** 2)) * np.sinc(told["cutoff"] * n)
+    lowering = sampling["lowering"]
+    n = np.arange(-lowering["half_length"], lowering["half_length"] + 1)
+    shape = np.i0(lowering["kaiser_beta"] * np.sqrt(1.0 - (n / lowering["half_length"]) ** 2)) * np.sinc(
+        lowering["cutoff"] * n
+    )
     impulse = np.zeros((2 * n.size * factor + 1, 1))
     impulse[n.size * factor] = 1.0
     found = decimate(impulse, factor)[:, 0]

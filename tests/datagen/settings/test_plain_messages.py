@@ -30,7 +30,7 @@ def refusal(text: str, tmp_path: Path) -> str:
 
 
 @pytest.mark.parametrize(
-    ("shares", "told"),
+    ("shares", "message"),
     [
         ("train = 0.9", "train = 0.9: train = 0.9, validation = 0.15 (its default), test = 0.15 (its default) add up"),
         ("test = 0.5", "test = 0.5: train = 0.7 (its default), validation = 0.15 (its default), test = 0.5 add up to"),
@@ -38,10 +38,10 @@ def refusal(text: str, tmp_path: Path) -> str:
     ],
 )  # fmt: skip
 def test_shares_that_are_not_one_are_listed_with_those_that_nobody_stated(
-    shares: str, told: str, tmp_path: Path
+    shares: str, message: str, tmp_path: Path
 ) -> None:
     said = refusal(f"{GOOD}[split]\n{shares}\n", tmp_path)
-    assert said.startswith(f", line 11: split.{told}")
+    assert said.startswith(f", line 11: split.{message}")
     assert said.endswith("allowed: three shares that add up to 1")
 
 

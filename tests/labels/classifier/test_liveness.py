@@ -1,4 +1,4 @@
-"""A stopped machine is told from a running one, whatever the gain of the recorder."""
+"""A stopped machine is known from a running one, whatever the gain of the recorder."""
 
 import numpy as np
 import pytest

@@ -47,10 +47,10 @@ def test_an_order_of_a_changing_speed_becomes_a_single_component(start, stop):
 def test_the_race_is_heard_at_a_changing_speed_and_only_with_the_angle(race, other, start, stop):
     angle = speeding(start, stop)
     signal = impacts(KNOWN.bpfo if race == "outer" else KNOWN.bpfi, angle)
-    told, untold = analyse(signal, RATE, KNOWN, turning=Turning(angle)), analyse(signal, RATE, KNOWN)
-    assert getattr(told, race).evidence.max() > 100.0  # noise alone has a few nats
-    assert getattr(told, race).evidence.max() > 2.0 * getattr(told, other).evidence.max()
-    assert getattr(told, race).evidence.max() > 5.0 * getattr(untold, race).evidence.max()
+    followed, unfollowed = analyse(signal, RATE, KNOWN, turning=Turning(angle)), analyse(signal, RATE, KNOWN)
+    assert getattr(followed, race).evidence.max() > 100.0  # noise alone has a few nats
+    assert getattr(followed, race).evidence.max() > 2.0 * getattr(followed, other).evidence.max()
+    assert getattr(followed, race).evidence.max() > 5.0 * getattr(unfollowed, race).evidence.max()
 
 
 @pytest.mark.parametrize(("start", "stop"), [(14.0, 26.0), (24.0, 16.0)])
@@ -64,21 +64,24 @@ def test_noise_and_mains_have_no_family_at_a_changing_speed(start, stop):
 def test_an_even_speed_is_heard_alike_with_and_without_its_angle():
     shaft = sum(np.cos(k * speeding(20.0, 20.0) + k) for k in (1, 2, 3, 4))
     signal = impacts(KNOWN.bpfo, speeding(20.0, 20.0)) + 0.3 * shaft
-    told, untold = analyse(signal, RATE, KNOWN, turning=Turning(speeding(20.0, 20.0))), analyse(signal, RATE, KNOWN)
-    # Not told, the speed is found to a few parts in ten thousand, and the line with it.
-    assert np.log1p(told.outer.evidence.max()) == pytest.approx(np.log1p(untold.outer.evidence.max()), abs=0.2)
-    told_orders, untold_orders = measure_orders(told), measure_orders(untold)
-    assert told_orders["shaft_evidence"] == pytest.approx(untold_orders["shaft_evidence"], rel=0.05)
-    assert told_orders["shaft_velocity"] == pytest.approx(untold_orders["shaft_velocity"], abs=0.02)
+    followed, unfollowed = (
+        analyse(signal, RATE, KNOWN, turning=Turning(speeding(20.0, 20.0))),
+        analyse(signal, RATE, KNOWN),
+    )
+    # Where it is not followed, the speed is found to a few parts in ten thousand, and the line with it.
+    assert np.log1p(followed.outer.evidence.max()) == pytest.approx(np.log1p(unfollowed.outer.evidence.max()), abs=0.2)
+    followed_orders, unfollowed_orders = measure_orders(followed), measure_orders(unfollowed)
+    assert followed_orders["shaft_evidence"] == pytest.approx(unfollowed_orders["shaft_evidence"], rel=0.05)
+    assert followed_orders["shaft_velocity"] == pytest.approx(unfollowed_orders["shaft_velocity"], abs=0.02)
 
 
 def test_lines_of_the_shaft_are_found_at_a_changing_speed_and_the_mean_speed_is_exact():
     angle = speeding(14.0, 26.0)
     signal = sum(np.cos(k * angle + k) for k in (1, 2, 3)) + np.random.default_rng(1).standard_normal(TIME.size)
-    told = analyse(signal, RATE, KNOWN.at(19.7), turning=Turning(angle))
-    assert told.speed.shaft_hz == pytest.approx(20.0, rel=1e-6)
-    assert told.speed.evidence > 20.0
-    assert measure_orders(told)["shaft_velocity"] > np.log10(0.9)
+    followed = analyse(signal, RATE, KNOWN.at(19.7), turning=Turning(angle))
+    assert followed.speed.shaft_hz == pytest.approx(20.0, rel=1e-6)
+    assert followed.speed.evidence > 20.0
+    assert measure_orders(followed)["shaft_velocity"] > np.log10(0.9)
     assert measure_orders(analyse(signal, RATE, KNOWN))["shaft_velocity"] < np.log10(0.3)
 
 
@@ -90,8 +93,11 @@ def test_a_shaft_that_turns_back_or_stands_still_has_no_turning(angle):
 
 def test_the_race_is_looked_for_where_a_known_speed_puts_it_though_no_line_of_the_shaft_is_heard():
     quiet = np.random.default_rng(5).standard_normal(TIME.size)
-    told, untold = analyse(quiet, RATE, KNOWN, turning=Turning(speeding(14.0, 26.0))), analyse(quiet, RATE, KNOWN)
-    assert untold.race_window("outer")[1] > 1.2 * told.race_window("outer")[1]
+    followed, unfollowed = (
+        analyse(quiet, RATE, KNOWN, turning=Turning(speeding(14.0, 26.0))),
+        analyse(quiet, RATE, KNOWN),
+    )
+    assert unfollowed.race_window("outer")[1] > 1.2 * followed.race_window("outer")[1]
 
 
 def test_only_the_turning_of_the_samples_that_are_used_counts():

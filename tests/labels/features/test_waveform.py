@@ -16,7 +16,7 @@ def test_the_shape_of_noise_is_that_of_a_normal_distribution():
     mean = math.sqrt(2.0 / math.pi)  # of the size of a standard normal variable
     assert found["kurtosis"] == pytest.approx(math.log(3.0), abs=0.01)
     assert found["shape_factor"] == pytest.approx(-math.log(mean), abs=0.005)
-    # Quantiles of the size at 99.9 and 99.99 %; the latter is told by the 40 largest samples.
+    # Quantiles of the size at 99.9 and 99.99 %; the latter follows from the 40 largest samples.
     assert found["impulse_factor"] == pytest.approx(math.log(3.2905 / mean), abs=0.02)
     assert found["crest_factor"] == pytest.approx(math.log(3.8906), abs=0.04)
 

@@ -47,36 +47,36 @@ def one_pair(entry, lag):
 
 
 def test_no_lag_is_longer_than_a_pass_and_no_spall_than_half_the_race(judging):
-    told = judging(0.1, 1.2, 10.0).judge(one_pair(0.0, 95.0), GEARBOX)
-    assert told.outcome is SizeOutcome.ESTIMATED
-    assert told.lag == pytest.approx(0.1)  # 95 samples times 1.2 are more than a pass of 100
-    assert told.lag_interval == pytest.approx((0.1 / 1.5, 0.15))
-    assert told.extent == pytest.approx(math.pi)
-    assert told.candidates == pytest.approx((math.pi,))
+    estimate = judging(0.1, 1.2, 10.0).judge(one_pair(0.0, 95.0), GEARBOX)
+    assert estimate.outcome is SizeOutcome.ESTIMATED
+    assert estimate.lag == pytest.approx(0.1)  # 95 samples times 1.2 are more than a pass of 100
+    assert estimate.lag_interval == pytest.approx((0.1 / 1.5, 0.15))
+    assert estimate.extent == pytest.approx(math.pi)
+    assert estimate.candidates == pytest.approx((math.pi,))
 
 
 def test_lag_and_arc_are_corrected_each_by_its_own_factor(judging):
-    told = judging(0.1, 1.1, 1.5).judge(one_pair(0.0, 20.0), GEARBOX)
-    assert told.lag == pytest.approx(0.022)
-    assert told.lag_arc == pytest.approx(math.radians(0.22 * 30.0))
-    assert told.extent == pytest.approx(math.radians(0.2 * 30.0 * 1.5))
-    assert told.extent_interval == pytest.approx((told.extent / 1.5, told.extent * 1.5))
-    assert told.trust == pytest.approx(0.9)
-    assert told.candidates[:2] == pytest.approx((told.extent, told.extent + math.radians(30.0)))
+    estimate = judging(0.1, 1.1, 1.5).judge(one_pair(0.0, 20.0), GEARBOX)
+    assert estimate.lag == pytest.approx(0.022)
+    assert estimate.lag_arc == pytest.approx(math.radians(0.22 * 30.0))
+    assert estimate.extent == pytest.approx(math.radians(0.2 * 30.0 * 1.5))
+    assert estimate.extent_interval == pytest.approx((estimate.extent / 1.5, estimate.extent * 1.5))
+    assert estimate.trust == pytest.approx(0.9)
+    assert estimate.candidates[:2] == pytest.approx((estimate.extent, estimate.extent + math.radians(30.0)))
 
 
 @pytest.mark.parametrize(("entry", "first"), [(0.0, 0.0), (-20.0, -22.0)])
 def test_the_event_that_is_the_anchor_stays_where_it_was_found(judging, entry, first):
-    told = judging(0.1, 1.1, 1.0).judge(one_pair(entry, 20.0), GEARBOX)
+    estimate = judging(0.1, 1.1, 1.0).judge(one_pair(entry, 20.0), GEARBOX)
     heard = np.array([200.0, 400.0])  # a pass without weight is not heard
-    assert told.event_times[:, 0] == pytest.approx((heard + first - ONSET) / RATE)
-    assert told.event_times[:, 1] - told.event_times[:, 0] == pytest.approx(0.022)
+    assert estimate.event_times[:, 0] == pytest.approx((heard + first - ONSET) / RATE)
+    assert estimate.event_times[:, 1] - estimate.event_times[:, 0] == pytest.approx(0.022)
 
 
 def test_above_the_most_doubt_nothing_is_told(judging):
-    told = judging(0.41, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX)
-    assert told.outcome is SizeOutcome.NO_EVENT_PAIR
-    assert (told.trust, math.isnan(told.extent)) == (pytest.approx(0.59), True)
+    estimate = judging(0.41, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX)
+    assert estimate.outcome is SizeOutcome.NO_EVENT_PAIR
+    assert (estimate.trust, math.isnan(estimate.extent)) == (pytest.approx(0.59), True)
 
 
 def test_load_and_hertz_factor_ask_for_their_own_judgement(judging, saying):

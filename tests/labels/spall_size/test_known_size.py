@@ -20,12 +20,12 @@ def test_the_factor_goes_towards_the_known_size_and_is_bounded(ratio):
 
 
 def test_a_correction_scales_every_extent_and_leaves_the_lag():
-    told = SizeEstimate(SizeOutcome.ESTIMATED, "m", "outer", lag=1e-3, lag_interval=(9e-4, 2e-3), extent=0.1,
+    estimate = SizeEstimate(SizeOutcome.ESTIMATED, "m", "outer", lag=1e-3, lag_interval=(9e-4, 2e-3), extent=0.1,
                         extent_interval=(0.08, 0.12), extent_mm=2.0, extent_mm_interval=(1.6, 2.4),
                         candidates=(0.1, 0.6))  # fmt: skip
-    made = corrected(told, 1.1)
+    made = corrected(estimate, 1.1)
     assert made.extent == pytest.approx(0.11)
     assert made.extent_interval == pytest.approx((0.088, 0.132))
     assert made.extent_mm_interval == pytest.approx((1.76, 2.64))
     assert made.candidates == pytest.approx((0.11, 0.66))
-    assert (made.lag, made.lag_interval) == (told.lag, told.lag_interval)
+    assert (made.lag, made.lag_interval) == (estimate.lag, estimate.lag_interval)

@@ -33,5 +33,5 @@ def test_the_half_size_rule_says_twice_the_arc_of_the_plain_one(pulse_train):
 def test_the_length_is_told_along_the_raceway(pulse_train, race, diameter_mm):
     situation = replace(GEARBOX, race=race)
     train = pulse_train(100.0 / RATE, situation.pass_periods()[race])
-    told = EnvelopeLagRule().estimate(train.signal, RATE, situation)
-    assert told.extent_mm == pytest.approx(told.extent * diameter_mm / 2.0, rel=1e-12)
+    estimate = EnvelopeLagRule().estimate(train.signal, RATE, situation)
+    assert estimate.extent_mm == pytest.approx(estimate.extent * diameter_mm / 2.0, rel=1e-12)

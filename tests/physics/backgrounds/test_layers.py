@@ -211,7 +211,7 @@ def test_pink_noise_that_begins_beyond_half_the_rate_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("make", "told"),
+    ("make", "message"),
     [
         (lambda: white_noise(np.random.default_rng(1), -0.1, 4), r"white rms = -0\.1 m/s²; it must not be below 0"),
         (lambda: PinkNoise(-1.0), r"pink rms = -1\.0 m/s²"),
@@ -230,8 +230,8 @@ def test_pink_noise_that_begins_beyond_half_the_rate_is_refused():
         (lambda: Resonance(5.0, 0.0), r"impulse damping = 0\.0; it must be above 0"),
     ],
 )
-def test_an_impossible_layer_is_refused_with_its_number(make, told):
-    with pytest.raises(InvalidParameter, match=told):
+def test_an_impossible_layer_is_refused_with_its_number(make, message):
+    with pytest.raises(InvalidParameter, match=message):
         make()
 
 

@@ -1,4 +1,4 @@
-"""What a carried step is told to miss of a rolled path: nothing within a cell, and what quadrature says beyond."""
+"""What a carried step is said to miss of a rolled path: nothing within a cell, and what quadrature says beyond."""
 
 import dataclasses
 

@@ -73,7 +73,7 @@ def test_a_mode_of_a_spall_at_one_step_a_sample_agrees_with_an_adaptive_solver_o
 
 
 @pytest.mark.parametrize(
-    ("fields", "told"),
+    ("fields", "message"),
     [
         ((0.0, 0.1), r"sensor resonance = 0\.0 Hz; it must be above 0"),
         ((-5.0, 0.1), r"sensor resonance = -5\.0 Hz"),
@@ -82,8 +82,8 @@ def test_a_mode_of_a_spall_at_one_step_a_sample_agrees_with_an_adaptive_solver_o
         ((100.0, 0.1, math.nan), "gain = nan; it must be finite"),
     ],
 )
-def test_an_impossible_mode_is_refused_with_its_number(fields, told):
-    with pytest.raises(InvalidParameter, match=told):
+def test_an_impossible_mode_is_refused_with_its_number(fields, message):
+    with pytest.raises(InvalidParameter, match=message):
         SensorMode(*fields)
 
 

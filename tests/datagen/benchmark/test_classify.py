@@ -248,7 +248,7 @@ def test_how_far_it_has_got_is_told_on_standard_error(classify, other_corpus, in
 def test_how_many_records_are_read_is_told(workers, tiny_corpus, monkeypatch):
     monkeypatch.setattr("datagen.benchmark.rows.RECORDS_A_TASK", 5)
     counts = []
-    found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *counts: counts.append(counts))
+    found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *pair: counts.append(pair))
     assert sorted({*found.record.tolist(), *found.rejected}) == list(range(14))
     assert found.axis.tolist() == [0, 1] * (len(found.record) // 2)
     assert counts == [(0, 14), (5, 14), (10, 14), (14, 14)]

@@ -18,7 +18,8 @@ from physics.checks import (
 )
 
 PROFILES = ("tukey", "ball_path", "table")
-# Spalls that touch may overlap by this share of their extent, which is rounding.
+# Share of an arc that is rounding: so far tapers may exceed a spall, spalls that touch overlap, and an extended one
+# fall short of the ball spacing.
 ROUNDING = 1e-12
 
 
@@ -70,7 +71,7 @@ class Spall:
         for field in ("entry_taper", "exit_taper"):
             require_between(field, getattr(self, field), 0.0, self.extent, "rad")
         require(
-            self.entry_taper + self.exit_taper <= self.extent * (1.0 + 1e-12),
+            self.entry_taper + self.exit_taper <= self.extent * (1.0 + ROUNDING),
             f"entry_taper + exit_taper = {self.entry_taper + self.exit_taper:.6g} rad is longer than the spall "
             f"(extent = {self.extent:.6g} rad)",
             "entry_taper",
@@ -138,7 +139,7 @@ class Spall:
 
 def is_extended(extent: float, bearing: Bearing) -> bool:
     """True if the arc `extent` (rad) always holds at least one ball of its row: Δφ ≥ 2π/Nb."""
-    return extent >= bearing.spacing * (1.0 - 1e-12)
+    return extent >= bearing.spacing * (1.0 - ROUNDING)
 
 
 def require_apart(spalls: Sequence[Spall]) -> None:

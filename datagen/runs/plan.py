@@ -24,7 +24,8 @@ from physics.words import STIFFNESS_COMPONENTS
 
 # What a shard takes beside its signals: labels, tables, scenarios and the library's blocks.
 SHARD_BYTES = 250_000.0
-SECONDS_UNTOLD = 10.0
+# A plan that takes longer says in between how far it has got.
+SECONDS_BETWEEN = 10.0
 
 
 @dataclass(frozen=True)
@@ -53,10 +54,10 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = unheard) -> list[PlannedSh
     shards: list[PlannedShard] = []
     growing: dict[Hashable, int] = {}
     forces_kept: set[tuple[str, str]] = set()
-    told = time.monotonic()
+    heard = time.monotonic()
     for record in range(stop):
-        if time.monotonic() - told >= SECONDS_UNTOLD:
-            told = time.monotonic()
+        if time.monotonic() - heard >= SECONDS_BETWEEN:
+            heard = time.monotonic()
             say(f"{record} of {stop} records are drawn; none is made before all are")
         scenario = draw_scenario(recipe, record)
         stored = stored_signals(recipe, scenario, forces_kept)

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.classifier.log_odds import EDGE, logit, probability_of
-from labels.classifier.rule import raised_heights, strengths
-from labels.classifier.votes import averaged, of_several_axes, raised, vote_shares
+from labels.classifier.rule import strengths
+from labels.classifier.votes import averaged, raised
 from labels.features.table import FEATURE_NAMES
 from physics.arrays import Array, Flags
 
@@ -103,19 +103,12 @@ def fit_alarm(
     needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
     high = np.sort(needed)[::-1][min(int(share * own.size), own.size - 1)]
     in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
-    heights = averaged(np.log(strengths(table)), records, own).max(axis=1)
+    lines = np.log(strengths(table))
+    heights = averaged(lines, records, own).max(axis=1)
     alarm = Alarm(float(in_noise), float(in_clear), float(np.exp(np.quantile(heights, LINES_QUANTILE))))
     margin = level - logit(alarm.at(table))
     return replace(
         alarm,
-        several=_raised_votes(margin, records, axes),
-        height_several=raised_heights(table, records, axes),
+        several=raised(margin[:, None], records, axes),
+        height_several=float(np.exp(raised(lines, records, axes))),
     )
-
-
-def _raised_votes(margin: Array, records: NDArray[np.int64], axes: NDArray[np.int64]) -> float:
-    """Log odds by which the votes of records of several axes lie above the means of their rows' `margin` (N,)."""
-    several = np.unique(records)
-    several = several[of_several_axes(records, axes, several)]
-    votes = averaged(margin, records, several, vote_shares(margin, records, axes))
-    return raised(votes, averaged(margin, records, several))

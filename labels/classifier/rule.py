@@ -41,16 +41,6 @@ def line_heights(
     return np.asarray(heights / np.where(several, of_several, 1.0)[:, None])
 
 
-def raised_heights(table: Array, owner: NDArray[np.int64], axis: NDArray[np.int64]) -> float:
-    """Factor by which the rows (N, F) of healthy records of several axes stand higher because the axis with the highest
-    lines counts more; 1 where all records have one `axis` (N,)."""
-    records = np.unique(owner)
-    records = records[of_several_axes(owner, axis, records)]
-    votes = line_heights(table, owner, records, axis).max(axis=1)
-    means = averaged(np.log(strengths(table)), owner, records).max(axis=1)
-    return float(np.exp(raised(np.log(votes), means)))
-
-
 @dataclass(frozen=True)
 class Rule:
     """Says "none" unless a race's family stands higher over the floor than `threshold`; then the higher race.
@@ -83,6 +73,7 @@ def fit_rule(healthy: Array, owner: NDArray[np.int64], axis: NDArray[np.int64]) 
     """
     if len(healthy) == 0:
         raise ValueError("the rule needs healthy records to set its threshold")
-    means = averaged(np.log(strengths(healthy)), owner, np.unique(owner))
+    level = np.log(strengths(healthy))
+    means = averaged(level, owner, np.unique(owner))
     threshold = np.exp(np.quantile(means.max(axis=1), QUANTILE))
-    return Rule(float(threshold), raised_heights(healthy, owner, axis))
+    return Rule(float(threshold), float(np.exp(raised(level, owner, axis))))

@@ -65,12 +65,21 @@ def of_several_axes(owner: NDArray[np.int64], axis: NDArray[np.int64], records: 
     return np.isin(records, axes[1:][axes[1:] == axes[:-1]])
 
 
-def raised(votes: Array, means: Array) -> float:
-    """How much higher the `votes` (R,) of records of several axes lie than the plain `means` (R,) of their axes, on
-    average over the highest fifth of each; 0 without records.
+def raised(level: Array, owner: NDArray[np.int64], axis: NDArray[np.int64]) -> float:
+    """How much higher healthy records of several axes lie because their loudest axis counts more, on average over the
+    highest fifth of them, by votes and by the plain means of their rows; 0 without such records.
 
-    Of n axes it is about the same for any n: the largest of more normal numbers lies farther from their mean, and
-    counts for less of it.
+    `level` (N, C) are logarithms of the rows, of whose columns the highest counts, `owner` (N,) their records and
+    `axis` (N,) their axes. Of n axes it is about the same for any n: the largest of more normal numbers lies farther
+    from their mean, and counts for less of it.
     """
-    count = int(np.ceil(HIGHEST * votes.size))
-    return float(np.mean(np.sort(votes)[-count:]) - np.mean(np.sort(means)[-count:])) if count else 0.0
+    records = np.unique(owner)
+    several = records[of_several_axes(owner, axis, records)]
+    if several.size == 0:
+        return 0.0
+    count = int(np.ceil(HIGHEST * several.size))
+    votes, means = (
+        np.sort(averaged(level, owner, several, shares).max(axis=1))[-count:].mean()
+        for shares in (vote_shares(level.max(axis=1), owner, axis), None)
+    )
+    return float(votes - means)

@@ -45,7 +45,17 @@ def test_windows_of_one_axis_are_no_axes():
 
 def test_votes_are_raised_by_what_lifts_the_highest_fifth():
     means = np.arange(10.0)
-    votes = np.where(means >= 8.0, means + 0.5, means + 3.0)[::-1]  # 0 to 7 rise to 3 … 10, above 8.5 and 9.5
-    assert raised(votes, means) == pytest.approx((10.0 + 9.5) / 2.0 - 8.5)
-    assert raised(means, means) == 0.0
-    assert raised(np.empty(0), np.empty(0)) == 0.0
+    votes = np.where(means >= 8.0, means + 0.5, means + 3.0)  # 0 to 7 rise to 3 … 10, above 8.5 and 9.5
+    # Of two axes, each as far from the mean, the higher one draws the vote a third of that way.
+    level = np.concatenate([means + 3.0 * (votes - means), means - 3.0 * (votes - means)])[:, None]
+    owner, axis = np.tile(np.arange(10), 2), np.repeat([0, 1], 10)
+    assert raised(level, owner, axis) == pytest.approx((10.0 + 9.5) / 2.0 - 8.5)
+    assert raised(np.tile(means, 2)[:, None], owner, axis) == 0.0
+    assert raised(level, owner, np.zeros(20, np.int64)) == 0.0
+    assert raised(np.empty((0, 1)), owner[:0], axis[:0]) == 0.0
+
+
+def test_a_vote_is_raised_by_the_column_that_is_highest_in_it():
+    owner, axis = np.array([0, 0]), np.array([0, 1])
+    level = np.array([[0.0, 6.0], [3.0, 0.0]])  # axis 0 counts twice: (1, 4), where plain means are (1.5, 3)
+    assert raised(level, owner, axis) == pytest.approx(1.0)

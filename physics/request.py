@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from physics.checks import require_between, require_count, require_not_negative, require_one_of
-from physics.integrators.methods import MARCHES
-from physics.ladder.models import SIMPLER_MODELS
+from physics.integrators.method_table import MARCHES
+from physics.ladder.model_table import SIMPLER_MODELS
 from physics.response.stability import MOST_STABLE_SUBSTEPS
 from physics.trace import KEEPABLE
 
@@ -90,7 +90,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class Simpler:
-    """A simpler `model` of ladder.models.SIMPLER_MODELS, by its own method.
+    """A simpler `model` of ladder.model_table.SIMPLER_MODELS, by its own method.
 
     Raises InvalidParameter for another model.
     """

@@ -8,19 +8,19 @@ from dataclasses import replace
 import numpy as np
 
 from physics.checks import require, require_positive
-from physics.ladder.models import SIMPLER_MODELS
+from physics.ladder.model_table import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import SMALLEST_ACCURACY, Accurate, FixedSteps, HalvedSteps, LeadIn, Reference, Simpler, Solution
 from physics.response.adaptive import respond_accurately
 from physics.response.fixed_steps import respond_by_fixed_steps
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
-from physics.response.march import respond_by_reference
 from physics.response.modal_case import resting
 from physics.response.oversampling import oversampling
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
 from physics.response.resampling import decimate
+from physics.response.single_march import respond_by_reference
 from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import carried

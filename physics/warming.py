@@ -19,16 +19,16 @@ from physics.catalog import rig
 from physics.contact.forces import Contacts
 from physics.contact_events import contact_events
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
-from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
+from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
 from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import race_depth
 from physics.response.kinks import known_kinks
-from physics.response.march import empty_output
 from physics.response.resampling import decimate, read_at
+from physics.response.single_march import empty_output
 from physics.scene import Scene
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate

@@ -10,7 +10,7 @@ import numpy as np
 
 from datagen.charts.response import Response, of_states, of_trace
 from physics.arrays import Array
-from physics.integrators.methods import MARCHES, METHODS, REFERENCE
+from physics.integrators.method_table import MARCHES, METHODS, REFERENCE
 from physics.integrators.rivals.general_purpose import (
     BALL_BY_BALL,
     CONTACT_KERNEL,
@@ -21,7 +21,7 @@ from physics.integrators.rivals.general_purpose import (
     integrate_compiled,
     right_hand_side,
 )
-from physics.ladder.models import SIMPLER_MODELS
+from physics.ladder.model_table import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.request import Accurate, FixedSteps, Simpler
 from physics.response.periodic import METHOD as REPEATED

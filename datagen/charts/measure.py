@@ -18,8 +18,8 @@ from datagen.charts.scores import SCORED_FROM, Score, score
 from datagen.telling import Say
 from datagen.versions import measured_on
 from physics.integrators.method import NO_MODES
-from physics.integrators.methods import METHODS, REFERENCE
-from physics.ladder.models import SIMPLER_MODELS
+from physics.integrators.method_table import METHODS, REFERENCE
+from physics.ladder.model_table import SIMPLER_MODELS
 from physics.outcome import SimulationFailed
 from physics.request import FixedSteps, Reference
 from physics.response.stability import longest_stable_step

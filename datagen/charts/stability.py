@@ -14,13 +14,13 @@ from datagen.telling import Say
 from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
-from physics.integrators.methods import MARCHES, METHODS, MODAL
+from physics.integrators.method_table import MARCHES, METHODS, MODAL
 from physics.integrators.output import Grid
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.response.adaptive import respond_accurately
-from physics.response.march import respond
 from physics.response.modal_case import Kept, resting
+from physics.response.single_march import respond
 from physics.response.stability import longest_stable_step, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene

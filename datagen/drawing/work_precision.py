@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from datagen.charts.contestants import METHOD, MODEL
 from datagen.charts.measure import TARGET, Chart, Run
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, png_of
-from physics.integrators.methods import MODAL
+from physics.integrators.method_table import MODAL
 from physics.integrators.rivals.general_purpose import BALL_BY_BALL
 
 if TYPE_CHECKING:

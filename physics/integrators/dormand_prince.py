@@ -16,7 +16,7 @@ from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
-from physics.integrators.march import press_state
+from physics.integrators.state_contact import press_state
 from physics.integrators.trial import Trial
 from physics.motion import MotionModel
 

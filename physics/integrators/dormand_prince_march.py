@@ -1,9 +1,9 @@
 """Marching the embedded pair at steps of its own choosing; samples come from its dense output.
 
-As in `physics.integrators.march`, a step is tried with the contact set frozen, the first change of contact inside it is
-located, and the step is repeated up to it; known kinks of a path are step ends. `substeps` s asks for s steps a
-sample or more, and for a local error of LOOSEST_TOLERANCE / s⁵ of the motion seen so far, so that doubling it halves
-the steps.
+As in `physics.integrators.fixed_step_march`, a step is tried with the contact set frozen, the first change of contact
+inside it is located, and the step is repeated up to it; known kinks of a path are step ends. `substeps` s asks for s
+steps a sample or more, and for a local error of LOOSEST_TOLERANCE / s⁵ of the motion seen so far, so that doubling it
+halves the steps.
 """
 
 from __future__ import annotations
@@ -17,14 +17,6 @@ from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
-from physics.integrators.march import (
-    KINK_NUDGE_SHARE,
-    MOST_CHANGES_PER_STEP,
-    SMALLEST_STEP_SHARE,
-    find_contact,
-    locate,
-    press_state,
-)
 from physics.integrators.output import (
     DONE,
     LOG_FULL,
@@ -38,8 +30,9 @@ from physics.integrators.output import (
     toggle,
 )
 from physics.integrators.propagator import PowerSeries
-from physics.integrators.stops import Stops, next_kink, passed_kinks
-from physics.integrators.trial import Trial
+from physics.integrators.state_contact import find_contact, locate, press_state
+from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink, passed_kinks
+from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
 from physics.motion import MotionModel
 
 LOOSEST_TOLERANCE = 2e-3

@@ -22,8 +22,9 @@ from physics.arrays import Array
 from physics.contact.contact_set import count_changes, mark_of
 from physics.contact.forces import ACTIVE, Contacts, set_time
 from physics.integrators.exponential_rk4 import OUTER_STATE, flow_component, step_exponential_rk4
-from physics.integrators.march import Workspace, bind_method, carrying, press_state
+from physics.integrators.fixed_step_march import Workspace, bind_method, carrying
 from physics.integrators.propagator import CUBE, FIRST, LAST, MIDDLE, WHOLE
+from physics.integrators.state_contact import press_state
 from physics.motion import MotionModel, outer_load
 
 ORDERS = (2, 3, 4)

@@ -14,7 +14,7 @@ from physics._jit import njit, njit_inline
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to, press
-from physics.integrators.march import Workspace, bind_method
+from physics.integrators.fixed_step_march import Workspace, bind_method
 from physics.integrators.propagator import FIRST, HALF, LAST, MIDDLE, TO_2_3, TO_3_4, TO_4, WHOLE
 from physics.motion import MotionModel, outer_load
 

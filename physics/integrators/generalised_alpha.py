@@ -21,7 +21,8 @@ from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, press, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.contact_tangent import contact_tangent
-from physics.integrators.march import Workspace, bind_method, carrying, press_state
+from physics.integrators.fixed_step_march import Workspace, bind_method, carrying
+from physics.integrators.state_contact import press_state
 from physics.motion import MotionModel, outer_load
 
 RADIUS_AT_INFINITY = 0.9

@@ -12,7 +12,8 @@ from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to
 from physics.integrators.accelerations import accelerations
-from physics.integrators.march import Workspace, bind_method, press_state
+from physics.integrators.fixed_step_march import Workspace, bind_method
+from physics.integrators.state_contact import press_state
 from physics.motion import MotionModel
 
 

@@ -12,6 +12,9 @@ from physics.arrays import Array
 from physics.contact.forces import ACTIVE, of_ball
 
 ANY_BALL = -1
+# A step ends this much, as a share of the full step, before a kink and the next one starts as much after it, so that
+# each reads its own side.
+KINK_NUDGE_SHARE = 1e-8
 
 
 class Stops(NamedTuple):

@@ -6,6 +6,11 @@ from typing import NamedTuple
 
 from physics.arrays import Array
 
+# What is shorter than this share of the full step is not tried, but taken as over: times differ by rounding alone.
+SMALLEST_STEP_SHARE = 1e-7
+# So many changes of contact are located in one full step; further ones are taken over at the end of a trial instead.
+MOST_CHANGES_PER_STEP = 100
+
 
 class Trial(NamedTuple):
     """A step from the state `now` at `time` (s), where the contacts' `force` (N, N) is known, over `step` (s) to the

@@ -29,8 +29,8 @@ from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
 from physics.contact.track import Track, cage_at
 from physics.integrators.contact_tangent import contact_tangent
 from physics.integrators.exponential_rk4 import step_exponential_rk4
-from physics.integrators.march import workspace
-from physics.integrators.methods import METHODS
+from physics.integrators.fixed_step_march import workspace
+from physics.integrators.method_table import METHODS
 from physics.integrators.propagator import PowerSeries, power_series, set_step
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model

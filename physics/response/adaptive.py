@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
-from physics.integrators.methods import MODAL
+from physics.integrators.method_table import MODAL
 from physics.integrators.output import STEPS, Grid, Output
 from physics.response.attempts import confirm_doubtful, to_accuracy
 from physics.response.goal import (
@@ -20,8 +20,8 @@ from physics.response.goal import (
     rms_distance,
     steady,
 )
-from physics.response.march import trace_of
 from physics.response.modal_case import March, case_of
+from physics.response.single_march import trace_of
 from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium

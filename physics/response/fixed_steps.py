@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from physics.integrators.methods import METHODS
+from physics.integrators.method_table import METHODS
 from physics.integrators.output import Grid
 from physics.integrators.propagator import reach
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
-from physics.response.march import respond
+from physics.response.single_march import respond
 from physics.response.stability import require_stable, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene

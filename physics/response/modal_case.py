@@ -12,8 +12,8 @@ from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.forces import Contacts
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
-from physics.integrators.modal.march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.memory import RETUNE, SHORTEST, STRIDES, UNITS, Memory, Stride, memory_for
+from physics.integrators.modal.modal_march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
@@ -21,7 +21,7 @@ from physics.motion import MotionModel, motion_model, starting_state
 from physics.outcome import StaticOutcome
 from physics.response.change_log import room_for_changes
 from physics.response.kinks import known_kinks
-from physics.response.march import empty_output, require_done
+from physics.response.single_march import empty_output, require_done
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, instants_without_period, refuse
 from physics.trace import ACCELERATION_ALONE, Kept

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
-from physics.integrators.methods import MARCHES, METHODS
+from physics.integrators.method_table import MARCHES, METHODS
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.request import FixedSteps

@@ -11,7 +11,7 @@ from physics.cage import CagePath
 from physics.integrators.output import Grid
 from physics.operation import Operation
 from physics.request import FixedSteps
-from physics.response.march import respond
+from physics.response.single_march import respond
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.trace import Kept

@@ -43,7 +43,7 @@ def test_a_copy_of_the_physics_has_the_same_fingerprint(copied, monkeypatch):
     assert len(of_copy) == 16
 
 
-@pytest.mark.parametrize("name", ["contact/forces.py", "integrators/march.py", "_jit/cache.py"])
+@pytest.mark.parametrize("name", ["contact/forces.py", "integrators/fixed_step_march.py", "_jit/cache.py"])
 def test_the_fingerprint_changes_with_the_text_of_any_file(copied, name):
     before = fingerprint()
     file = copied / name

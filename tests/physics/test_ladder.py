@@ -10,7 +10,7 @@ from physics.checks import InvalidParameter
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import edges_of, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
-from physics.ladder.models import SIMPLER_MODELS
+from physics.ladder.model_table import SIMPLER_MODELS
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages

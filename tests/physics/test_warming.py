@@ -36,7 +36,7 @@ def test_no_kernel_is_compiled_after_the_warm_up() -> None:
 
 
 ONE_MARCH = """
-from physics.integrators.modal.march import march_modal
+from physics.integrators.modal.modal_march import march_modal
 from physics.reference_scenes import reference_scene
 from physics.simulate import simulate
 from physics.trace import Kept

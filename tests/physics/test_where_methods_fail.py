@@ -8,12 +8,12 @@ from variants import changed
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
-from physics.integrators.methods import MARCHES, METHODS
+from physics.integrators.method_table import MARCHES, METHODS
 from physics.integrators.output import Grid
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import Accurate, FixedSteps, HalvedSteps, Reference
-from physics.response.march import respond
+from physics.response.single_march import respond
 from physics.response.stability import limiting_modes, longest_stable_step, stable_substeps
 from physics.rms import rms
 from physics.simulate import simulate

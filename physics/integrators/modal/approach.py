@@ -12,7 +12,6 @@ import math
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.contact_set import count_changes, touches
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FLOOR, LAW, Contacts, Law, compression_of
-from physics.integrators.march import KINK_NUDGE_SHARE, MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may_shrink
 from physics.integrators.modal.memory import (
     AT_WALL,
@@ -32,6 +31,8 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
+from physics.integrators.stops import KINK_NUDGE_SHARE
+from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 
 # Error of Simpson's rule over a step, relative, of the force (t − t0)^1.5 with which contact starts and ends.
 START_ERROR = 0.0024

@@ -6,7 +6,6 @@ from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
 from physics.contact.contact_set import touches
 from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
-from physics.integrators.march import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 from physics.integrators.modal.approach import meet_change
 from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.judgement import may_shrink
@@ -27,7 +26,7 @@ from physics.integrators.modal.memory import (
     Stride,
 )
 from physics.integrators.output import Output, change_unlocated, toggle
-from physics.integrators.trial import Trial
+from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
 
 # What a look at a trial step says: take it, or go on from where it began, where a ball has CHANGED sides meanwhile.
 TAKE, AGAIN, CHANGED = range(3)

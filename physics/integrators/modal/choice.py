@@ -7,7 +7,6 @@ from typing import NamedTuple
 from physics._jit import njit_inline, njit_pasted
 from physics.arrays import Array
 from physics.contact.contact_set import count_ahead
-from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.memory import (
     BALL,
     BETWEEN,
@@ -27,7 +26,8 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-from physics.integrators.stops import Stops, next_kink
+from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink
+from physics.integrators.trial import SMALLEST_STEP_SHARE
 
 # A stride is taken only if no ball would change sides within this many times its length.
 LOOK_AHEAD = 1.0

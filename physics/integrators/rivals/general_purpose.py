@@ -22,9 +22,9 @@ from physics.contact.contact_set import count_changes, reset_contact
 from physics.contact.forces import Contacts, set_time
 from physics.integrators.accelerations import accelerations
 from physics.integrators.events import Way, quintic
-from physics.integrators.march import press_state
 from physics.integrators.reference.equations import Equations, write_equations
 from physics.integrators.rivals.ball_by_ball import ball_by_ball_slopes
+from physics.integrators.state_contact import press_state
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 

@@ -5,7 +5,6 @@ import pytest
 
 from physics.assembly import assemble
 from physics.contact.forces import ACTIVE, COMPRESSION
-from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.choice import next_step
 from physics.integrators.modal.flow import linear_flow
 from physics.integrators.modal.memory import (
@@ -21,7 +20,8 @@ from physics.integrators.modal.memory import (
     memory_for,
 )
 from physics.integrators.modal.tables import tables_for
-from physics.integrators.stops import Stops
+from physics.integrators.stops import KINK_NUDGE_SHARE, Stops
+from physics.integrators.trial import SMALLEST_STEP_SHARE
 from physics.motion import motion_model
 
 INTERVAL = 1.0 / 65536.0

@@ -53,8 +53,8 @@ from physics.integrators.modal.layout import (
     STEP_WEIGHTS,
     TURN,
 )
-from physics.integrators.modal.march import begin, march_modal
 from physics.integrators.modal.memory import STRIDES, Stride, memory_for
+from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.modal.weights import set_inside, set_step
 from physics.integrators.output import DONE, LOGGED
@@ -62,8 +62,8 @@ from physics.motion import motion_model, starting_state
 from physics.paths.profile import build_path
 from physics.request import Accurate, FixedSteps, Reference
 from physics.response.kinks import known_kinks
-from physics.response.march import empty_output
 from physics.response.modal_case import March, case_of, mean_flow, resting
+from physics.response.single_march import empty_output
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium

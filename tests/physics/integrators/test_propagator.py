@@ -25,7 +25,7 @@ from physics.integrators.propagator import (
 )
 from physics.motion import motion_model
 from physics.operation import Operation
-from physics.response.march import respond
+from physics.response.single_march import respond
 from physics.scene import Scene
 from physics.trace import Kept
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from physics.integrators.methods import METHODS
+from physics.integrators.method_table import METHODS
 
 # Damping ratios from undamped to far beyond aperiodic, close together where limits change fast.
 DAMPING = (0.0, 1e-7, 1e-6, *np.geomspace(1e-5, 0.3, 200), *np.linspace(0.3, 1.5, 121), 2.0, 3.0, 10.0, 100.0)

@@ -8,7 +8,7 @@ from variants import changed
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
-from physics.integrators.methods import MODAL
+from physics.integrators.method_table import MODAL
 from physics.request import Accurate
 from physics.response.periodic import METHOD, balls_a_period, period_of
 from physics.response.resampling import read_at

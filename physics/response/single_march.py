@@ -9,7 +9,7 @@ import numpy as np
 from physics.arrays import Array
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import Contacts
-from physics.integrators.methods import MARCHES
+from physics.integrators.method_table import MARCHES
 from physics.integrators.output import (
     HELD,
     LOG_FULL,

@@ -1,8 +1,8 @@
-"""Marching a one-step method from sample to sample, stopping at every change of the contact set and every known kink.
+"""Marching a method at fixed steps from sample to sample, stopping at every change of contact and every known kink.
 
 A trial step is made with the contact set frozen. If at its end, or halfway, a ball contradicts the set, the instant of
-the first contradiction is located, the step is repeated up to it, the ball changes sides, and the march goes on from
-there. Times at which a ball crosses an edge of its path are known beforehand and are step ends.
+the first contradiction is located and the step is repeated up to it. There the ball changes sides, and the march goes
+on. Times at which a ball crosses an edge of its path are known beforehand and are step ends.
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ import numpy as np
 
 from physics._jit import njit, specialise
 from physics.arrays import Array
-from physics.contact.contact_set import count_changes, reset_contact
-from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
-from physics.integrators.events import Way, earliest_change, relative_motion
+from physics.contact.contact_set import count_changes
+from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.output import (
     DONE,
     LOG_FULL,
@@ -29,14 +28,11 @@ from physics.integrators.output import (
     toggle,
 )
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
-from physics.integrators.stops import Stops, next_kink, passed_kinks
-from physics.integrators.trial import Trial
+from physics.integrators.state_contact import find_contact, locate, press_state
+from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink, passed_kinks
+from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
 from physics.motion import MotionModel
 
-SMALLEST_STEP_SHARE = 1e-7
-# A step ends this much before a kink and the next one starts as much after it, so that each reads its own side.
-KINK_NUDGE_SHARE = 1e-8
-MOST_CHANGES_PER_STEP = 100
 # Contact starts and ends like |t − t0|^n: steps shrink to this share of the full one next to it.
 SHORTEST_GRADED_SHARE = 1.0 / 16.0
 
@@ -54,37 +50,6 @@ class Span(NamedTuple):
     start: float
     finish: float
     kink: int
-
-
-@njit
-def locate(contacts: Contacts, motion: MotionModel, trial: Trial) -> tuple[float, int]:
-    """Share of the step and ball of the first contact change in the `trial`; ball −1 if none.
-
-    `contacts` are as `press` left them at its end; leaves them somewhere inside it.
-    """
-    begin, end = np.empty((3, 2)), np.empty((3, 2))
-    relative_motion(motion, trial.time, trial.step, trial.now, trial.force, begin)
-    relative_motion(motion, trial.time + trial.step, trial.step, trial.then, trial.after, end)
-    suspects = np.zeros((contacts.balls.shape[0], contacts.balls.shape[2]))
-    share, ball, _ = earliest_change(contacts, Way(trial.time, trial.step, begin, end), trial.halfway > 0, suspects)
-    return share, ball
-
-
-@njit
-def press_state(contacts: Contacts, state: Array) -> tuple[float, float]:
-    """Net force (N) of the contact set in `state` (12,)."""
-    return press(contacts, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
-
-
-@njit
-def find_contact(contacts: Contacts, state: Array, output: Output) -> tuple[float, float]:
-    """Make the contact set, and the first one in `output`, what the `state` (12,) at t = 0 says; the net force (N)."""
-    set_time(contacts, 0.0)
-    press_state(contacts, state)
-    reset_contact(contacts)
-    for ball in range(output.initial.size):
-        output.initial[ball] = of_ball(contacts.balls, ACTIVE, ball)
-    return press_state(contacts, state)
 
 
 @njit

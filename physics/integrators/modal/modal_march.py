@@ -13,7 +13,6 @@ from physics._jit import njit_lean, njit_pasted
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
-from physics.integrators.march import KINK_NUDGE_SHARE, SMALLEST_STEP_SHARE
 from physics.integrators.modal.approach import leads_astray
 from physics.integrators.modal.between import set_between
 from physics.integrators.modal.bumps import is_bumpy
@@ -64,8 +63,8 @@ from physics.integrators.output import (
     STEPS,
     Output,
 )
-from physics.integrators.stops import Stops, has_ridges, passed_kinks
-from physics.integrators.trial import Trial
+from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, has_ridges, passed_kinks
+from physics.integrators.trial import SMALLEST_STEP_SHARE, Trial
 
 # No scene takes this many steps on average: what does, asks for more accuracy than it has.
 MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 128, 100_000

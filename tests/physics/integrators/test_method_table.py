@@ -7,7 +7,7 @@ import pytest
 from smooth import always_in_contact
 
 from physics.integrators.generalised_alpha import ALPHA_F, ALPHA_M, BETA, GAMMA, RADIUS_AT_INFINITY
-from physics.integrators.methods import MARCHES, METHODS, MODAL, REFERENCE
+from physics.integrators.method_table import MARCHES, METHODS, MODAL, REFERENCE
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import FixedSteps, Reference
 from physics.rms import relative_error, rms

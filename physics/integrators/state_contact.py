@@ -1,0 +1,48 @@
+"""Which balls touch in a physical state (12,), and with what net force, for methods that do not work in modes.
+
+A march begins with `find_contact`, presses its states, and asks `locate` for the first change in a step that it tried.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from physics._jit import njit
+from physics.arrays import Array
+from physics.contact.contact_set import reset_contact
+from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
+from physics.integrators.events import Way, earliest_change, relative_motion
+from physics.integrators.output import Output
+from physics.integrators.trial import Trial
+from physics.motion import MotionModel
+
+
+@njit
+def press_state(contacts: Contacts, state: Array) -> tuple[float, float]:
+    """Net force (N) of the contact set in `state` (12,)."""
+    return press(contacts, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
+
+
+@njit
+def find_contact(contacts: Contacts, state: Array, output: Output) -> tuple[float, float]:
+    """Make the contact set, and the first one in `output`, what the `state` (12,) at t = 0 says; the net force (N)."""
+    set_time(contacts, 0.0)
+    press_state(contacts, state)
+    reset_contact(contacts)
+    for ball in range(output.initial.size):
+        output.initial[ball] = of_ball(contacts.balls, ACTIVE, ball)
+    return press_state(contacts, state)
+
+
+@njit
+def locate(contacts: Contacts, motion: MotionModel, trial: Trial) -> tuple[float, int]:
+    """Share of the step and ball of the first contact change in the `trial`; ball −1 if none.
+
+    `contacts` are as `press` left them at its end; leaves them somewhere inside it.
+    """
+    begin, end = np.empty((3, 2)), np.empty((3, 2))
+    relative_motion(motion, trial.time, trial.step, trial.now, trial.force, begin)
+    relative_motion(motion, trial.time + trial.step, trial.step, trial.then, trial.after, end)
+    suspects = np.zeros((contacts.balls.shape[0], contacts.balls.shape[2]))
+    share, ball, _ = earliest_change(contacts, Way(trial.time, trial.step, begin, end), trial.halfway > 0, suspects)
+    return share, ball

@@ -10,8 +10,7 @@ import numpy as np
 from scipy import fft
 
 from labels.band import Band
-from labels.features.conditioning import COMMON_BANDWIDTH, SHARE_OF_NYQUIST
-from labels.features.envelopes import band_edges
+from labels.band_tree import band_edges, usable_bandwidth
 from physics.arrays import Array
 
 STRETCHES = 8
@@ -21,11 +20,11 @@ FEWEST_COMPONENTS = 2.0
 def most_impulsive_band(signal: Array, rate: float, piece: int) -> Band:
     """Lower and upper edge (Hz) of the band of a `signal` (T,) at `rate` (Hz) whose kurtosis is largest.
 
-    The bands are those of the features: the whole, the halves, quarters and eighths of what lies below 20 kHz and below
-    0.95 of half the rate, as far as they hold two components of a stretch and of a `piece` of so many samples.
+    The bands are those of `labels.band_tree`, as far as they hold two components of a stretch and of a `piece` of so
+    many samples.
     """
     spectrum = np.asarray(fft.rfft(np.asarray(signal, dtype=np.float64) - np.mean(signal)))
-    step, top = rate / signal.size, min(COMMON_BANDWIDTH, SHARE_OF_NYQUIST * rate / 2.0)
+    step, top = rate / signal.size, usable_bandwidth(rate)
     edges = top * band_edges(top, FEWEST_COMPONENTS * max(STRETCHES * step, rate / piece))
     low, high = max(edges.tolist(), key=lambda band: _kurtosis(spectrum[int(band[0] / step) : int(band[1] / step)]))
     return low, high

@@ -4,7 +4,7 @@
 - `known`: what may be known of a record; `fitness`: whether it can be judged; `rows`: its features; `windows`: raw
   pieces for other people's estimators
 - `training`, `trained` (what came of it, as a file), `learning` (the curve), `importance`
-- `impulse_train`, `impulse_training`: learning without physics
+- `impulse_signal`, `impulse_training`: learning without physics
 - `machines`: no record is scored of a machine that was learned from; `answers`: what an estimator says, checked
 - `verdicts`: one answer a record; `predictions`: these as a table
 - `summary`: scores, which `model_scores` holds; `results`: all that a run gives; `log_line`: what the log beside each

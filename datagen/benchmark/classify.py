@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.benchmark.importance import importances
-from datagen.benchmark.impulse_train import Ingredients
+from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.log_line import log_run

@@ -6,7 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from labels.features.conditioning import FEWEST_SAMPLES_USED, SHARE_OF_NYQUIST
+from labels.band_tree import usable_bandwidth
+from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.kinematics import Kinematics
 
 UNKNOWN_SPEED = "speed unknown"
@@ -34,5 +35,5 @@ def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int
     duration = samples / rate
     if samples < FEWEST_SAMPLES_USED or duration < SHORTEST or duration * kinematics.shaft_hz < FEWEST_TURNS:
         return TOO_SHORT
-    top = min(bandwidth, SHARE_OF_NYQUIST * 0.5 * rate)
-    return TOO_FAST if kinematics.bpfi * kinematics.shaft_hz > HIGHEST_SHARE * top else ""
+    highest = HIGHEST_SHARE * usable_bandwidth(rate, bandwidth)
+    return TOO_FAST if kinematics.bpfi * kinematics.shaft_hz > highest else ""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.benchmark.impulse_train import Ingredients, draw_train
+from datagen.benchmark.impulse_signal import Ingredients, draw_train
 from datagen.benchmark.rows import Reading, signal_rows
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput

@@ -18,10 +18,11 @@ from datagen.benchmark.fitness import unfit
 from datagen.benchmark.known import known_kinematics
 from datagen.corpus import Corpus
 from datagen.telling import Count, unheard
+from labels.band_tree import COMMON_BANDWIDTH
 from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
-from labels.features.conditioning import COMMON_BANDWIDTH, FEWEST_SAMPLES_USED
+from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
 from labels.features.shocks import without_shocks

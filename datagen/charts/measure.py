@@ -13,8 +13,8 @@ import numpy as np
 
 from datagen.charts.contestants import METHOD, Contestant, contestants
 from datagen.charts.response import Response, of_trace
+from datagen.charts.response_errors import SCORED_FROM, ResponseErrors, response_errors
 from datagen.charts.scenes import Subject
-from datagen.charts.scores import SCORED_FROM, Score, score
 from datagen.telling import Say
 from datagen.versions import measured_on
 from physics.integrators.method import NO_MODES
@@ -51,7 +51,7 @@ class Run:
     duration: float
     seconds: float
     real_time: float
-    score: Score | None
+    score: ResponseErrors | None
     failure: str
 
 
@@ -156,7 +156,7 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
         response = contestant.response(scene, subject.rate, result)
     except SimulationFailed as failure:
         return Run(contestant.group, contestant.name, contestant.setting, 0.0, math.nan, math.nan, None, str(failure))
-    found = score(scene, subject.rate, response, reference)
+    found = response_errors(scene, subject.rate, response, reference)
     speed = scene.duration / seconds
     return Run(contestant.group, contestant.name, contestant.setting, scene.duration, seconds, speed, found, "")
 

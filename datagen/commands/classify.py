@@ -107,7 +107,7 @@ def _run(benchmark: Benchmark, out: Path | None) -> Results:
         results = run(benchmark, listener)
     if out is not None:
         from datagen.benchmark.predictions import prediction_table
-        from datagen.drawing.scores import scores_png
+        from datagen.drawing.classifier_sheet import scores_png
         from datagen.files.results import results_folder, write_files
 
         models = list(results.tests[0].scores.models) if results.tests else []

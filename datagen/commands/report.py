@@ -19,7 +19,7 @@ def report(
     json_file: JsonFile = None,
 ) -> None:
     """Write the card of a corpus: what it holds, how it was made, pictures, and its labels in another vocabulary."""
-    from datagen.cards.report import write_report
+    from datagen.cards.corpus_report import write_report
 
     written = write_report(folder, out)
     write_json(json_file, written)

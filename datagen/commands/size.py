@@ -54,7 +54,7 @@ def size(
     from datagen.sizing.corpus_run import score_sizes
     from datagen.sizing.flat_rows import flat_scores
     from datagen.sizing.known_sizes import parse_known_sizes
-    from datagen.sizing.report import write_report
+    from datagen.sizing.report_files import write_report
 
     if out is not None:
         require_results_folder(out)

@@ -5,7 +5,7 @@
 - `corpus_run`: a corpus scored `in_blocks`; `comparison` with the truth makes a `scored_record` of each
 - `aggregation`: all of them together, as a `size_summary`, with `bearing_intervals`; `stated_sizes`: recordings by what
   their publishers state; `known_sizes`: with a measured spall of the machine
-- `report`, `tables`, `flat_rows`: what is written and printed
+- `report_files`, `tables`, `flat_rows`: what is written and printed
 - `fit`: the calibration, from `training_rows` by way of `trial_columns`, in `fit_stages`, each a `committee`;
   `cross_fit`: what it says of bearings not fitted to; `fit_limits`: doubt and intervals
 """

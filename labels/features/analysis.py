@@ -7,8 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from labels.band_tree import COMMON_BANDWIDTH
 from labels.features.combs import foreign_combs, without_combs
-from labels.features.conditioning import COMMON_BANDWIDTH, Conditioned, condition
+from labels.features.conditioning import Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import (
     HARMONICS,

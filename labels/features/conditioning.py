@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
+from labels.band_tree import COMMON_BANDWIDTH, usable_bandwidth
 from labels.features.turning import Spectrum, Turning
 from physics.arrays import Array
 
-# Highest frequency that features look at, Hz: records of any higher rate are limited to it.
-COMMON_BANDWIDTH = 20_000.0
-SHARE_OF_NYQUIST = 0.95
 FEWEST_SAMPLES_USED = 64
 BLOCKS = 96
 # Components in the smallest block from which a local mean power is taken.
@@ -71,7 +69,7 @@ def condition(
     if not centred.any():
         raise ValueError("the signal does not change")
     step = rate / signal.size
-    top = min(bandwidth, SHARE_OF_NYQUIST * rate / 2.0)
+    top = usable_bandwidth(rate, bandwidth)
     spectrum = np.asarray(fft.rfft(centred))[: int(top / step) + 1]
     spectrum[0] = 0.0
     used = turning.first(signal.size) if turning is not None else None

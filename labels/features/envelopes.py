@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
+from labels.band_tree import band_edges
 from labels.features.conditioning import Conditioned, Spectrum, over_floor
 from labels.features.families import mains_components
 from labels.features.turning import Turning
 from physics.arrays import Array
 
-LEVELS = 4
 ENVELOPE_HARMONICS = 4.0
 FLOOR_ORDERS = 3.0
 FULL_SHARE = 0.85
@@ -34,18 +34,6 @@ class EnvelopeSpectra:
     depth: Array
     kurtosis: Array
     edges: Array
-
-
-def band_edges(bandwidth: float, narrowest: float) -> Array:
-    """Edges (B, 2) in shares of the `bandwidth`: the whole, its halves, quarters and eighths, none below `narrowest`
-    (Hz) but the whole."""
-    edges = []
-    for level in range(LEVELS):
-        count = 2**level
-        if level and bandwidth / count < narrowest:
-            break
-        edges += [(part / count, (part + 1) / count) for part in range(count)]
-    return np.array(edges)
 
 
 def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrowest: float) -> EnvelopeSpectra:

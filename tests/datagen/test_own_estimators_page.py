@@ -12,7 +12,7 @@ import pytest
 from marked_tables import write_marked
 from typer.testing import CliRunner
 
-from datagen.benchmark.impulse_train import Ingredients
+from datagen.benchmark.impulse_signal import Ingredients
 from datagen.cli import app
 from labels.classifier.classes import CLASSES
 

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from datagen.benchmark.fitness import UNKNOWN_SPEED
-from datagen.benchmark.impulse_train import Ingredients
+from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
 from datagen.benchmark.rows import Reading, RecordRows, read_rows, record_rows, windows

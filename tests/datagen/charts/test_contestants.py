@@ -5,7 +5,7 @@ import pytest
 
 from datagen.charts import contestants as entrants
 from datagen.charts.response import of_states, of_trace
-from datagen.charts.scores import score
+from datagen.charts.response_errors import response_errors
 from datagen.drawing.work_precision import (
     RIVAL_COLOURS,
     RIVAL_STYLES,
@@ -92,5 +92,5 @@ def test_the_default_has_an_error_of_its_stiffness_and_is_timed_without_keeping_
     for one in chosen:
         result = one.run(scene, RATE)
         assert one.read(scene, RATE, result).displacement is None
-        assert 0.0 < score(scene, RATE, one.response(scene, RATE, result), exact).stiffness < 0.01
+        assert 0.0 < response_errors(scene, RATE, one.response(scene, RATE, result), exact).stiffness < 0.01
     assert chosen

@@ -9,7 +9,7 @@ import pytest
 from datagen.charts import contestants as entrants
 from datagen.charts import measure as measuring
 from datagen.charts.measure import Run, at_error
-from datagen.charts.scores import Score
+from datagen.charts.response_errors import ResponseErrors
 from datagen.charts.table import COLUMNS, chart_table
 from datagen.drawing.work_precision import (
     work_precision_png,
@@ -24,7 +24,7 @@ PNG = b"\x89PNG\r\n"
 
 def test_speed_at_an_error_is_read_between_runs_on_logarithms():
     def made(error, speed):
-        scored = Score(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
+        scored = ResponseErrors(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
         return Run("method", "m", "", 1.0, 1.0 / speed, speed, scored, "")
 
     runs = [made(1e-2, 100.0), made(1e-4, 1.0)]
@@ -92,7 +92,7 @@ def test_an_edge_is_the_speed_at_the_longest_stable_step_however_fine_the_run_it
 
 def test_the_speed_at_an_error_is_told_of_a_method_without_any_error_too():
     def made(error, speed):
-        return Run("method", "m", "", 1.0, 1.0 / speed, speed, Score(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0), "")
+        return Run("method", "m", "", 1.0, 1.0 / speed, speed, ResponseErrors(error, 0.0, 0.0, 0.0, 0.0, 0, 0.0), "")
 
     assert 90.0 < at_error([made(1e-2, 100.0), made(0.0, 1.0)], "m", 1e-3) < 100.0
     assert at_error([made(0.0, 1.0)], "m", 1e-3) == 1.0

@@ -36,7 +36,7 @@ def test_settings_are_as_before_though_drawing_fails():
 
 def test_drawing_loads_no_pyplot_and_so_changes_no_backend():
     code = (
-        "import sys, datagen.drawing.preview, datagen.drawing.scores, datagen.drawing.size_report\n"
+        "import sys, datagen.drawing.preview, datagen.drawing.classifier_sheet, datagen.drawing.size_report\n"
         "from datagen.drawing.style import png_of, with_panels\n"
         "png_of(lambda: with_panels(figsize=(1.0, 1.0))[0], 50)\n"
         "sys.exit('matplotlib.pyplot' in sys.modules)"

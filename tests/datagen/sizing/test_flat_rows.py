@@ -13,7 +13,7 @@ import pytest
 from datagen.files.plain import plain_json
 from datagen.sizing.corpus_run import SizeScores
 from datagen.sizing.flat_rows import flat_row, flat_scores
-from datagen.sizing.report import estimates_csv
+from datagen.sizing.report_files import estimates_csv
 from datagen.sizing.scored_record import ScoredRecord
 from labels.event_scores import EventScores
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from labels.features.conditioning import COMMON_BANDWIDTH, condition, local_mean_power
+from labels.band_tree import COMMON_BANDWIDTH
+from labels.features.conditioning import condition, local_mean_power
 
 
 def test_the_local_mean_power_of_exponential_noise_is_its_mean():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from labels.features.conditioning import condition, local_mean_power
-from labels.features.envelopes import band_edges, envelope_spectra
+from labels.features.envelopes import envelope_spectra
 from labels.features.families import (
     Lines,
     evidence,
@@ -100,12 +100,6 @@ def test_nothing_is_taken_off_for_the_shaft_in_a_record_of_a_few_turns():
     excess = np.full((1, 400), 500.0)
     assert without_shaft(excess, 1.25, 10.0).min() == 500.0  # eight turns: an eighth of an order between components
     assert without_shaft(excess, 1.0, 10.0).min() == 1.0
-
-
-def test_bands_are_a_tree_and_never_narrower_than_asked():
-    assert len(band_edges(8000.0, 500.0)) == 15
-    assert len(band_edges(8000.0, 1500.0)) == 7
-    assert band_edges(1000.0, 5000.0).tolist() == [[0.0, 1.0]]
 
 
 def test_lines_of_the_mains_do_not_count_but_those_beside_them_do():

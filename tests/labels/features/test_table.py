@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from labels.band_tree import COMMON_BANDWIDTH
 from labels.features.analysis import analyse
-from labels.features.conditioning import COMMON_BANDWIDTH
 from labels.features.kinematics import bearing_kinematics
 from labels.features.table import FEATURE_NAMES, FEATURES, feature_values
 

@@ -67,47 +67,48 @@ def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients | 
     """The record with that number of a virtual machine; the same numbers always give the same record."""
     ingredients = ingredients or Ingredients()
     streams = _Streams(seed, machine, record)
-    own, generator = streams.of_machine, streams.of_record
-    rate, duration = 25_600.0, float(generator("duration").choice(DURATIONS, p=SHARES))
-    kinematics = _bearing(own("bearing"), generator("bearing"))
+    of_machine, of_record = streams.of_machine, streams.of_record
+    rate, duration = 25_600.0, float(of_record("duration").choice(DURATIONS, p=SHARES))
+    kinematics = _bearing(of_machine("bearing"), of_record("bearing"))
     location = LOCATIONS[record % len(LOCATIONS)]
-    paths = _paths(own("paths") if ingredients.sensor_paths else np.random.default_rng(seed), ingredients.sensor_paths)
-    floor = _floor((own if ingredients.machine_floor else generator)("floor"))
+    paths_from = of_machine("paths") if ingredients.sensor_paths else np.random.default_rng(seed)
+    paths = _paths(paths_from, several=ingredients.sensor_paths)
+    floor = _floor((of_machine if ingredients.machine_floor else of_record)("floor"))
     size = int(rate * duration)
-    signal = floor * generator("noise").standard_normal(size)
+    signal = floor * of_record("noise").standard_normal(size)
     if ingredients.backgrounds:
-        signal += _background(own("background"), generator("background"), size, rate, kinematics)
+        signal += _background(of_machine("background"), of_record("background"), size, rate, kinematics)
     if location != "none":
         modulated = ingredients.shaft_modulation
-        force = impulses(own("impulses"), generator("impulses"), size, rate, kinematics, location, modulated)
+        force = impulses(of_machine("impulses"), of_record("impulses"), size, rate, kinematics, location, modulated)
         signal += fftconvolve(force, _ringing(paths, rate))[:size]
     return Train(signal, rate, kinematics, location, machine)
 
 
-def _bearing(own: np.random.Generator, generator: np.random.Generator) -> Kinematics:
-    ratio = own.uniform(0.12, 0.27)
+def _bearing(of_machine: np.random.Generator, of_record: np.random.Generator) -> Kinematics:
+    ratio = of_machine.uniform(0.12, 0.27)
     most = np.pi / np.arcsin(ratio)
-    balls = max(5, int(own.uniform(0.6, 0.95) * most))
-    ratio *= np.cos(np.radians(min(abs(own.normal(0.0, 8.0)), 25.0)))
-    speed = np.exp(own.uniform(np.log(500.0), np.log(3600.0))) / 60.0 * generator.uniform(0.75, 1.25)
+    balls = max(5, int(of_machine.uniform(0.6, 0.95) * most))
+    ratio *= np.cos(np.radians(min(abs(of_machine.normal(0.0, 8.0)), 25.0)))
+    speed = np.exp(of_machine.uniform(np.log(500.0), np.log(3600.0))) / 60.0 * of_record.uniform(0.75, 1.25)
     return Kinematics(balls, float(ratio), float(ball_spin_order(1.0 / ratio, ratio)), float(speed))
 
 
-def _paths(own: np.random.Generator, drawn: bool) -> list[tuple[float, float, float]]:
-    """Frequency (Hz), damping and gain of each resonance."""
-    count = int(own.integers(1, 7)) if drawn else 1
+def _paths(generator: np.random.Generator, several: bool) -> list[tuple[float, float, float]]:
+    """Frequency (Hz), damping and gain of each resonance: of up to six, or of one."""
+    count = int(generator.integers(1, 7)) if several else 1
     return [
         (
-            float(np.exp(own.uniform(np.log(800.0), np.log(11_000.0)))),
-            float(own.uniform(0.01, 0.08)),
-            float(own.uniform(0.1, 1.0)),
+            float(np.exp(generator.uniform(np.log(800.0), np.log(11_000.0)))),
+            float(generator.uniform(0.01, 0.08)),
+            float(generator.uniform(0.1, 1.0)),
         )
         for _ in range(count)
     ]
 
 
 def _floor(generator: np.random.Generator) -> float:
-    return float(np.exp(generator.uniform(np.log(0.03), np.log(6.0))))
+    return _level(generator, 0.03, 6.0)
 
 
 def _ringing(paths: list[tuple[float, float, float]], rate: float) -> Array:
@@ -120,8 +121,8 @@ def _ringing(paths: list[tuple[float, float, float]], rate: float) -> Array:
 
 
 def impulses(
-    own: np.random.Generator,
-    generator: np.random.Generator,
+    of_machine: np.random.Generator,
+    of_record: np.random.Generator,
     size: int,
     rate: float,
     kinematics: Kinematics,
@@ -130,22 +131,22 @@ def impulses(
 ) -> Array:
     """Impulses (size,) at which balls hit a defect on the race `location`, with random slip and jitter of their times
     and random heights, which follow the load of an inner race and, if `modulated`, vary with the turn of the shaft on
-    an outer one; `own` draws what belongs to the machine, `generator` what belongs to the record."""
-    slip = generator.uniform(0.0, 0.02)
+    an outer one; `of_machine` draws what belongs to the machine, `of_record` what belongs to the record."""
+    slip = of_record.uniform(0.0, 0.02)
     cage = kinematics.ftf * (1.0 - slip)
     order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)
     period = 1.0 / (order * kinematics.shaft_hz)
     count = int(size / rate / period) + 2
-    jitter = generator.uniform(0.002, 0.02)
-    times = np.cumsum(period * (1.0 + jitter * generator.standard_normal(count))) - period * generator.uniform()
-    turn = 2.0 * np.pi * kinematics.shaft_hz * times + generator.uniform(0.0, 2.0 * np.pi)
+    jitter = of_record.uniform(0.002, 0.02)
+    times = np.cumsum(period * (1.0 + jitter * of_record.standard_normal(count))) - period * of_record.uniform()
+    turn = 2.0 * np.pi * kinematics.shaft_hz * times + of_record.uniform(0.0, 2.0 * np.pi)
     if location == "inner":
-        load = np.maximum(np.cos(turn) + own.uniform(-0.2, 0.8), 0.05)
+        load = np.maximum(np.cos(turn) + of_machine.uniform(-0.2, 0.8), 0.05)
     else:
-        depth = generator.uniform(0.0, 0.6)  # drawn for all, so that the heights below are the same either way
+        depth = of_record.uniform(0.0, 0.6)  # drawn for all, so that the heights below are the same either way
         load = 1.0 + (depth if modulated else 0.0) * np.cos(turn)
-    height = np.exp(generator.uniform(np.log(0.3), np.log(20.0))) * load
-    height = height * np.exp(0.2 * generator.standard_normal(count))
+    height = np.exp(of_record.uniform(np.log(0.3), np.log(20.0))) * load
+    height = height * np.exp(0.2 * of_record.standard_normal(count))
     force = np.zeros(size)
     inside = (times >= 0.0) & (times * rate < size - 1)
     np.add.at(force, (times[inside] * rate).astype(np.int64), height[inside])
@@ -153,30 +154,30 @@ def impulses(
 
 
 def _background(
-    own: np.random.Generator, generator: np.random.Generator, size: int, rate: float, kinematics: Kinematics
+    of_machine: np.random.Generator, of_record: np.random.Generator, size: int, rate: float, kinematics: Kinematics
 ) -> Array:
     """Shaft and mains tones, a gear mesh with sidebands, and random knocks; levels are the machine's."""
     time = np.arange(size) / rate
     total = np.zeros(size)
-    for frequency, amplitude in tones(own, kinematics.shaft_hz):
+    for frequency, amplitude in tones(of_machine, kinematics.shaft_hz):
         if frequency < rate / 2.0:
-            total += amplitude * np.cos(2.0 * np.pi * frequency * time + generator.uniform(0.0, 2.0 * np.pi))
+            total += amplitude * np.cos(2.0 * np.pi * frequency * time + of_record.uniform(0.0, 2.0 * np.pi))
     knocks = np.zeros(size)
-    count = int(generator.poisson(_level(own, 0.3, 30.0) * size / rate))
-    knocks[generator.integers(0, size, count)] = _level(own, 0.01, 20.0) * np.exp(
-        0.5 * generator.standard_normal(count)
+    count = int(of_record.poisson(_level(of_machine, 0.3, 30.0) * size / rate))
+    knocks[of_record.integers(0, size, count)] = _level(of_machine, 0.01, 20.0) * np.exp(
+        0.5 * of_record.standard_normal(count)
     )
-    return total + fftconvolve(knocks, _ringing(_paths(own, True), rate))[:size]
+    return total + fftconvolve(knocks, _ringing(_paths(of_machine, several=True), rate))[:size]
 
 
-def tones(own: np.random.Generator, shaft_hz: float) -> list[tuple[float, float]]:
+def tones(of_machine: np.random.Generator, shaft_hz: float) -> list[tuple[float, float]]:
     """Frequency (Hz) and amplitude of ten tones of the shaft, four of the mains and five of the gear mesh."""
-    found = [(order * shaft_hz, _level(own, 0.01, 3.0) / order) for order in range(1, 11)]
-    mains = float(own.choice([50.0, 60.0]))
-    found += [(order * mains, _level(own, 0.003, 0.6) / order) for order in range(1, 5)]
-    teeth, mesh = int(own.integers(17, 42)), _level(own, 0.001, 5.0)
+    found = [(order * shaft_hz, _level(of_machine, 0.01, 3.0) / order) for order in range(1, 11)]
+    mains = float(of_machine.choice([50.0, 60.0]))
+    found += [(order * mains, _level(of_machine, 0.003, 0.6) / order) for order in range(1, 5)]
+    teeth, mesh = int(of_machine.integers(17, 42)), _level(of_machine, 0.001, 5.0)
     return found + [((teeth + side) * shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
 
 
-def _level(own: np.random.Generator, low: float, high: float) -> float:
-    return float(np.exp(own.uniform(np.log(low), np.log(high))))
+def _level(generator: np.random.Generator, low: float, high: float) -> float:
+    return float(np.exp(generator.uniform(np.log(low), np.log(high))))

@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from datagen.benchmark.impulse_train import Ingredients, draw_train, impulses, tones
+from datagen.benchmark.impulse_signal import Ingredients, draw_train, impulses, tones
 from labels.features.kinematics import Kinematics
 
 NAMES = [field.name for field in fields(Ingredients)]

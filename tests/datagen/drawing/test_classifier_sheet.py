@@ -6,7 +6,7 @@ import pytest
 
 from datagen.benchmark.options import Asked
 from datagen.benchmark.results import CorpusResults, CorpusScores, Results
-from datagen.drawing.scores import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
+from datagen.drawing.classifier_sheet import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
 from datagen.drawing.style import house_style, with_panels
 from labels.interval import Interval
 

@@ -14,10 +14,10 @@ import scipy.io
 import xarray
 from typer.testing import CliRunner
 
+from datagen.cards.corpus_report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.croissant import croissant_text
 from datagen.cards.facts import corpus_facts, solved
 from datagen.cards.origin_text import origin_text
-from datagen.cards.report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.toml_text import toml_text
 from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.cli import app

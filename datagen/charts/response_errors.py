@@ -22,7 +22,7 @@ FEWEST_PASSES = 3.0
 
 
 @dataclass(frozen=True)
-class Score:
+class ResponseErrors:
     """Errors against the reference from 0.1 s on; NaN where something does not apply or is not given.
 
     `acceleration` RMS error over RMS; `envelope_db` of the defect's line in the squared envelope spectrum; `release_us`
@@ -40,7 +40,7 @@ class Score:
     stiffness: float
 
 
-def score(scene: Scene, rate: float, response: Response, reference: Response) -> Score:
+def response_errors(scene: Scene, rate: float, response: Response, reference: Response) -> ResponseErrors:
     """Errors of `response`, which may be shorter than the `reference`."""
     samples = response.acceleration.shape[0]
     scored = slice(round(SCORED_FROM * rate), samples)
@@ -48,7 +48,7 @@ def score(scene: Scene, rate: float, response: Response, reference: Response) ->
     acceleration = _error(response.acceleration[scored], exact)
     release, regain, missed = _event_errors(scene, response.changes, reference.changes, samples / rate)
     events = np.concatenate([release, regain])
-    return Score(
+    return ResponseErrors(
         acceleration=acceleration,
         envelope_db=_envelope_error(scene, rate, response.acceleration[scored], exact),
         release_us=_median(release),

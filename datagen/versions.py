@@ -16,7 +16,6 @@ PACKAGES = ("spallgen", "numpy", "scipy", "numba", "xarray", "netCDF4")
 # follows the imports and asserts that none is missing; what draws pictures of records or judges them is not of these.
 CORPUS_CODE = (
     "labels",
-    "labels/features",
     "datagen",
     "datagen/corpus_files",
     "datagen/distributions",

@@ -22,7 +22,9 @@ from numpy.typing import NDArray
 from scipy.signal import fftconvolve, resample_poly
 
 from datagen.benchmark.classify import Benchmark
-from datagen.benchmark.rows import Reading, RecordRows, Rows, record_rows
+from datagen.benchmark.corpus_rows import CorpusRows, rows_of_records
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.record_rows import RecordRows, record_rows
 from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Tested, judge
@@ -130,17 +132,12 @@ def read(folder: Path, label: pandas.Series[Any], name: str) -> RecordRows:
     return record_rows(signal, disturbed, Reading())
 
 
-def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, Rows]:
+def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, CorpusRows]:
     """The labels of a corpus, and the rows of all its records, disturbed."""
     with Corpus(folder) as corpus:
         labels = corpus.labels
-    records = labels["record"].to_numpy(np.int64)
-    own = Parallel(WORKERS)(delayed(read)(folder, label, name) for _, label in labels.iterrows())
-    owner = np.concatenate([np.full(len(found.rows), record) for record, found in zip(records, own, strict=True)])
-    rejected = {int(record): found.reason for record, found in zip(records, own, strict=True) if found.reason}
-    rows = [row for found in own for row in found.rows]
-    axes = np.array([row.axis for row in rows], dtype=np.int64)
-    return labels, Rows(np.array([row.values for row in rows]), owner, rejected, axis=axes)
+    found = Parallel(WORKERS)(delayed(read)(folder, label, name) for _, label in labels.iterrows())
+    return labels, rows_of_records(dict(zip(labels["record"].tolist(), found, strict=True)))
 
 
 def scores(tested: list[Tested]) -> list[tuple[str, str, str, str]]:
@@ -179,7 +176,7 @@ def main(train: Path, tests: list[Path]) -> None:
         cells = [f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found]
         lines.append(f"| {' | '.join([name, *cells])} |")
         print(lines[-1], flush=True)
-    lines += ["", f"Learned from {len(np.unique(training.records))} simulated records."]
+    lines += ["", f"Learned from {len(np.unique(training.rows.record))} simulated records."]
     write_marked(PAGE, "disturbed", __file__, "\n".join(lines))
 
 

@@ -1,8 +1,9 @@
 """Benchmarks of classifiers: features of corpora, training, scoring, reports.
 
 - `options`: what was asked; `request`: that checked; `classify`: the run from training to report
-- `known`: what may be known of a record; `fitness`: whether it can be judged; `rows`: its features; `windows`: raw
-  pieces for other people's estimators
+- `known`: what may be known of a record; `fitness`: whether it can be judged
+- `rows`: the table that is learned from; `reading_policy`, `record_rows`, `corpus_rows`: how records become rows of
+  features; `windows`: raw pieces for other people's estimators
 - `training`, `trained` (what came of it, as a file), `learning` (the curve), `importance`
 - `impulse_signal`, `impulse_training`: learning without physics
 - `machines`: no record is scored of a machine that was learned from; `answers`: what an estimator says, checked

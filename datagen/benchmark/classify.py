@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from datagen.benchmark.corpus_rows import CorpusRows, read_rows
 from datagen.benchmark.importance import importances
 from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
@@ -18,8 +19,9 @@ from datagen.benchmark.log_line import log_run
 from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
 from datagen.benchmark.options import Asked, Learning, Scoring
 from datagen.benchmark.predictions import record_predictions
+from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.results import CorpusResults, NoisyScores, Results
-from datagen.benchmark.rows import Reading, Rows, read_rows
+from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
 from datagen.benchmark.training import (
@@ -27,7 +29,7 @@ from datagen.benchmark.training import (
     LOWEST_BANDWIDTH,
     Model,
     TrainingSet,
-    joined_labels,
+    labelled,
     train_models,
     train_own,
     train_rule,
@@ -127,7 +129,7 @@ def _learn(
     models = _models(benchmark, own_input, listener)
     listener.step("importances of the features")
     facts: dict[str, Any] = {
-        "training_records": int(np.unique(training.records).size) if labels is None else len(labels),
+        "training_records": int(np.unique(training.rows.record).size) if labels is None else len(labels),
         "rule_threshold": rule.threshold,
         "rule_of_several_axes": rule.of_several,
         "alarms": {model.name: _plain(model.alarm) for model in models},
@@ -170,7 +172,7 @@ def _own_input(
     if labels is None or not benchmark.learning.takes_windows:
         return training
     raw = _windows(benchmark, benchmark.train, labels, listener)
-    return joined_labels(raw, labels)
+    return labelled(raw, labels)
 
 
 def _curve(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> dict[str, Any]:
@@ -220,7 +222,7 @@ def _test(
     return CorpusResults(scores, record_predictions(tested), noise)
 
 
-def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count) -> Rows:
+def _rows(folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count) -> CorpusRows:
     return read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers, count)
 
 

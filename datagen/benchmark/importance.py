@@ -19,8 +19,8 @@ def importances(model: Model, training: TrainingSet) -> dict[str, float]:
     Measured on at most 600 rows of the training set: it says what the model uses, not how well it does.
     """
     generator = np.random.default_rng(SEED)
-    rows = generator.permutation(len(training.table))[:MOST_ROWS]
-    table, classes = training.table[rows], training.classes[rows]
+    rows = generator.permutation(len(training.rows))[:MOST_ROWS]
+    table, classes = training.rows.table[rows], training.classes[rows]
     before = _loss(model, table, classes)
     rise = {}
     for column, name in enumerate(FEATURE_NAMES):

@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from datagen.benchmark.impulse_signal import Ingredients, draw_train
-from datagen.benchmark.rows import Reading, signal_rows
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.record_rows import feature_rows, signal_rows
+from datagen.benchmark.rows import joined
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from datagen.telling import Count, unheard
@@ -55,23 +57,18 @@ def impulse_training(
             found.append(part)
             count(len(found) * len(LOCATIONS), machines * len(LOCATIONS))
     return TrainingSet(
-        np.concatenate([part.table for part in found]),
+        joined([part.rows for part in found]),
         np.concatenate([part.classes for part in found]),
         np.concatenate([part.bearings for part in found]),
-        np.concatenate([part.records for part in found]),
-        np.concatenate([part.noisy for part in found]),
     )
 
 
 def _machine(machine: int, ingredients: Ingredients, reading: Reading) -> TrainingSet:
-    made, classes, records = [], [], []
+    parts, classes = [], []
     for record, location in enumerate(LOCATIONS):
         drawn = draw_train(SEED, machine, record, ingredients)
-        seed = [SEED, machine, record]
-        rows = signal_rows(drawn.signal, drawn.rate, drawn.kinematics, reading, seed)
-        made += rows
-        records += [machine * len(LOCATIONS) + record] * len(rows)
-        classes += [HEALTHY if location == "none" else f"line {location}"] * len(rows)
-    bearings = np.full(len(made), f"machine_{machine:04}")
-    table, noisy = np.array([row.values for row in made]), np.array([row.noisy for row in made])
-    return TrainingSet(table, np.array(classes), bearings, np.array(records), noisy)
+        found = signal_rows(drawn.signal, drawn.rate, drawn.kinematics, reading, [SEED, machine, record])
+        parts.append(feature_rows(found, machine * len(LOCATIONS) + record))
+        classes += [HEALTHY if location == "none" else f"line {location}"] * len(found)
+    rows = joined(parts)
+    return TrainingSet(rows, np.array(classes), np.full(len(rows), f"machine_{machine:04}"))

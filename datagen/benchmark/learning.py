@@ -40,7 +40,7 @@ def learning_curve(
     bearings = generator.permutation(np.unique(training.bearings))
     cut = max(1, int(HELD_OUT * bearings.size))
     others = bearings[cut:]
-    held_out = training.subset(np.isin(training.bearings, bearings[:cut]) & ~training.noisy)
+    held_out = training.subset(np.isin(training.bearings, bearings[:cut]) & ~training.rows.noisy)
     counts = {min(others.size, max(FEWEST_AT_A_POINT, round(share * others.size))) for share in SHARES}
     curve: dict[str, list[dict[str, Any]]] = {}
     for count in sorted(counts):
@@ -59,8 +59,8 @@ def learning_curve(
 
 
 def _score(model: Model, held_out: TrainingSet) -> Interval:
-    records, first = np.unique(held_out.records, return_index=True)
-    _, said, _ = vote(model, held_out.table, held_out.records, records, held_out.axes)
+    records, first = np.unique(held_out.rows.record, return_index=True)
+    _, said, _ = vote(model, held_out.rows, records)
     truth = _locations(held_out.classes[first])
     return bootstrap(balanced_accuracy, truth, _locations(said), groups=held_out.bearings[first], draws=300)
 

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.benchmark.answers import class_probability, estimator_name
+from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.known import true_class
-from datagen.benchmark.rows import Reading, Rows, read_rows
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.own_code import own_code
@@ -21,7 +23,7 @@ from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS
 from labels.classifier.rule import Rule, fit_rule, line_heights
 from labels.classifier.spall_classifier import SpallClassifier
-from labels.classifier.votes import vote_shares
+from labels.classifier.votes import of_several_axes, vote_shares
 from physics.arrays import Array, Flags
 
 if TYPE_CHECKING:
@@ -35,32 +37,22 @@ COPIES_DB = (-18.0, 12.0)
 FEWEST_BEARINGS = 4
 # Rows that an estimator is asked about at once, so that memory does not grow with the corpus.
 ROWS_AT_A_TIME = 2048
-# Rows that a user's estimator is asked about once fitted, so that what it gets wrong is told before scoring.
+# Rows that a user's estimator is asked about once fitted, so that a wrong answer is reported before scoring.
 ROWS_TO_TRY = 8
 
 
 @dataclass(frozen=True)
 class TrainingSet:
-    """Rows (N, F) to learn from, their classes (N,) and virtual bearings (N,), the records (N,) that they came from,
-    which (N,) had noise added, and the axis (N,) of its record that each is (None: of one)."""
+    """The N `rows` to learn from, and of each the class, one of CLASSES, and the virtual bearing: `classes` (N,),
+    `bearings` (N,)."""
 
-    table: Array
+    rows: Rows
     classes: NDArray[np.str_]
     bearings: NDArray[np.str_]
-    records: NDArray[np.int64]
-    noisy: NDArray[np.bool_]
-    axes: NDArray[np.int64] | None = None
 
-    def subset(self, chosen: NDArray[np.bool_]) -> TrainingSet:
-        """The rows (M, F) that are `chosen` (N,), with all that is known of them."""
-        return TrainingSet(
-            self.table[chosen],
-            self.classes[chosen],
-            self.bearings[chosen],
-            self.records[chosen],
-            self.noisy[chosen],
-            None if self.axes is None else self.axes[chosen],
-        )
+    def subset(self, chosen: Flags) -> TrainingSet:
+        """What is known of the rows that are `chosen` (N,)."""
+        return TrainingSet(self.rows[chosen], self.classes[chosen], self.bearings[chosen])
 
 
 @dataclass(frozen=True)
@@ -77,24 +69,23 @@ class Model:
     takes_windows: bool = False
     given: str = ""
 
-    def alarms(self, table: Array, several: Flags) -> Array:
-        """Probability (N,) of a spall at which each row is called; `several` (N,) marks those of records of several
-        axes."""
-        return self.alarm.at(table, several) if isinstance(self.alarm, Alarm) else np.full(len(table), self.alarm)
+    def alarms(self, rows: Rows) -> Array:
+        """Probability (N,) of a spall at which each row is called."""
+        if not isinstance(self.alarm, Alarm):
+            return np.full(len(rows), self.alarm)
+        return self.alarm.at(rows.table, of_several_axes(rows.record, rows.axis, rows.record))
 
-    def shares(self, margin: Array, owner: NDArray[np.int64], axis: NDArray[np.int64]) -> Array | None:
+    def shares(self, margin: Array, rows: Rows) -> Array | None:
         """Shares (N,) of rows in the vote of their record, by the `margin` (N,) in log odds that each has over its
         alarm; even (None) for an estimator of the user's, whose alarm knows nothing of axes."""
-        return vote_shares(margin, owner, axis) if isinstance(self.alarm, Alarm) else None
+        return vote_shares(margin, rows.record, rows.axis) if isinstance(self.alarm, Alarm) else None
 
-    def by_lines_alone(
-        self, table: Array, owner: NDArray[np.int64], records: NDArray[np.int64], axis: NDArray[np.int64]
-    ) -> Flags:
-        """Whether (R,) each of `records` (R,) is called for its lines alone, by the vote of its rows; `owner` (N,) are
-        the records of the rows and `axis` (N,) their axes."""
+    def by_lines_alone(self, rows: Rows, records: NDArray[np.int64]) -> Flags:
+        """Whether (R,) each of `records` (R,) is called for its lines alone, by the vote of its rows."""
         if not isinstance(self.alarm, Alarm):  # an estimator of the user's, whose table may hold raw windows
             return np.zeros(len(records), dtype=bool)
-        return self.alarm.by_lines_alone(line_heights(table, owner, records, axis, self.alarm.height_several))
+        heights = line_heights(rows.table, rows.record, records, rows.axis, self.alarm.height_several)
+        return self.alarm.by_lines_alone(heights)
 
     def probability(self, table: Array) -> Array:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
@@ -125,11 +116,11 @@ def training_set(
     folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count = unheard
 ) -> TrainingSet:
     """Rows of the records with these labels, with their classes and bearings; `count` hears how many are done."""
-    rows = read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers, count)
-    return joined_labels(rows, labels)
+    found = read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers, count)
+    return labelled(found.rows, labels)
 
 
-def joined_labels(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
+def labelled(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
     """The rows with class and bearing of the record that each came from."""
     by_record = labels.set_index("record", drop=False)
     class_of = {record: true_class(row) for record, row in by_record.iterrows()}
@@ -137,18 +128,15 @@ def joined_labels(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
     owners = rows.record.tolist()
     classes = np.array([class_of[record] for record in owners], dtype=np.str_)
     bearings = np.array([bearing_of[record] for record in owners], dtype=np.str_)
-    noisy = np.zeros(len(owners), dtype=bool) if rows.noisy is None else rows.noisy
-    return TrainingSet(rows.table, classes, bearings, rows.record, noisy, rows.axes)
+    return TrainingSet(rows, classes, bearings)
 
 
 def train_rule(training: TrainingSet) -> Rule:
     """The rule, its threshold set on the healthy records as they are; raises BadInput if there are none."""
-    healthy = (training.classes == HEALTHY) & ~training.noisy
-    if not healthy.any():
+    healthy = training.rows[(training.classes == HEALTHY) & ~training.rows.noisy]
+    if not len(healthy):
         raise BadInput("no healthy record to set the rule's threshold on", field="--train")
-    records = training.records[healthy]
-    axes = np.zeros_like(records) if training.axes is None else training.axes[healthy]
-    return fit_rule(training.table[healthy], records, axes)
+    return fit_rule(healthy.table, healthy.record, healthy.axis)
 
 
 def train_models(training: TrainingSet, learner: str, step: Say = unheard) -> list[Model]:
@@ -165,8 +153,9 @@ def train_models(training: TrainingSet, learner: str, step: Say = unheard) -> li
 
 
 def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
+    rows = training.rows
     return SpallClassifier(name).fit(
-        training.table, training.classes, training.bearings, training.records, training.noisy, training.axes
+        rows.table, training.classes, training.bearings, rows.record, rows.noisy, rows.axis
     )
 
 
@@ -186,8 +175,8 @@ def train_own(training: TrainingSet, own: Any, takes_windows: bool, given: str =
     name = estimator_name(own)
     if hasattr(own, "fit"):
         with own_code(given or name, "it failed to learn"):
-            own.fit(training.table, training.classes)
+            own.fit(training.rows.table, training.classes)
     model = Model(name, own, EVEN, takes_windows, given)
-    if len(training.table):
-        model.probability(training.table[:ROWS_TO_TRY])
+    if len(training.rows):
+        model.probability(training.rows.table[:ROWS_TO_TRY])
     return model

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from labels.classifier.classes import called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule, line_heights
-from labels.classifier.votes import averaged, joined, of_several_axes
+from labels.classifier.votes import averaged, joined
 from labels.schema import LOCATIONS
 from physics.arrays import Array
 
@@ -71,27 +72,27 @@ class Tested:
 def judge(
     folder: Path,
     labels: pandas.DataFrame,
-    rows: Rows,
+    found: CorpusRows,
     rule: Rule,
     models: list[Model],
     reject: float,
     imported: bool,
     raw: Rows | None = None,
 ) -> Tested:
-    """Verdicts of the rule and the models on the records with these labels.
+    """Verdicts of the rule and the models on the records with these labels, by what was `found` in them.
 
     A record is rejected where it cannot be judged or shows no running machine, or where what is said of its location
     has a probability below `reject`; the rule rejects only the former. `raw` are windows for the models that take them.
     """
     records = labels["record"].to_numpy(np.int64)
-    reasons = np.array([rows.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
+    reasons = np.array([found.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
     glitches, shocks = (
         np.array([counts.get(record, 0) for record in records.tolist()], dtype=np.int64)
-        for counts in (rows.glitches, rows.shocks)
+        for counts in (found.glitches, found.shocks)
     )
-    verdicts = [_of_rule(rule, rows, records, reasons)]
+    verdicts = [_of_rule(rule, found.rows, records, reasons)]
     verdicts += [
-        _of_model(model, raw if model.takes_windows and raw is not None else rows, records, reasons, reject)
+        _of_model(model, raw if model.takes_windows and raw is not None else found.rows, records, reasons, reject)
         for model in models
     ]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
@@ -100,7 +101,7 @@ def judge(
 
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
-    heights = line_heights(rows.table, rows.record, records, rows.axes, rule.of_several)
+    heights = line_heights(rows.table, rows.record, records, rows.axis, rule.of_several)
     score = rule.score(heights)
     missing = np.isnan(score)
     rejected = missing | (reasons != "")
@@ -113,7 +114,7 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
 def _of_model(
     model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], reject: float
 ) -> Verdicts:
-    votes, called, alarm = vote(model, rows.table, rows.record, records, rows.axes)
+    votes, called, alarm = vote(model, rows, records)
     said = np.char.split(called)
     where = location_probability(votes)
     place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
@@ -125,27 +126,20 @@ def _of_model(
     return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], alarm, votes)
 
 
-def vote(
-    model: Model,
-    table: Array,
-    owner: NDArray[np.int64],
-    records: NDArray[np.int64],
-    axis: NDArray[np.int64] | None = None,
-) -> tuple[Array, NDArray[np.str_], Array]:
-    """Of each of `records` (R,) the probabilities (R, 5) that its rows of the `table` (N, F) agree on, the class that
-    is called, and the alarm that its rows agree on, 0 where its lines alone call it; `owner` (N,) are the records of
-    the rows and `axis` (N,) their axes, one for all if None.
+def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> tuple[Array, NDArray[np.str_], Array]:
+    """What the rows of each of `records` (R,) agree on: probabilities (R, 5), the class that is called, and the alarm,
+    0 where the record's lines alone call it.
 
     A record without rows is called healthy, with NaN for probabilities and alarm.
     """
-    axis = np.zeros_like(owner) if axis is None else axis
-    own = model.probability(table) if len(table) else np.empty((0, 5))
-    alarms = logit(model.alarms(table, of_several_axes(owner, axis, owner)))
+    own = model.probability(rows.table) if len(rows) else np.empty((0, 5))
+    alarms = logit(model.alarms(rows))
     margins = logit(1.0 - own[:, 0]) - alarms
-    shares = model.shares(margins, owner, axis)
-    votes = joined(own, owner, records, shares)
-    margin, alarm = averaged(margins, owner, records, shares), averaged(alarms, owner, records, shares)
-    by_lines = model.by_lines_alone(table, owner, records, axis)
+    shares = model.shares(margins, rows)
+    votes = joined(own, rows.record, records, shares)
+    margin = averaged(margins, rows.record, records, shares)
+    alarm = averaged(alarms, rows.record, records, shares)
+    by_lines = model.by_lines_alone(rows, records)
     return votes, called(votes, (margin > 0.0) | by_lines), np.where(by_lines, 0.0, probability_of(alarm))
 
 

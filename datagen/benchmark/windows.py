@@ -32,20 +32,23 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
     that memory does not grow with the corpus. `count` hears how many records are read.
     """
     owners: list[int] = []
+    axes: list[int] = []
     with Corpus(folder) as corpus, TemporaryFile() as file:
         rates = corpus.labels.set_index("record")["rate_hz"]
         for done, record in enumerate(records.tolist()):
             count(done, records.size)
-            for signal in np.asarray(corpus.waveform(record), dtype=np.float64).T:
+            for axis, signal in enumerate(np.asarray(corpus.waveform(record), dtype=np.float64).T):
                 if np.isfinite(signal).all():
                     found = cut(resampled(signal, float(rates[record]), rate))
                     file.write(np.asarray(found, dtype=np.float32).tobytes())
                     owners += [record] * len(found)
+                    axes += [axis] * len(found)
         file.flush()
         # The mapping keeps the file alive after it is closed, and an empty one cannot be mapped.
         shape = (len(owners), WINDOW_SAMPLES)
         table = np.memmap(file, np.float32, "r", shape=shape) if owners else np.empty(shape, np.float32)
-    return Rows(table, np.array(owners, dtype=np.int64))
+    owner, of_axis = np.array(owners, dtype=np.int64), np.array(axes, dtype=np.int64)
+    return Rows(table, owner, of_axis, np.zeros(len(owners), dtype=bool))
 
 
 def resampled(signal: Array, rate: float, target: float) -> Array:

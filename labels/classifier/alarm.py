@@ -79,24 +79,24 @@ def fit_alarm(
     table: Array,
     records: NDArray[np.int64],
     noisy: NDArray[np.bool_],
+    axes: NDArray[np.int64],
     share: float,
-    axes: NDArray[np.int64] | None = None,
 ) -> Alarm:
     """The alarm that at most a `share` of healthy records pass by the mean of their probabilities, SHARE_IN_NOISE times
     that of the rows like noise, and 1 − LINES_QUANTILE of the records by their lines.
 
     `spall` (N,) are probabilities of a spall for healthy rows (N, F) of bearings not learned from; rows of one of
     `records` (N,) vote together, and those marked `noisy` (N,) were made from it by adding noise: they say what noise
-    does, not how often a record alarms. `axes` (N,) are the axes of the rows, one for all if None; without records of
-    several, nothing is known of what a vote of several raises. ValueError if all are noisy.
+    does, not how often a record alarms. `axes` (N,) are the axes of the rows; without records of several, nothing is
+    known of what a vote of several raises. ValueError if all are noisy.
     """
     if np.all(noisy):
         raise ValueError("no healthy record without added noise to set the alarm on")
     level, clear = logit(spall), clearness(table)
     hidden = level[clear == 0.0] if np.sum(clear == 0.0) >= FEWEST_ROWS else level
     low = float(np.quantile(hidden, 1.0 - SHARE_IN_NOISE * share))
-    level, clear, table, records = level[~noisy], clear[~noisy], table[~noisy], records[~noisy]
-    axes = np.zeros_like(records) if axes is None else axes[~noisy]
+    level, clear, table = level[~noisy], clear[~noisy], table[~noisy]
+    records, axes = records[~noisy], axes[~noisy]
     own = np.unique(records)
     above, weight = averaged(np.column_stack([level - low * (1.0 - clear), clear]), records, own).T
     # A record alarms where its mean level passes low (1 − clear) + high clear, that is where high lies below this:

@@ -81,6 +81,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
         records = np.arange(len(y)) if records is None else np.asarray(records)
         noisy = np.zeros(len(y), dtype=bool) if noisy is None else np.asarray(noisy)
+        axes = np.zeros(len(y), dtype=np.int64) if axes is None else np.asarray(axes)
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
         self.spall_ = self._stage(SIGNS, DIVISIONS).fit(_spall_columns(X), faulty, groups, noisy)
@@ -89,8 +90,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
             X[~faulty],
             records[~faulty],
             noisy[~faulty],
+            axes[~faulty],
             self.false_alarms,
-            None if axes is None else np.asarray(axes)[~faulty],
         )
         faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
         inner = _ends_with(y[faulty], "inner")

@@ -17,8 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
+from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.options import SPEED_ERROR
-from datagen.benchmark.rows import Reading, read_rows
+from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, train_models, train_rule, training_set
 from datagen.benchmark.verdicts import judge
 from datagen.corpus import Corpus

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 import pandas
 
-from datagen.benchmark.rows import Reading, record_rows
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.record_rows import record_rows
 from datagen.recipes.recipe import load_recipe
 from datagen.records.record import Record, make_record
 from datagen.scenarios.sampling import draw_scenario

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from datagen.benchmark.answers import class_probability
+from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import TrainingSet, train_own
 from datagen.errors import BadInput
 from labels.classifier.classes import CLASSES
@@ -39,7 +40,8 @@ class Named(Guesser):
 
 def training():
     classes = np.array(["line outer", "healthy", "line outer"])
-    return TrainingSet(ROWS, classes, np.array(["a", "b", "c"]), np.arange(3), np.zeros(3, dtype=bool))
+    rows = Rows(ROWS, np.arange(3), np.zeros(3, dtype=np.int64), np.zeros(3, dtype=bool))
+    return TrainingSet(rows, classes, np.array(["a", "b", "c"]))
 
 
 def test_probabilities_are_sorted_by_the_names_of_the_classes():

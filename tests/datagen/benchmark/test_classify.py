@@ -9,11 +9,14 @@ import pandas
 import pytest
 from typer.testing import CliRunner
 
+from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import UNKNOWN_SPEED
 from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
-from datagen.benchmark.rows import Reading, RecordRows, read_rows, record_rows, windows
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.record_rows import RecordRows, equal_pieces, record_rows
+from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import (
     TrainingSet,
     train_rule,
@@ -176,7 +179,8 @@ def test_the_rule_is_set_on_healthy_records_as_they_are():
     table[size:, column] = 5.0
     noisy = np.arange(2 * size) >= size
     records = np.tile(np.repeat(np.arange(size // 2), 2), 2)
-    training = TrainingSet(table, np.full(2 * size, "healthy"), np.full(2 * size, "a"), records, noisy)
+    rows = Rows(table, records, np.zeros(2 * size, dtype=np.int64), noisy)
+    training = TrainingSet(rows, np.full(2 * size, "healthy"), np.full(2 * size, "a"))
     # The 95 % quantile of records evenly spread from 0 to 1, in logarithms as the table has it.
     assert np.log(train_rule(training).threshold) == pytest.approx(0.95, abs=0.005)
 
@@ -246,11 +250,11 @@ def test_how_far_it_has_got_is_told_on_standard_error(classify, other_corpus, in
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_how_many_records_are_read_is_told(workers, tiny_corpus, monkeypatch):
-    monkeypatch.setattr("datagen.benchmark.rows.RECORDS_A_TASK", 5)
+    monkeypatch.setattr("datagen.benchmark.corpus_rows.RECORDS_A_TASK", 5)
     counts = []
     found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *pair: counts.append(pair))
-    assert sorted({*found.record.tolist(), *found.rejected}) == list(range(14))
-    assert found.axis.tolist() == [0, 1] * (len(found.record) // 2)
+    assert sorted({*found.rows.record.tolist(), *found.rejected}) == list(range(14))
+    assert found.rows.axis.tolist() == [0, 1] * (len(found.rows) // 2)
     assert counts == [(0, 14), (5, 14), (10, 14), (14, 14)]
 
 
@@ -320,10 +324,10 @@ def test_votes_are_geometric_means_of_the_rows_of_a_record():
 
 
 def test_long_records_are_cut_into_equal_windows_that_lose_nothing():
-    pieces = list(windows(np.arange(25_000.0), 1000.0, 10.0))
+    pieces = list(equal_pieces(np.arange(25_000.0), 1000.0, 10.0))
     assert [piece.size for piece in pieces] == [8334, 8333, 8333]
     np.testing.assert_array_equal(np.concatenate(pieces), np.arange(25_000.0))
-    assert len(list(windows(np.arange(1290.0), 1000.0, 1.25))) == 1  # 3 % longer is still one
+    assert len(list(equal_pieces(np.arange(1290.0), 1000.0, 1.25))) == 1  # 3 % longer is still one
 
 
 def test_a_record_without_a_speed_is_rejected_with_its_reason(tiny_corpus):
@@ -372,3 +376,4 @@ def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):
     first = cut(corpus.waveform(record)[:, 0].astype(np.float64))
     np.testing.assert_allclose(found.table[: len(first)], first, rtol=1e-6, atol=1e-12)  # float32 in the file
     assert set(found.record.tolist()) == {record}
+    assert found.axis.tolist() == np.repeat([0, 1], len(found) // 2).tolist()

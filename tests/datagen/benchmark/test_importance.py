@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from datagen.benchmark.importance import importances
+from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model, TrainingSet
 from labels.features.table import FEATURE_NAMES
 
@@ -19,7 +20,8 @@ def test_only_the_feature_that_a_model_reads_matters_and_by_as_much_as_chance_co
         faulty = np.where(rows[:, column] > 0.0, 0.9, 0.1)
         return np.column_stack([1.0 - faulty, faulty, *np.zeros((3, len(rows)))])
 
-    training = TrainingSet(table, classes, classes, np.arange(size), np.zeros(size, dtype=bool))
+    rows = Rows(table, np.arange(size), np.zeros(size, dtype=np.int64), np.zeros(size, dtype=bool))
+    training = TrainingSet(rows, classes, classes)
     found = importances(Model("reads one", says, 0.5), training)
     assert next(iter(found)) == "kurtosis"
     # Shuffled, every second answer is wrong: its loss rises from −ln 0.9 to −ln 0.1.

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.rows import Rows, joined
 from datagen.benchmark.training import ROWS_TO_TRY, TrainingSet
 from datagen.benchmark.verdicts import vote
 from labels.classifier.classes import CLASSES
@@ -22,23 +23,25 @@ def made_up(bearings, classes=CLASSES):
     table[:, FEATURE_NAMES.index("outer_evidence")] += 4.0 * ((own != "healthy") & ~noisy)
     table[:, FEATURE_NAMES.index("race_evidence")] += 4.0 * (np.char.endswith(own, "outer") & ~noisy)
     axes = np.tile([0, 1, 0], 2 * bearings)
-    return TrainingSet(table, own, np.char.add("b", (records // 2).astype(str)), records, noisy, axes)
+    return TrainingSet(Rows(table, records, axes, noisy), own, np.char.add("b", (records // 2).astype(str)))
 
 
 def test_a_subset_keeps_what_is_known_of_each_row():
     whole = made_up(6)
-    part = whole.subset(np.arange(len(whole.table)) % 5 == 2)
-    assert len(part.table) == 7
-    for name in ("table", "classes", "bearings", "records", "noisy", "axes"):
+    part = whole.subset(np.arange(len(whole.rows)) % 5 == 2)
+    assert len(part.rows) == 7
+    for name in ("classes", "bearings"):
         np.testing.assert_array_equal(getattr(part, name), getattr(whole, name)[2::5])
+    for name in ("table", "record", "axis", "noisy"):
+        np.testing.assert_array_equal(getattr(part.rows, name), getattr(whole.rows, name)[2::5])
 
 
 def test_axes_of_held_out_records_are_told_apart(monkeypatch):
     heard = []
 
-    def said(model, table, owner, records, axis=None):
-        heard.append(axis)
-        return vote(model, table, owner, records, axis)
+    def said(model, rows, records):
+        heard.append(rows.axis)
+        return vote(model, rows, records)
 
     monkeypatch.setattr("datagen.benchmark.learning.vote", said)
     learning_curve(made_up(20), "logistic")
@@ -69,9 +72,9 @@ def test_more_records_of_the_same_bearings_make_no_interval_narrower():
     one = made_up(40)
     copies = range(4)
     more = TrainingSet(
-        *(np.concatenate([getattr(one, name)] * len(copies)) for name in ("table", "classes", "bearings")),
-        np.concatenate([one.records + 1000 * copy for copy in copies]),
-        np.concatenate([one.noisy] * len(copies)),
+        joined([replace(one.rows, record=one.rows.record + 1000 * copy) for copy in copies]),
+        np.tile(one.classes, len(copies)),
+        np.tile(one.bearings, len(copies)),
     )
     once, often = (learning_curve(training, "logistic")["logistic"][-1] for training in (one, more))
     # Half as wide if records were drawn; what is learned from four copies differs a little.
@@ -94,7 +97,7 @@ class Listens:
 def test_rows_in_noise_are_learned_from_and_not_judged():
     whole = made_up(60)
     noise = FEATURE_NAMES.index("kurtosis")
-    whole.table[:, noise] = whole.noisy
+    whole.rows.table[:, noise] = whole.rows.noisy
     Listens.learned.clear()
     Listens.asked.clear()
     learning_curve(whole, "all", own=Listens())

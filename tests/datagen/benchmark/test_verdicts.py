@@ -8,6 +8,7 @@ import pandas
 import pytest
 from scipy.stats import binomtest
 
+from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.predictions import ModelAnswer, Prediction, prediction_table, record_predictions
 from datagen.benchmark.results import CorpusResults
 from datagen.benchmark.rows import Rows
@@ -34,6 +35,13 @@ class Said:
         return self.probability
 
 
+def rows_of(table, record, axis=None):
+    """Rows without added noise, of one axis if none is given."""
+    size = len(record)
+    axis = np.zeros(size, dtype=np.int64) if axis is None else axis
+    return Rows(table, record, axis, np.zeros(size, dtype=bool))
+
+
 def corpus(locations):
     """Labels and empty rows of records at those locations, all line spalls or healthy."""
     size = len(locations)
@@ -47,7 +55,7 @@ def corpus(locations):
             **{name: np.linspace(1.0, 2.0, size) for name in ("snr_db", "speed_rpm", "extent_mm", "extent_spacing")},
         }
     )
-    return labels, Rows(np.zeros((size, len(FEATURE_NAMES))), np.arange(size))
+    return labels, CorpusRows(rows_of(np.zeros((size, len(FEATURE_NAMES))), np.arange(size)))
 
 
 def judged(locations, probability, doubt=0.0, alarm=0.5):
@@ -112,8 +120,7 @@ def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_draw
 
 def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     labels, rows = corpus(["outer", "none", "inner"])
-    rows = replace(rows, table=rows.table[:2], record=rows.record[:2], rejected={2: "too short"})
-    rows = replace(rows, glitches={1: 4}, shocks={1: 2})
+    rows = CorpusRows(rows.rows[:2], rejected={2: "too short"}, glitches={1: 4}, shocks={1: 2})
     models = [Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)]
     tested = judge(Path("made-up"), labels, rows, RULE, models, 0.0, True)
     summary = summarise(tested)
@@ -140,7 +147,7 @@ def with_unjudged_records():
     table = np.zeros((18, len(FEATURE_NAMES)))
     table[6:12, FEATURE_NAMES.index("outer_strength")] = table[12:, FEATURE_NAMES.index("inner_strength")] = 2.0
     rejected = dict.fromkeys(np.flatnonzero(~looked_at).tolist(), "too short")
-    rows = replace(rows, table=table, record=np.flatnonzero(looked_at), rejected=rejected)
+    rows = CorpusRows(rows_of(table, np.flatnonzero(looked_at)), rejected)
     healthy, outer, inner = [0.8, 0.1, 0.1, 0.0, 0.0], [0.2, 0.8, 0.0, 0.0, 0.0], [0.2, 0.0, 0.8, 0.0, 0.0]
     models = [Model("said", Said([healthy] * 6 + [outer] * 6 + [inner] * 6), 0.5)]
     return judge(Path("made-up"), labels, rows, RULE, models, 0.0, True), ~looked_at
@@ -174,7 +181,7 @@ def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_
 
 def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     labels, rows = corpus(["none", "outer", "inner"])
-    rows = replace(rows, table=rows.table[:0], record=rows.record[:0], rejected=dict.fromkeys(range(3), "too short"))
+    rows = CorpusRows(rows.rows[:0], dict.fromkeys(range(3), "too short"))
     tested = judge(Path("made-up"), labels, rows, RULE, [Model("said", Said([]), 0.5)], 0.0, True)
     said = summarise(tested).models["said"]
     assert said.race_accuracy.value == 0.0
@@ -186,7 +193,7 @@ def test_a_class_is_called_where_the_rows_pass_their_alarm_and_healthy_else():
     # The likeliest class of all is healthy in each; what counts is the alarm, and then the likeliest spall.
     said = Said([[0.52, 0.1, 0.38, 0.0, 0.0], [0.6, 0.3, 0.1, 0.0, 0.0]])
     table, records = np.zeros((2, len(FEATURE_NAMES))), np.arange(3)
-    _, called, alarm = vote(Model("said", said, 0.45), table, records[:2], records)
+    _, called, alarm = vote(Model("said", said, 0.45), rows_of(table, records[:2]), records)
     assert called.tolist() == ["line inner", "healthy", "healthy"]  # the last has no rows
     assert np.isnan(alarm).tolist() == [False, False, True]
 
@@ -200,7 +207,7 @@ def test_the_rows_of_a_record_agree_on_its_alarm():
     model = Model("said", Said([[0.5, 0.5, 0.0, 0.0, 0.0]] * 2), Alarm(0.2, 0.8))
     table = np.zeros((2, len(FEATURE_NAMES)))
     table[1, FEATURE_NAMES.index(CLEARNESS)] = 1.0
-    _, _, alarm = vote(model, table, np.array([0, 0]), np.array([0]))
+    _, _, alarm = vote(model, rows_of(table, np.array([0, 0])), np.array([0]))
     assert alarm[0] == pytest.approx(0.5)  # the logits of 0.2 and 0.8 cancel
 
 
@@ -209,7 +216,7 @@ def test_a_record_is_called_for_its_lines_alone_whatever_its_probability():
     table = np.zeros((4, len(FEATURE_NAMES)))
     # Two rows a record: their mean height is 5 (2.5 and 10) in the first, 3.9 in the second.
     table[:, FEATURE_NAMES.index("inner_strength")] = np.log([2.5, 10.0, 3.9, 3.9])
-    _, called, alarm = vote(model, table, np.array([0, 0, 1, 1]), np.arange(3))
+    _, called, alarm = vote(model, rows_of(table, np.array([0, 0, 1, 1])), np.arange(3))
     assert called.tolist() == ["line inner", "healthy", "healthy"]  # the last has no rows
     assert alarm[:2].tolist() == [0.0, pytest.approx(0.5)]
     assert np.isnan(alarm[2])
@@ -221,17 +228,17 @@ def test_a_quiet_axis_does_not_outvote_a_clear_one():
     level = np.array([-1.0, 3.0, -1.0, 3.0])
     spall = probability_of(level)
     said = Said(np.column_stack([1.0 - spall, spall, *np.zeros((3, 4))]))
-    table, owner, axis = np.zeros((4, len(FEATURE_NAMES))), np.array([0, 0, 1, 1]), np.array([0, 1, 0, 0])
+    rows = rows_of(np.zeros((4, len(FEATURE_NAMES))), np.array([0, 0, 1, 1]), np.array([0, 1, 0, 0]))
     for several, names in ((1.6, ["line outer", "line outer"]), (1.7, ["healthy", "line outer"])):
         model = Model("said", said, Alarm(0.5, 0.5, several=several))
-        votes, called, alarm = vote(model, table, owner, np.arange(2), axis)
+        votes, called, alarm = vote(model, rows, np.arange(2))
         assert called.tolist() == names  # the rows of record 1 are windows of one axis: a mean of 1
         np.testing.assert_allclose(logit(alarm), [several, 0.0], atol=1e-9)
     assert np.log(votes[0, 1] / votes[0, 0]) == pytest.approx(5.0 / 3.0)
     labels, _ = corpus(["outer", "outer"])
-    judgement = judge(Path("made-up"), labels, Rows(table, owner, axis=axis), RULE, [model], 0.0, True)
+    judgement = judge(Path("made-up"), labels, CorpusRows(rows), RULE, [model], 0.0, True)
     assert judgement.verdicts[1].location.tolist() == ["none", "outer"]
-    votes, _, _ = vote(Model("own", said, 0.5), table, owner, np.arange(2), axis)
+    votes, _, _ = vote(Model("own", said, 0.5), rows, np.arange(2))
     assert np.log(votes[0, 1] / votes[0, 0]) == pytest.approx(1.0)
 
 
@@ -239,7 +246,7 @@ def test_of_several_axes_the_rule_lowers_the_height_and_lines_alone_too():
     labels, _ = corpus(["inner", "inner"])
     table = np.zeros((3, len(FEATURE_NAMES)))
     table[:, FEATURE_NAMES.index("inner_strength")] = np.log([8.0, 1.0, 4.0])  # 4 high by the vote, either record
-    rows = Rows(table, np.array([0, 0, 1]), axis=np.array([0, 1, 0]))
+    rows = CorpusRows(rows_of(table, np.array([0, 0, 1]), np.array([0, 1, 0])))
     model = Model("said", Said([[0.9, 0.04, 0.06, 0.0, 0.0]] * 3), Alarm(0.5, 0.5, 3.0, height_several=1.5))
     rule, said = judge(Path("made-up"), labels, rows, Rule(3.0, 1.5), [model], 0.0, True).verdicts
     np.testing.assert_allclose(rule.score, [4.0 / 1.5, 4.0])

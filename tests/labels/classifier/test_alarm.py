@@ -11,6 +11,8 @@ from labels.classifier.rule import line_heights
 from labels.classifier.votes import averaged, vote_shares
 from labels.features.table import FEATURE_NAMES
 
+ONE_AXIS = np.zeros(20_000, dtype=np.int64)
+
 
 def rows(kurtosis):
     table = np.zeros((len(kurtosis), len(FEATURE_NAMES)))
@@ -56,7 +58,7 @@ def test_between_noise_and_a_clear_record_the_alarm_moves_in_logits():
 
 def test_the_share_asked_of_healthy_records_passes_the_alarm():
     given = healthy(2000, 1)
-    alarm = fit_alarm(*given, 0.05)
+    alarm = fit_alarm(*given, ONE_AXIS[: given[0].size], 0.05)
     assert alarming(alarm, *given) == pytest.approx(0.05, abs=1e-3)  # one record in 2000 is a step of 5e-4
     # 5 % of 2000 other records scatter by half a percent; three times that.
     assert alarming(alarm, *healthy(2000, 2)) == pytest.approx(0.05, abs=0.015)
@@ -64,7 +66,7 @@ def test_the_share_asked_of_healthy_records_passes_the_alarm():
 
 def test_noise_raises_half_of_the_alarms_and_needs_less_to_do_so():
     probability, table, owner, noisy = healthy(2000, 3)
-    alarm = fit_alarm(probability, table, owner, noisy, 0.05)
+    alarm = fit_alarm(probability, table, owner, noisy, ONE_AXIS[: owner.size], 0.05)
     hidden = clearness(table) == 0.0
     assert np.mean(probability[hidden] > alarm.in_noise) == pytest.approx(0.025, abs=1e-3)  # a quantile of its own rows
     assert alarm.in_noise < alarm.in_clear
@@ -73,13 +75,13 @@ def test_noise_raises_half_of_the_alarms_and_needs_less_to_do_so():
 def test_healthy_records_in_noise_alone_set_no_alarm():
     probability, table, owner, noisy = healthy(50, 5)
     with pytest.raises(ValueError, match="without added noise"):
-        fit_alarm(probability[noisy], table[noisy], owner[noisy], noisy[noisy], 0.05)
+        fit_alarm(probability[noisy], table[noisy], owner[noisy], noisy[noisy], ONE_AXIS[: noisy.sum()], 0.05)
 
 
 def test_few_rows_like_noise_leave_one_alarm_for_all():
     probability, table, owner, noisy = healthy(2000, 4)
     clear = clearness(table) == 1.0
-    alarm = fit_alarm(probability[clear], table[clear], owner[clear], noisy[clear], 0.05)
+    alarm = fit_alarm(probability[clear], table[clear], owner[clear], noisy[clear], ONE_AXIS[: clear.sum()], 0.05)
     assert alarm.in_noise == pytest.approx(float(np.quantile(probability[clear], 0.975)))
     assert alarm.in_clear >= alarm.in_noise * (1.0 - 1e-9)  # up to rounding
 
@@ -88,7 +90,7 @@ def test_of_few_clear_records_exactly_the_share_passes():
     level = np.concatenate([np.linspace(-3.0, 3.0, 40), np.linspace(-6.0, -5.0, 40)])
     noisy = np.arange(80) >= 40
     probability = 1.0 / (1.0 + np.exp(-level))
-    alarm = fit_alarm(probability, rows(np.where(noisy, 0.0, 1.0)), np.arange(80) % 40, noisy, 0.1)
+    alarm = fit_alarm(probability, rows(np.where(noisy, 0.0, 1.0)), np.arange(80) % 40, noisy, ONE_AXIS[:80], 0.1)
     assert np.sum(level > logit(np.array([alarm.in_clear]))[0] + 1e-9) == 4  # up to rounding
 
 
@@ -99,7 +101,7 @@ def test_lines_as_high_as_few_healthy_records_have_are_an_alarm_by_themselves():
     column = FEATURE_NAMES.index("inner_strength")
     table[:, column] = height[owner] + np.tile([-1.0, 1.0], len(owner) // 2)
     table[noisy, column] += 100.0  # what noise was added to says nothing of it
-    alarm = fit_alarm(probability, table, owner, noisy, 0.05)
+    alarm = fit_alarm(probability, table, owner, noisy, ONE_AXIS[: owner.size], 0.05)
     assert np.mean(height > np.log(alarm.height)) == pytest.approx(0.02, abs=1e-3)  # one record is a step of 1e-3
     found = alarm.height * np.array([[0.99, 0.5], [0.5, 1.01], [np.nan, np.nan]])
     assert alarm.by_lines_alone(found).tolist() == [False, True, False]
@@ -112,8 +114,9 @@ def test_a_vote_of_two_axes_passes_the_alarm_as_seldom_as_their_mean():
     probability = probability_of(logit(probability) + generator.standard_normal(probability.size))
     table[:, FEATURE_NAMES.index("outer_strength")] = generator.standard_normal(probability.size)
     axes = np.arange(probability.size) % 2
-    alarm = fit_alarm(probability, table, owner, noisy, 0.05, axes)
-    assert fit_alarm(probability, table, owner, noisy, 0.05) == replace(alarm, several=0.0, height_several=1.0)
+    alarm = fit_alarm(probability, table, owner, noisy, axes, 0.05)
+    of_one = fit_alarm(probability, table, owner, noisy, ONE_AXIS[: owner.size], 0.05)
+    assert of_one == replace(alarm, several=0.0, height_several=1.0)
     plain = ~noisy
     margin = (logit(probability) - logit(alarm.at(table, np.ones(noisy.size, dtype=bool))))[plain]
     shares = vote_shares(margin, owner[plain], axes[plain])

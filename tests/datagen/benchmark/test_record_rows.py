@@ -7,9 +7,11 @@ import numpy as np
 import pandas
 import pytest
 
+from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import TOO_SHORT
 from datagen.benchmark.known import known_kinematics
-from datagen.benchmark.rows import Reading, RecordRows, read_rows, record_rows, signal_rows
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.record_rows import RecordRows, record_rows, signal_rows
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -67,7 +69,7 @@ def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatc
         pieces.append((piece.size, turning.revolutions))
         return analyse(piece, rate, given, bandwidth, turning)
 
-    monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
+    monkeypatch.setattr("datagen.benchmark.record_rows.analyse", listening)
     time = np.arange(12000) / RATE
     turning = Turning(2.0 * np.pi * (20.0 * time + 10.0 * time**2))
     assert len(record_rows(shaking(12000), labels(), Reading(window=0.5), turning).rows) == 2
@@ -122,7 +124,7 @@ def test_noise_added_has_the_level_asked_for(level, monkeypatch):
         heard.append(piece)
         return analyse(piece, *others)
 
-    monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
+    monkeypatch.setattr("datagen.benchmark.record_rows.analyse", listening)
     signal = 3.0 * np.random.default_rng(0).standard_normal(50_000)
     signal_rows(signal, RATE, known_kinematics(labels()), Reading(noise_db=level), [0])
     (piece,) = heard
@@ -137,7 +139,7 @@ def test_the_speed_told_in_training_is_off_by_up_to_its_share_either_way(monkeyp
         speeds.append(given.shaft_hz)
         return analyse(piece, rate, given, *others)
 
-    monkeypatch.setattr("datagen.benchmark.rows.analyse", listening)
+    monkeypatch.setattr("datagen.benchmark.record_rows.analyse", listening)
     known = known_kinematics(labels())
     for seed in range(60):
         signal_rows(shaking(1200)[:, 0], RATE, known, Reading(speed_error=0.02), [seed])

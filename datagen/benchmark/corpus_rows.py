@@ -1,0 +1,88 @@
+"""Rows of the feature table of a corpus: one for each axis and window of a record, read shard by shard."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.record_rows import RecordRows, feature_rows, record_rows
+from datagen.benchmark.rows import Rows, joined
+from datagen.corpus import Corpus
+from datagen.telling import Count, unheard
+from labels.features.turning import Turning
+from labels.variables import SHAFT_ANGLE
+
+RECORDS_A_TASK = 24
+
+
+@dataclass(frozen=True)
+class CorpusRows:
+    """The `rows` of records of a corpus, why a record was `rejected`, and how many glitches and shocks it had: by
+    record, where any."""
+
+    rows: Rows
+    rejected: dict[int, str] = field(default_factory=dict)
+    glitches: dict[int, int] = field(default_factory=dict)
+    shocks: dict[int, int] = field(default_factory=dict)
+
+
+def read_rows(
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = unheard
+) -> CorpusRows:
+    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory; `count` hears how
+    many are done."""
+    tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
+    found: dict[int, RecordRows] = {}
+    count(0, records.size)
+    with closing(_results(folder, tasks, reading, workers)) as results:
+        for part in results:
+            found |= part
+            count(len(found), records.size)
+    return rows_of_records(found)
+
+
+def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:
+    """What was `found` in each record, by its number, as one table."""
+    parts = [feature_rows(of.rows, record) for record, of in found.items()]
+    return CorpusRows(
+        joined([feature_rows([], 0), *parts]),
+        {record: of.reason for record, of in found.items() if of.reason},
+        {record: of.glitches for record, of in found.items() if of.glitches},
+        {record: of.shocks for record, of in found.items() if of.shocks},
+    )
+
+
+def _results(
+    folder: Path, tasks: Sequence[NDArray[np.int64]], reading: Reading, workers: int
+) -> Generator[dict[int, RecordRows], None, None]:
+    """What each task finds, in order, as it comes."""
+    from joblib import Parallel, delayed, parallel_config
+
+    if workers <= 1 or len(tasks) < 2:
+        return (_task(folder, task, reading) for task in tasks)
+    with parallel_config(backend="loky", inner_max_num_threads=1):
+        parallel = Parallel(n_jobs=workers, batch_size=1, max_nbytes=None, return_as="generator")
+    results: Generator[dict[int, RecordRows], None, None] = parallel(
+        delayed(_task)(folder, task, reading) for task in tasks
+    )
+    return results
+
+
+def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> dict[int, RecordRows]:
+    with Corpus(folder) as corpus:
+        labels = corpus.labels.set_index("record", drop=False)
+        return {
+            record: record_rows(corpus.waveform(record), labels.loc[record], reading, _turning(corpus, record))
+            for record in records.tolist()
+        }
+
+
+def _turning(corpus: Corpus, record: int) -> Turning | None:
+    """How the shaft of a record turns, if its speed is known to change."""
+    return Turning(corpus.waveform(record, SHAFT_ANGLE.name)) if corpus.has(record, SHAFT_ANGLE.name) else None

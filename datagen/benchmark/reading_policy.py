@@ -1,0 +1,79 @@
+"""How records are read for the benchmark: how much of them, with what noise added, and how roughly they are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from labels.band_tree import COMMON_BANDWIDTH
+from labels.noise import with_white_noise
+from physics.arrays import Array
+
+# s: about the longest record of the transfer corpus. Evidence of a weak modulation, which every healthy bearing has,
+# grows with the length of what is looked at; so what is longer than anything learned from is cut, and the pieces vote.
+LONGEST_WINDOW = 10.5
+SHORTEST_COPY = 0.3
+NOISY_COPIES = 2
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How records are turned into rows.
+
+    `bandwidth` (Hz) limits all records alike; `window` (s) is the longest piece. White noise is added at `noise_db`
+    (signal over noise, None: none); `noise_draw` numbers its draws.
+
+    The others are for training on simulated records, whose speed is exact and whose rate is one. The speed given is off
+    by up to a share `speed_error`, and the bandwidth is drawn between `lowest_bandwidth` (None: not drawn) and the
+    record's own. With `copies_db` a record is read three times: as it is, and with noise at levels drawn between these
+    two, once all of it and once a stretch from 0.3 s up.
+    """
+
+    bandwidth: float = COMMON_BANDWIDTH
+    window: float = LONGEST_WINDOW
+    noise_db: float | None = None
+    noise_draw: int = 0
+    speed_error: float = 0.0
+    lowest_bandwidth: float | None = None
+    copies_db: tuple[float, float] | None = None
+
+    @property
+    def copies(self) -> int:
+        """How often each record is read; copy 0 is the record as it is, copy 2 a stretch of it."""
+        return 1 if self.copies_db is None else 1 + NOISY_COPIES
+
+    def stream(self, seed: list[int], copy: int) -> np.random.Generator:
+        """The random numbers of a `copy` of the record with that `seed`, other ones for every draw of noise."""
+        level = 0 if self.noise_db is None else int(1000 + round(10 * self.noise_db))
+        return np.random.default_rng([*seed, self.noise_draw, level, copy])
+
+    def with_noise(self, signal: Array, copy: int, stream: np.random.Generator) -> Array:
+        """The signal (T,) with the noise that this `copy` of it has."""
+        level = self.noise_db
+        if copy and self.copies_db is not None:
+            level = stream.uniform(*self.copies_db)
+        return signal if level is None else with_white_noise(signal, level, stream)
+
+    def stretch(self, samples: int, rate: float, copy: int, stream: np.random.Generator) -> slice:
+        """Which of so many `samples` a `copy` has: all, or a stretch anywhere in them.
+
+        Its length is log-uniform from 0.3 s to the whole.
+        """
+        if copy < NOISY_COPIES:
+            return slice(None)
+        shortest = min(SHORTEST_COPY * rate, samples)
+        size = int(np.exp(stream.uniform(np.log(shortest), np.log(samples))))
+        start = int(stream.integers(0, samples - size, endpoint=True))
+        return slice(start, start + size)
+
+    def drawn_bandwidth(self, rate: float, stream: np.random.Generator) -> float:
+        """The bandwidth (Hz) of one piece of a record at `rate` (Hz)."""
+        top = min(self.bandwidth, rate / 2.0)
+        if self.lowest_bandwidth is None or self.lowest_bandwidth >= top:
+            return top
+        return float(np.exp(stream.uniform(np.log(self.lowest_bandwidth), np.log(top))))
+
+    def speed_factor(self, stream: np.random.Generator) -> float:
+        """By what the shaft speed given of one piece is drawn to be wrong."""
+        return 1.0 + self.speed_error * stream.uniform(-1.0, 1.0)

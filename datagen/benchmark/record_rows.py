@@ -1,0 +1,127 @@
+"""Rows of the feature table of one record: one for each of its axes and windows."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import repeat
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from datagen.benchmark.fitness import unfit
+from datagen.benchmark.known import known_kinematics
+from datagen.benchmark.reading_policy import Reading
+from datagen.benchmark.rows import Rows
+from labels.classifier.liveness import DEAD, liveness
+from labels.dead_sensor import is_dead
+from labels.features.analysis import analyse
+from labels.features.conditioning import FEWEST_SAMPLES_USED
+from labels.features.glitches import without_glitches
+from labels.features.kinematics import Kinematics
+from labels.features.shocks import without_shocks
+from labels.features.table import FEATURE_NAMES, feature_values
+from labels.features.turning import Turning
+from physics.arrays import Array
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row: `values` (F,) of the feature table, whether it is `noisy` (noise was added to learn from), the `reason`
+    why what it shows must not be classified ("" if it may), and which `axis` of its record it is of."""
+
+    values: Array
+    noisy: bool
+    reason: str
+    axis: int = 0
+
+
+@dataclass(frozen=True)
+class RecordRows:
+    """The rows of one record, why it must not be classified ("" if it may), how many glitches were drawn over in it and
+    how many shocks cut."""
+
+    rows: list[Row]
+    reason: str
+    glitches: int = 0
+    shocks: int = 0
+
+
+def feature_rows(found: Sequence[Row], record: int) -> Rows:
+    """The rows that were `found` in a `record`, as a table; it may have none."""
+    return Rows(
+        np.array([row.values for row in found], dtype=np.float64).reshape(-1, len(FEATURE_NAMES)),
+        np.full(len(found), record, dtype=np.int64),
+        np.array([row.axis for row in found], dtype=np.int64),
+        np.array([row.noisy for row in found], dtype=bool),
+    )
+
+
+def record_rows(
+    signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading, turning: Turning | None = None
+) -> RecordRows:
+    """Rows of one record (T, A), one an axis and window, none if it cannot be judged; `turning` where its speed
+    changes."""
+    kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
+    reason = unfit(labels, kinematics, len(signals), rate, reading.bandwidth)
+    if kinematics is None or reason:
+        return RecordRows([], reason)
+    rows: list[Row] = []
+    reasons: list[str] = []
+    glitches = shocks = 0
+    turns = kinematics.shaft_hz * len(signals) / rate
+    for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
+        drawn_over = cut = 0
+        if not is_dead(signal):
+            signal, drawn_over = without_glitches(signal, turns)
+            signal, cut = without_shocks(signal, turns)
+        found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
+        glitches, shocks = glitches + drawn_over, shocks + cut
+        rows += [replace(row, axis=axis) for row in found]
+        reasons += [row.reason for row in found] or [DEAD]
+    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks)
+
+
+def signal_rows(
+    signal: Array,
+    rate: float,
+    kinematics: Kinematics,
+    reading: Reading,
+    seed: list[int],
+    turning: Turning | None = None,
+) -> list[Row]:
+    """Rows of one axis (T,), none of pieces too short or without a signal; `seed` sets the random numbers."""
+    if is_dead(signal):
+        return []
+    rows = []
+    for copy in range(reading.copies):
+        stream = reading.stream(seed, copy)
+        heard = reading.with_noise(signal, copy, stream)
+        part = reading.stretch(heard.size, rate, copy, stream)
+        pieces = equal_pieces(heard[part], rate, reading.window)
+        angles = repeat(None) if turning is None else equal_pieces(turning.angle[part], rate, reading.window)
+        for piece, angle in zip(pieces, angles, strict=False):
+            given = kinematics.at(kinematics.shaft_hz * reading.speed_factor(stream))
+            bandwidth = reading.drawn_bandwidth(rate, stream)
+            if piece.size < FEWEST_SAMPLES_USED or is_dead(piece[: fft.prev_fast_len(piece.size, real=True)]):
+                continue
+            analysis = analyse(piece, rate, given, bandwidth, None if angle is None else Turning(angle))
+            rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece).reason))
+    return rows
+
+
+def equal_pieces(signal: Array, rate: float, longest: float) -> Iterator[Array]:
+    """The signal (T,) in as few equal pieces as are no longer than `longest` (s)."""
+    count = max(1, int(np.ceil(signal.size / rate / longest - 0.05)))
+    yield from np.array_split(signal, count)
+
+
+def _seed(labels: pandas.Series[Any]) -> list[int]:
+    """Numbers that follow from the record alone, whatever is read beside it."""
+    return [zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode()), int(labels["record"])]

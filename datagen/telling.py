@@ -10,7 +10,7 @@ Count = Callable[[int, int], None]
 
 
 def unheard(*_: object) -> None:
-    """Tell nobody."""
+    """Drop what was said: what a program passes on that nobody asked to hear."""
 
 
 @dataclass(frozen=True)

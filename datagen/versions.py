@@ -70,7 +70,7 @@ def in_words(made: Mapping[str, str]) -> str:
 
 
 def processor_name() -> str:
-    """The processor's model name; its kind alone where the system tells no more."""
+    """The processor's model name; its kind alone where the system says no more."""
     try:
         lines = CPU_INFO.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

@@ -36,7 +36,7 @@ class Calibration:
 
 @dataclass(frozen=True)
 class ConditionScores:
-    """How well healthy records, line and extended spalls are told apart."""
+    """How well healthy records, line and extended spalls are distinguished."""
 
     condition_balanced_accuracy: Interval
     condition_confusion: Confusion

@@ -87,13 +87,15 @@ def _answer(said: Verdicts, place: int) -> ModelAnswer:
     )
 
 
-def prediction_table(models: Sequence[str], told: Iterable[tuple[str, Sequence[Prediction]]]) -> str:
-    """CSV of the predictions of corpora, each `told` by its folder and its predictions, one row a record: what is known
-    of it, and the answers of the `models`; probabilities are left to the JSON."""
+def prediction_table(models: Sequence[str], corpora: Iterable[tuple[str, Sequence[Prediction]]]) -> str:
+    """CSV of the predictions of `corpora`, each given by its folder and its predictions.
+
+    It has one row a record: what is known of it, and the answers of the `models`; probabilities are left to the JSON.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["corpus", *FACTS, *(f"{model}_{what}" for model in models for what in SAID)])
-    for corpus, predictions in told:
+    for corpus, predictions in corpora:
         for one in predictions:
             said = [getattr(one.models[model], what) for model in models for what in SAID]
             numbers = [f"{value:.6g}" if isinstance(value, float) else value for value in said]

@@ -149,7 +149,7 @@ def _equal_error(spall: NDArray[np.bool_], probability: Array) -> float:
 
 
 def _condition(tested: Tested, said: Verdicts) -> ConditionScores | None:
-    """How well line and extended spalls are told apart, where the sizes of the spalls are known; None where none is."""
+    """How well line and extended spalls are distinguished, of those whose size is known; None where none is."""
     known = tested.classes != UNKNOWN
     if np.unique(tested.classes[known]).size < 2:
         return None

@@ -21,7 +21,7 @@ MOST_EXAMPLES = 6
 
 @dataclass(frozen=True)
 class Report:
-    """What was written where, the facts that the card tells, and what `unstated` terms the metadata lack."""
+    """What was written where, the facts that the card states, and what `unstated` terms the metadata lack."""
 
     folder: str
     files: tuple[str, ...]

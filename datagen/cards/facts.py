@@ -1,4 +1,4 @@
-"""The facts that a card tells of a corpus."""
+"""The facts that a card states of a corpus."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Terms:
 
 @dataclass(frozen=True)
 class Facts:
-    """Everything a card tells; `validity` counts the records by reason for which the model is outside its range."""
+    """Everything a card states; `validity` counts the records by reason for which the model is outside its range."""
 
     info: Info
     origin: str

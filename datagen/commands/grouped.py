@@ -12,7 +12,7 @@ from typing import Annotated, Any, get_type_hints
 
 def grouped(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Decorator of a command some of whose parameters are dataclasses: it takes the fields of these in their place, by
-    their names and with their defaults, each told about by the typer.Option of that name in `options`.
+    their names and with their defaults, each described by the typer.Option of that name in `options`.
 
     Raises KeyError for a field without one.
     """

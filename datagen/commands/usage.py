@@ -1,4 +1,4 @@
-"""Command lines that cannot be read: told in one line with option, value and what is allowed, like other bad input.
+"""Command lines that cannot be read: refused in one line with option, value and what is allowed, like other bad input.
 
 Whoever reads the output may stop before its end, as `head` does: any command then ends without a word, with 141.
 """
@@ -152,7 +152,7 @@ def _allowed(command: Any, name: str) -> str:
 
 
 def _annotation(command: Any, name: str) -> tuple[Any, ...]:
-    """The type of the parameter `name` of a command, and what typer is told of it."""
+    """The type of the parameter `name` of a command, and the typer.Option that describes it."""
     return get_args(get_type_hints(command.callback, include_extras=True)[name])
 
 

@@ -14,7 +14,7 @@ READ_ERRORS = (OSError, RuntimeError, ValueError, KeyError, IndexError, Attribut
 
 
 def unspeakable(path: Path) -> BadInput:
-    """The error of a path that the library of netCDF cannot be told in this locale's encoding."""
+    """The error of a path that cannot be passed to the netCDF library in this locale's encoding."""
     problem = f"the encoding of this locale, {sys.getfilesystemencoding()}, lacks letters of this path"
     return BadInput(problem, str(path), allowed="a locale with UTF-8 (LC_ALL=C.UTF-8), or a path in ASCII")
 

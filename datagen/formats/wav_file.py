@@ -30,14 +30,14 @@ def read_wav(path: Path) -> WaveArrays:
     from scipy.io import wavfile
 
     try:
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", wavfile.WavFileWarning)
             rate, samples = wavfile.read(path)
     except Exception as problem:  # whatever the damaged bytes lead scipy to
         raise BadInput(
             f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
         ) from None
-    early = next((str(one.message) for one in told if EARLY_END in str(one.message)), "")
+    early = next((str(one.message) for one in caught if EARLY_END in str(one.message)), "")
     if early:
         raise BadInput(f"the file is cut off: {early}", str(path))
     return WaveArrays(np.asarray(samples), float(rate))

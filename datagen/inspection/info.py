@@ -40,7 +40,7 @@ class Info:
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
     records by two labels at once, `bearings_in_split` virtual bearings; `refused` are the impossible draws.
     `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
-    overwritten or not to be read; all else is told as if they were there. `origin` is simulated or imported: of
+    overwritten or not to be read; all else is counted as if they were there. `origin` is simulated or imported: of
     recordings nothing was asked for, drawn or solved.
     """
 

@@ -62,8 +62,8 @@ class _Setting:
                     raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": self._hint(stated)})
             return self.confined(distribution)
         except DistributionError as error:
-            told = {"problem": str(error), "allowed": self.allowed()}
-            raise PydanticCustomError("distribution", "{problem}", told) from None
+            words = {"problem": str(error), "allowed": self.allowed()}
+            raise PydanticCustomError("distribution", "{problem}", words) from None
 
     def _hint(self, value: object) -> str:
         return self.allowed()

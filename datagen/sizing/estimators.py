@@ -26,7 +26,7 @@ SPOKEN = (
 
 
 class AnyEstimator(Protocol):
-    """Anything that tells the size of the spall in one record."""
+    """Anything that estimates the size of the spall in one record."""
 
     def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
         """The size from acceleration (T, axes), m/s², the last one along the load, sampled at `rate` (Hz)."""

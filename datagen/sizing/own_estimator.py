@@ -29,9 +29,9 @@ class OwnEstimator:
     allowed: str
 
     def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
-        """What the user's object tells of acceleration (T, axes), m/s², sampled at `rate` (Hz).
+        """What the user's object makes of acceleration (T, axes), m/s², sampled at `rate` (Hz).
 
-        Raises BadInput if it raises, or tells something else.
+        Raises BadInput if it raises, or gives something else.
         """
         method = getattr(self.made, "estimate", None)
         subject = "it" if method is None else "its method estimate"

@@ -1,4 +1,4 @@
-"""What a shard holds of one record, and which of its ball passes tell where the events of the spall are."""
+"""What a shard holds of one record, and which of its ball passes show where the events of the spall are."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class StoredRecord:
     passes: list[Array] | None
 
     def contact_stiffness(self) -> tuple[float, float] | None:
-        """Hertz factor and exponent from the scenario or the provenance; None if it does not tell them."""
+        """Hertz factor and exponent from the scenario or the provenance; None if neither holds them."""
         try:
             parameters = json.loads(self.text)["parameters"]
             return float(parameters["K"]), float(parameters["n"])

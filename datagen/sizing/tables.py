@@ -32,7 +32,7 @@ def summary_table(summary: SizeSummary) -> Table:
 
 
 def _met(figure: Figure) -> str:
-    """Whether a figure meets its target, if it has one and enough records tell."""
+    """Whether a figure meets its target, if it has one and enough records bear on it."""
     if figure.met is None:
         return ""
     if figure.count < FEWEST_TO_JUDGE:

@@ -4,7 +4,7 @@ A stated share of all healthy records passes it, or less where it would lie lowe
 half of that share of those that look like noise. In a clear record a healthy bearing shows what it does: its stiffness
 varies as balls pass, so the lines of BPFO stand in its envelopes. Under noise they do not, so a probability that means
 little in a clear record means much there. The alarm therefore rises with how far a record's bands differ from noise,
-which their median spectral kurtosis tells.
+which their median spectral kurtosis measures.
 
 Whatever the probability, a record is called faulty too where a race's lines stand higher over the floor than in nearly
 all healthy records. Learners want impulsiveness beside lines, and a spall heard through a narrow band has little.
@@ -27,7 +27,7 @@ from labels.features.table import FEATURE_NAMES
 from physics.arrays import Array, Flags
 
 CLEARNESS = "median_band_kurtosis"
-# Values of that feature below which a record cannot be told from noise, and above which it is taken as clear.
+# Values of that feature below which a record looks like noise, and above which it is taken as clear.
 NOISE_LIKE, CLEAR = 0.02, 0.06
 # The share of false alarms among rows like noise over the share allowed among all healthy records.
 SHARE_IN_NOISE = 0.5

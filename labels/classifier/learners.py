@@ -36,7 +36,7 @@ def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> 
             max_iter=200,
             learning_rate=0.08,
             max_leaf_nodes=3,
-            max_bins=64,  # with 255 fits take three times as long and tell nothing more
+            max_bins=64,  # with 255 fits take three times as long and are no better
             min_samples_leaf=15,
             l2_regularization=3.0,
             max_features=0.4,

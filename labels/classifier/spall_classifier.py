@@ -41,7 +41,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
 
     Spall or none, from the two races' line families in the envelopes, from impulsiveness, and from how long was looked;
     outer or inner race, from the families alone; line or extended, from all features. What belongs to the machine as
-    much as to a spall (lines of the shaft, lines of the vibration itself) tells neither of the first two.
+    much as to a spall (lines of the shaft, lines of the vibration itself) answers neither of the first two.
     `alarm_` (an `Alarm`) is what at most `false_alarms` of the healthy records pass by their probability, of bearings
     not learned from, and few by their lines alone.
     """

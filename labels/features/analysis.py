@@ -32,7 +32,7 @@ NARROWEST_BAND = 3.5
 OUTER_WINDOW = (-0.027, 0.013)
 # The same of BPFI, which slip raises and a contact angle lowers.
 INNER_WINDOW = (-0.012, 0.020)
-# The same where no harmonics of the shaft tell its speed.
+# The same where no harmonics of the shaft show its speed.
 UNCERTAIN_WINDOW = (-0.025, 0.025)
 # A refined speed within this share of the one stated is the stated one.
 AS_STATED = 0.003
@@ -79,7 +79,7 @@ class Analysis:
 
     @cached_property
     def speed(self) -> Speed:
-        """The refined speed of the shaft; where it changes, the mean that its turning tells exactly.
+        """The refined speed of the shaft; where it changes, the mean that follows exactly from its turning.
 
         Knocks of another shaft can lie near multiples of this one, and near a race's line, at a wrong speed. So where
         the speed found is not the one stated, it is looked for again without the lines of such combs.
@@ -173,7 +173,7 @@ def analyse(
 ) -> Analysis:
     """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal.
 
-    Where the speed changes, `turning` tells how; it takes precedence over the speed of the `kinematics`, and every
+    Where the speed changes, `turning` says how; it takes precedence over the speed of the `kinematics`, and every
     frequency is an order times the mean speed.
     """
     record = condition(signal, rate, bandwidth, turning)

@@ -1,8 +1,8 @@
 """Combs of another shaft in the envelopes: what knocks there regularly, as a broken tooth, a coupling or a cam does.
 
 Such an impulse train has lines at all multiples of its rate, and some of them lie where those of a race are looked for.
-What tells it from a race is the lines that a faulty bearing does not make: neither multiples of the shaft, of the cage
-or of the balls' way over a race, nor sidebands of the races' lines.
+A train of another shaft has lines that a faulty bearing does not make: neither multiples of the shaft, of the cage or
+of the balls' way over a race, nor sidebands of the races' lines.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from physics.arrays import Array, Flags
 SLOWEST, FASTEST = 0.12, 6.5
 # How many multiples are looked at: a train whose intervals vary keeps the lowest ones only.
 LOOKED_AT = (8, 16, 24)
-# Lines that must stand out. Rates so high that the spectrum holds fewer multiples are not told.
+# Lines that must stand out. No rate is found of which the spectrum holds fewer multiples.
 FEWEST_LINES = 5
 # Share of the lines looked at that must stand out.
 SHARE_OF_LINES = 0.7
@@ -58,7 +58,7 @@ SIDEBAND_WIDTH, SIDEBAND_SPREAD = 0.01, 0.001
 WIDEST_OF_COMB = 0.2
 # Components to each side of a line that it fills, of a Hann window, and strong lines of the vibration nearly so.
 LINE_REACHES = 2.01
-# Lines between those of a comb that must be readable to tell that it is a multiple.
+# Lines between those of a comb that must be readable to show that it is a multiple.
 FEWEST_BETWEEN = 3
 
 
@@ -77,7 +77,7 @@ def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags
 
     Components lie `step` (Hz) apart; those from which nothing has been taken out are `readable` (F,). The speed of
     `known` may be wrong by the share `doubt`, and a rate so near to one of the bearing's is left out. A record of so
-    few turns that lines of the shaft cannot be told from others has none.
+    few turns that lines of the shaft run into others has none.
     """
     margin = multiple_margin(step, known.shaft_hz)
     if margin > WIDEST_MARGIN * known.shaft_hz:
@@ -207,7 +207,7 @@ def _slowest_part(lines: Lines, free: Flags, comb: float, known: Kinematics, dou
 
 
 def _sharpened(lines: Lines, rate: float, between: float, shaft_hz: float) -> float:
-    """The rate (Hz) within three times `between` of `rate` that all its multiples in the spectrum tell."""
+    """The rate (Hz) within three times `between` of `rate` whose multiples in the spectrum stand out most."""
     rates = np.linspace(rate - 3.0 * between, rate + 3.0 * between, 121)
     multiples = int((lines.cumulated.shape[-1] - 4) * lines.step / rates[-1])
     nats = harmonic_evidence(lines, rates, shaft_hz, 0.0, multiples)[:, 0]

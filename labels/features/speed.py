@@ -62,7 +62,7 @@ def refine_speed(
     """The most likely shaft speed within the `tolerance` (a share) of the one given, 0 if that is exact.
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
-    slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie tell nothing: a spall
+    slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie say nothing: a spall
     at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Without evidence the speed given is kept.
     Where the shaft shows, all its harmonics in the spectra then refine it, to one component at the highest of them: of
     a shaft that knocks, harmonics 40 to 50 lie where those of the races are looked for.

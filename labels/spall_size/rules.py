@@ -48,7 +48,7 @@ class EnvelopeLagRule:
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
         """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
 
-        If the `situation` does not tell the race, it is taken for the outer one.
+        If the `situation` does not name the race, it is taken for the outer one.
         """
         signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
         race = situation.race or "outer"

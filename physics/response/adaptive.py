@@ -31,9 +31,9 @@ PILOT_SAMPLES = 2048
 SEED_ATTEMPTS = 3
 # First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
 GUESSED_SHARE = 1e-2
-# A response of more than this sensitivity may be chaotic where the pilot did not look: it is made again, and what both
-# are apart tells. So is one whose errors may grow and that is farther from a coarse one than this many times the error
-# allowed, or than this share of its size, if that is more than what is allowed.
+# A response of more than this sensitivity may be chaotic where the pilot did not look: it is made again, and how far
+# both are apart decides. So is one whose errors may grow and that is farther from a coarse one than this many times the
+# error allowed, or than this share of its size, if that is more than what is allowed.
 DOUBTFUL, NEAR, FAR = 4.0, 1.5, 0.03
 # A stretch of a response is louder than its beginning if its RMS is more than this many times that.
 LOUDER = 30.0

@@ -70,7 +70,7 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
 
 def confirm_doubtful(goal: Goal, output: Output, grid: Stride, sensitivity: float) -> tuple[Output, float, float]:
     """The response made again with a smaller tolerance than that of the `output`'s grid; its estimated error (m/s²,
-    RMS), infinite if no trajectory is known, and the sensitivity that both tell.
+    RMS), infinite if no trajectory is known, and the sensitivity that follows from both.
 
     Where that is CHAOTIC or the rings part, until another one confirms it; else once more, to that sensitivity, if that
     is not within the goal.
@@ -105,7 +105,7 @@ class Pair(NamedTuple):
 
     @property
     def error(self) -> float:
-        """Of the fine one (m/s², RMS), as far as both tell."""
+        """Error of the fine one (m/s², RMS), estimated from how far apart both are."""
         return CONFIRMED * self.distance * self.share**LATE
 
     def lost_within(self, share: float) -> bool:
@@ -119,7 +119,7 @@ def _pair(coarse: Output, fine: Output, share: float) -> Pair:
 
 def _confirmed(goal: Goal, pair: Pair, grid: Stride) -> tuple[Output, float]:
     """The fine response of the `pair`, which is on `grid`, or the first finer one, that is well within the goal of the
-    one before; and the error (m/s², RMS) that this tells.
+    one before; and the error (m/s², RMS) that follows from this.
 
     Where they are LOST too SOON for the attempts that are left, the error is infinite.
     """

@@ -54,7 +54,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
 
 
 def require_done(status: int, steps: str, out_of_steps: str) -> None:
-    """Raise SimulationFailed if a march ended with NOT_FINITE, telling how long its `steps` were, or OUT_OF_STEPS."""
+    """Raise SimulationFailed if a march ended with NOT_FINITE, its `steps` being so long, or with OUT_OF_STEPS."""
     if status == NOT_FINITE:
         raise SimulationFailed(Outcome.NOT_FINITE, f"the response stopped being finite with steps {steps}")
     if status == OUT_OF_STEPS:

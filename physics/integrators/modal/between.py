@@ -2,7 +2,7 @@
 
 A contact change or a kink ends a step anywhere, and to compute its weights anew costs as much as the step. As functions
 of its length they are as smooth as the fastest mode turns slowly, so that a polynomial through eight rows of the table
-tells them in a tenth of the time.
+gives them in a tenth of the time.
 """
 
 from __future__ import annotations

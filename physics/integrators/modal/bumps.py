@@ -1,8 +1,8 @@
 """What a carried step does not see of a rolled path: bumps between the three instants at which it meets the force.
 
 Over a rough surface a ball changes from bump to bump. Every corner that this makes is a step's end, but where the
-bumps are close together the path bends between corners as sharply, and the force then swings faster than its values at
-the beginning, in the middle and at the end of a step tell. Slopes and depths of the path there together do tell.
+bumps are close together the path bends between corners as sharply. The force then swings faster than its values at the
+beginning, in the middle and at the end of a step show; slopes and depths of the path there together do show it.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ def step_modal_rk4(
     set_rest(flow, time + 0.5 * step, rest)
     motion = pushed(w, AT_HALF, 0, free_motion(w, HALF, start, rest), force)
     second = remainder_at(contacts, flow, motion)
-    # Not the rise that both forces tell, but twice as much: what order 4 asks of the third stage.
+    # Twice the rise between both forces, and not the rise itself: what order 4 asks of the third stage.
     motion = pushed(w, AT_HALF, 1, motion, rise_over_step(force, second, 4.0))
     third = remainder_at(contacts, flow, motion)
     contradicted = count_changes(contacts)

@@ -26,12 +26,12 @@ def contact_events(
     first = np.searchsorted(balls, np.arange(1, changes.initial.shape[1] + 2))
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
     loaded = np.zeros(ball.size, np.bool_)
-    _read(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded)
+    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded)
     return release, regain, loaded
 
 
 @njit
-def _read(
+def _fill_events(
     times: Array,
     begins: Flags,
     first: NDArray[np.int64],

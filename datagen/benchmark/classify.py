@@ -16,8 +16,8 @@ from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training, ingredients_of
 from datagen.benchmark.learning import learning_curve
 from datagen.benchmark.log_line import log_run
-from datagen.benchmark.machines import Learned, learned_machines, share_machines, unseen_records
-from datagen.benchmark.options import Asked, Learning, Scoring
+from datagen.benchmark.machines import LearnedMachines, learned_machines, share_machines, unseen_records
+from datagen.benchmark.options import Learning, Options, Scoring
 from datagen.benchmark.predictions import record_predictions
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.results import CorpusResults, NoisyScores, Results
@@ -58,7 +58,7 @@ class Benchmark:
 
     train: Path
     tests: tuple[Path, ...]
-    asked: Asked = field(default_factory=Asked)
+    options: Options = field(default_factory=Options)
     own: Any | None = None
     learning_curve: bool = False
     workers: int = 2
@@ -67,12 +67,12 @@ class Benchmark:
     @property
     def learning(self) -> Learning:
         """The options of learning."""
-        return self.asked.learning
+        return self.options.learning
 
     @property
     def scoring(self) -> Scoring:
         """The options of scoring."""
-        return self.asked.scoring
+        return self.options.scoring
 
     @cached_property
     def window_rate(self) -> float:
@@ -99,7 +99,7 @@ def run(benchmark: Benchmark, listener: Listener = NOBODY) -> Results:
     began = time.monotonic()
     if is_saved(benchmark.train):
         trained = load_trained(benchmark.train)
-        benchmark = replace(benchmark, asked=replace(benchmark.asked, learning=trained.learning))
+        benchmark = replace(benchmark, options=replace(benchmark.options, learning=trained.learning))
         chosen = [_tested_records(folder, trained.machines) for folder in benchmark.tests]
     else:
         labels = _training_labels(benchmark)
@@ -114,11 +114,11 @@ def run(benchmark: Benchmark, listener: Listener = NOBODY) -> Results:
         _test(benchmark, folder, records, trained, listener)
         for folder, records in zip(benchmark.tests, chosen, strict=True)
     ]
-    return Results(str(benchmark.train), benchmark.asked, trained.facts, tests, time.monotonic() - began)
+    return Results(str(benchmark.train), benchmark.options, trained.facts, tests, time.monotonic() - began)
 
 
 def _learn(
-    benchmark: Benchmark, labels: pandas.DataFrame | None, learned: Learned | None, listener: Listener
+    benchmark: Benchmark, labels: pandas.DataFrame | None, learned: LearnedMachines | None, listener: Listener
 ) -> Trained:
     """What is learned from the records with these labels, of the machines `learned`; from impulse trains if None."""
     training = _learned_from(benchmark, labels, listener)
@@ -178,22 +178,22 @@ def _own_input(
 def _curve(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> dict[str, Any]:
     if not benchmark.learning_curve:
         return {}
-    asked = benchmark.learning
+    options = benchmark.learning
     found = learning_curve(
-        training, asked.learner, benchmark.own, asked.takes_windows, asked.estimator or "", listener.step
+        training, options.learner, benchmark.own, options.takes_windows, options.estimator or "", listener.step
     )
     return {"learning_curve": found}
 
 
 def _models(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> list[Model]:
-    asked = benchmark.learning
+    options = benchmark.learning
     if benchmark.own is None:
-        return train_models(training, asked.learner, listener.step)
-    listener.step(f"learning: {asked.estimator}")
-    return [train_own(training, benchmark.own, asked.takes_windows, asked.estimator or "")]
+        return train_models(training, options.learner, listener.step)
+    listener.step(f"learning: {options.estimator}")
+    return [train_own(training, benchmark.own, options.takes_windows, options.estimator or "")]
 
 
-def _tested_records(folder: Path, learned: Learned | None) -> pandas.DataFrame:
+def _tested_records(folder: Path, learned: LearnedMachines | None) -> pandas.DataFrame:
     return Corpus(folder).labels if learned is None else unseen_records(Corpus(folder), learned)
 
 
@@ -202,7 +202,7 @@ def _test(
 ) -> CorpusResults:
     imported = bool(Corpus(folder).manifest.imported)
     if imported:
-        write_line(folder, {"began": benchmark.asked.to_dict(), "train": str(benchmark.train)})
+        write_line(folder, {"began": benchmark.options.to_dict(), "train": str(benchmark.train)})
     listener.say(f"testing on {len(labels)} records of {folder}")
     rows = _rows(
         folder, labels, benchmark.reading(), benchmark.workers, listener.counting(f"features of {folder.name}")
@@ -218,7 +218,7 @@ def _test(
         listener.say(f"no noise is added to {folder}: --noise-db is for recordings of faults, and it holds none")
     noise = [_noisy(benchmark, folder, labels, trained, level, listener) for level in levels]
     if imported:
-        log_run(folder, benchmark.train, trained.recipe, benchmark.asked.to_dict(), scores.models)
+        log_run(folder, benchmark.train, trained.recipe, benchmark.options.to_dict(), scores.models)
     return CorpusResults(scores, record_predictions(tested), noise)
 
 

@@ -129,9 +129,11 @@ def impulses(
     location: str,
     modulated: bool,
 ) -> Array:
-    """Impulses (size,) at which balls hit a defect on the race `location`, with random slip and jitter of their times
-    and random heights, which follow the load of an inner race and, if `modulated`, vary with the turn of the shaft on
-    an outer one; `of_machine` draws what belongs to the machine, `of_record` what belongs to the record."""
+    """Impulses (size,) at which balls hit a defect on the race `location`, with random slip and jitter of their times.
+
+    Their heights are random too. On an inner race they follow its load; on an outer one they vary with the turn of the
+    shaft if `modulated`. `of_machine` draws what belongs to the machine, `of_record` what belongs to the record.
+    """
     slip = of_record.uniform(0.0, 0.02)
     cage = kinematics.ftf * (1.0 - slip)
     order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)

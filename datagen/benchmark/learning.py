@@ -60,7 +60,7 @@ def learning_curve(
 
 def _score(model: Model, held_out: TrainingSet) -> Interval:
     records, first = np.unique(held_out.rows.record, return_index=True)
-    _, said, _ = vote(model, held_out.rows, records)
+    said = vote(model, held_out.rows, records).called
     truth = _locations(held_out.classes[first])
     return bootstrap(balanced_accuracy, truth, _locations(said), groups=held_out.bearings[first], draws=300)
 

@@ -18,7 +18,7 @@ TEST = "test"
 
 
 @dataclass(frozen=True)
-class Learned:
+class LearnedMachines:
     """The machines that were learned from, `seen` (S,), and all machines of their corpus, `known` (K,)."""
 
     seen: NDArray[np.str_]
@@ -43,13 +43,13 @@ def share_machines(one: Corpus, other: Corpus) -> bool:
     return bool((set(machines(one).tolist()) & set(machines(other).tolist())) - {""})
 
 
-def learned_machines(trained: Corpus, records: NDArray[np.int64]) -> Learned:
+def learned_machines(trained: Corpus, records: NDArray[np.int64]) -> LearnedMachines:
     """The machines of those `records` of a corpus that were learned from."""
     known = machines(trained)
-    return Learned(known[trained.labels["record"].isin(records)], known)
+    return LearnedMachines(known[trained.labels["record"].isin(records)], known)
 
 
-def unseen_records(tested: Corpus, learned: Learned) -> pandas.DataFrame:
+def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame:
     """Labels of the records of `tested` to score, none of a machine that was learned from.
 
     Those of other machines of the same corpus count if their split is "test". Raises BadInput if none is left.

@@ -50,7 +50,7 @@ class Scoring:
 
 
 @dataclass(frozen=True)
-class Asked:
+class Options:
     """All options of a run."""
 
     learning: Learning = field(default_factory=Learning)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import NAME, ingredients_of
-from datagen.benchmark.options import FEATURES, SPEED_ERROR, WINDOWS, Asked, Learning, Scoring
+from datagen.benchmark.options import FEATURES, SPEED_ERROR, WINDOWS, Learning, Options, Scoring
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
@@ -29,14 +29,14 @@ SPOKEN = "module:Class, made without arguments, or module:object, with predict_p
 def benchmark_of(
     train: Path,
     tests: tuple[Path, ...],
-    asked: Asked,
+    options: Options,
     learning_curve: bool = False,
     workers: int = 2,
     out: Path | None = None,
     save: Path | None = None,
 ) -> Benchmark:
     """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be."""
-    learning, scoring = asked.learning, asked.scoring
+    learning, scoring = options.learning, options.scoring
     _require_learning(learning)
     _require_scoring(scoring)
     _require_use(train, tests, learning, learning_curve, save)
@@ -50,7 +50,7 @@ def benchmark_of(
     _require_folders(train, tests, learning.takes_windows)
     if out is not None:
         require_results_folder(out)
-    return Benchmark(train, tests, asked, own, learning_curve, workers, save)
+    return Benchmark(train, tests, options, own, learning_curve, workers, save)
 
 
 def _require_learning(learning: Learning) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from datagen.benchmark.model_scores import Scores
-from datagen.benchmark.options import Asked
+from datagen.benchmark.options import Options
 from datagen.benchmark.predictions import Prediction
 
 
@@ -63,11 +63,14 @@ class CorpusResults:
 
 @dataclass(frozen=True)
 class Results:
-    """What was learned from, what was asked, the `facts` that follow from learning alone (plain numbers by name, as
-    they are kept with what was learned), what each corpus tested gave, and how long (s) it took."""
+    """What `classify` found: `train` is what was learned from, `tests` has the results of each corpus tested.
+
+    `facts` follow from learning alone: plain numbers by name, as they are kept with what was learned. The run took so
+    many `seconds`.
+    """
 
     train: str
-    asked: Asked
+    options: Options
     facts: dict[str, Any]
     tests: list[CorpusResults]
     seconds: float
@@ -88,7 +91,7 @@ class Results:
         """As a report holds them: the facts stand like the rest."""
         return {
             "train": self.train,
-            "options": self.asked.to_dict(),
+            "options": self.options.to_dict(),
             **self.facts,
             "tests": [test.to_dict() for test in self.tests],
             "seconds": self.seconds,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from datagen.benchmark.machines import Learned
+from datagen.benchmark.machines import LearnedMachines
 from datagen.benchmark.options import Learning
 from datagen.benchmark.training import Model
 from datagen.errors import BadInput
@@ -34,7 +34,7 @@ class Trained:
 
     rule: Rule
     models: list[Model]
-    machines: Learned | None
+    machines: LearnedMachines | None
     learning: Learning
     recipe: str
     facts: dict[str, Any] = field(default_factory=dict)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,9 +29,11 @@ RULE = "rule"
 
 @dataclass(frozen=True)
 class Verdicts:
-    """What one model says of R records: its `location` (none, outer, inner or rejected), the race it would name, a
-    `score` that rises with suspicion, the `alarm` that it must pass for a spall to be called, and probabilities of
-    CLASSES (R, 5; empty for the rule).
+    """What one model says of R records.
+
+    `location` is none, outer, inner or rejected; `race` the one it would name if there had to be a spall. `score` rises
+    with suspicion, and a spall is called where it passes the `alarm`. `probability` (R, 5) is that of CLASSES, empty
+    for the rule.
 
     Of a record without features it says nothing: the race is "rejected", score, alarm and probabilities are NaN.
     """
@@ -114,21 +116,31 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
 def _of_model(
     model: Model, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_], reject: float
 ) -> Verdicts:
-    votes, called, alarm = vote(model, rows, records)
-    said = np.char.split(called)
-    where = location_probability(votes)
-    place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in said], dtype=np.int64)
-    missing = np.isnan(alarm)
+    said = vote(model, rows, records)
+    named = np.char.split(said.called)  # ["healthy"], or e.g. ["line", "outer"]
+    where = location_probability(said.probability)
+    place = np.array([LOCATIONS.index(words[1]) if len(words) > 1 else 0 for words in named], dtype=np.int64)
+    missing = np.isnan(said.alarm)
     rejected = missing | (reasons != "") | (where[np.arange(place.size), place] < reject)
-    condition = np.where(rejected, REJECTED, np.array([words[0] for words in said]))
+    condition = np.where(rejected, REJECTED, np.array([words[0] for words in named]))
     location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(missing, REJECTED, np.where(where[:, 1] >= where[:, 2], "outer", "inner"))
-    return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], alarm, votes)
+    return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], said.alarm, said.probability)
 
 
-def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> tuple[Array, NDArray[np.str_], Array]:
-    """What the rows of each of `records` (R,) agree on: probabilities (R, 5), the class that is called, and the alarm,
-    0 where the record's lines alone call it.
+class Vote(NamedTuple):
+    """What the rows of each of R records agree on: the `probability` (R, 5) of CLASSES and the class `called` (R,).
+
+    `alarm` (R,) is the probability above which a spall is called, 0 where the record's lines alone call it.
+    """
+
+    probability: Array
+    called: NDArray[np.str_]
+    alarm: Array
+
+
+def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> Vote:
+    """The vote of the rows of each of `records` (R,).
 
     A record without rows is called healthy, with NaN for probabilities and alarm.
     """
@@ -136,11 +148,12 @@ def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> tuple[Array, N
     alarms = logit(model.alarms(rows))
     margins = logit(1.0 - own[:, 0]) - alarms
     shares = model.shares(margins, rows)
-    votes = joined(own, rows.record, records, shares)
+    probability = joined(own, rows.record, records, shares)
     margin = averaged(margins, rows.record, records, shares)
     alarm = averaged(alarms, rows.record, records, shares)
     by_lines = model.by_lines_alone(rows, records)
-    return votes, called(votes, (margin > 0.0) | by_lines), np.where(by_lines, 0.0, probability_of(alarm))
+    names = called(probability, (margin > 0.0) | by_lines)
+    return Vote(probability, names, np.where(by_lines, 0.0, probability_of(alarm)))
 
 
 def pooled_draws(draws: list[Tested]) -> Tested:

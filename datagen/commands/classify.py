@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.benchmark.options import SPEED_ERROR, Asked, Learning, Scoring
+from datagen.benchmark.options import SPEED_ERROR, Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from labels.schema import LOCATIONS
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
-AS_USUAL = Asked()
+AS_USUAL = Options()
 Train = Annotated[
     Path,
     Option(
@@ -92,8 +92,8 @@ def classify(
     """
     from datagen.benchmark.request import benchmark_of
 
-    asked = Asked(learning, scoring)
-    benchmark = benchmark_of(train, (*(test or []), *(more or [])), asked, learning_curve, workers, out, save)
+    options = Options(learning, scoring)
+    benchmark = benchmark_of(train, (*(test or []), *(more or [])), options, learning_curve, workers, out, save)
     results = _run(benchmark, out)
     write_json(json_file, results.to_dict())
     tell_results(results.tests)

@@ -72,9 +72,9 @@ def refine_speed(
     places = max(PLACES[0], min(count, PLACES[1])) // 2 * 2 + 1 if tolerance > 0.0 else 1
     factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
     speeds = known.shaft_hz * factors
-    telling = telling_harmonics(known)[:, None]
-    shaft = telling * tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
-    modulation = telling[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
+    unambiguous = unambiguous_harmonics(known)[:, None]
+    shaft = unambiguous * tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
+    modulation = unambiguous[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
     comb = shaft.sum(axis=0) + modulation.sum(axis=0)
     joint = comb + families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
     stated, place = places // 2, int(joint.argmax())
@@ -86,7 +86,7 @@ def refine_speed(
     return Speed(known.shaft_hz * factor, nats)
 
 
-def telling_harmonics(known: Kinematics) -> Flags:
+def unambiguous_harmonics(known: Kinematics) -> Flags:
     """Which of the shaft's harmonics 1 to SHAFT_HARMONICS (H,) no line of a race can be taken for."""
     harmonic = np.arange(1.0, SHAFT_HARMONICS + 1.0)[:, None]
     orders = np.array([known.bpfo, known.bpfi])

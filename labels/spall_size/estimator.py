@@ -81,9 +81,9 @@ def _answer(
     evidence: Evidence, measured: Measurement, judgement: Judgement, situation: Situation, trust: float
 ) -> SizeEstimate:
     bearing = situation.bearing()
-    factor, doubt = judgement.lag.correction(measured.row)
-    lag = min(measured.lag * factor, evidence.mean.period) / evidence.rate
-    arc_factor, arc_doubt = judgement.arc.correction(measured.row)
+    lag_factor, lag_spread = judgement.lag.correction(measured.row)
+    lag = min(measured.lag * lag_factor, evidence.mean.period) / evidence.rate
+    arc_factor, arc_spread = judgement.arc.correction(measured.row)
     extent = min(measured.lag_arc * arc_factor, LONGEST_EXTENT)
     millimetres = bearing.raceway_radius(evidence.race) * 1e3
     more = math.floor((LONGEST_EXTENT - extent) / bearing.spacing)
@@ -92,12 +92,12 @@ def _answer(
         method=_method(situation),
         race=evidence.race,
         lag=lag,
-        lag_interval=(lag / doubt, lag * doubt),
+        lag_interval=(lag / lag_spread, lag * lag_spread),
         lag_arc=lag * evidence.rate / evidence.mean.period * bearing.spacing,
         extent=extent,
-        extent_interval=(extent / arc_doubt, extent * arc_doubt),
+        extent_interval=(extent / arc_spread, extent * arc_spread),
         extent_mm=extent * millimetres,
-        extent_mm_interval=(extent / arc_doubt * millimetres, extent * arc_doubt * millimetres),
+        extent_mm_interval=(extent / arc_spread * millimetres, extent * arc_spread * millimetres),
         candidates=tuple(extent + turns * bearing.spacing for turns in range(more + 1)),
         pass_period=evidence.mean.period / evidence.rate,
         trust=trust,

@@ -20,9 +20,8 @@ from physics.arrays import Array
 
 def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -> Evidence | None:
     """Evidence of `signal` (T,) for the race whose `pass_period` (s) shows most clearly; None without passes."""
-    found_free = prewhitened(signal)
-    whitened = found_free.residual
-    energy = whitened**2
+    white = prewhitened(signal)
+    energy = white.residual**2
     tracks = {race: track_passes(energy, rate, period) for race, period in pass_period.items()}
     found = {race: track for race, track in tracks.items() if track is not None}
     if not found:
@@ -31,20 +30,20 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
     alignment = aligned(energy, rate, found[race])
     if alignment is None:
         return None
-    mean = mean_pass(signal, whitened, alignment, found[race].period * rate)
+    mean = mean_pass(signal, white.residual, alignment, found[race].period * rate)
     places = candidate_places(mean)
     if places.size < 2:
         return None
     facts = RecordFacts(
-        found[race].score,
-        race == "inner",
-        math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
-        predictability(signal),
-        log_noise_share(signal),
+        score=found[race].score,
+        inner=race == "inner",
+        peakedness=math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
+        predictability=predictability(signal),
+        noise=log_noise_share(signal),
     )
     view = all_pairs(mean, places, facts)
     pairs = Pairs(view.entry, view.exit, view.lag, pair_rows(view))
-    return Evidence(race, rate, float(np.std(signal)), found_free.unit, found[race], alignment, mean, pairs)
+    return Evidence(race, rate, float(np.std(signal)), white.unit, found[race], alignment, mean, pairs)
 
 
 def predictability(signal: Array) -> float:

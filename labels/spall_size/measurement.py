@@ -64,6 +64,10 @@ def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:
 def measure(leading: LeadingPairs, rank: Array) -> Measurement:
     """The pair of the best `rank` (L,) among `leading`."""
     best = int(np.argmax(rank))
-    entry, leave, lag, arc = (float(column[best]) for column in (leading.entry, leading.exit, leading.lag,
-                                                                 leading.lag_arc))  # fmt: skip
-    return Measurement(entry, leave, lag, arc, chosen_row(leading.rows, leading.lag, rank))
+    return Measurement(
+        entry=float(leading.entry[best]),
+        exit=float(leading.exit[best]),
+        lag=float(leading.lag[best]),
+        lag_arc=float(leading.lag_arc[best]),
+        row=chosen_row(leading.rows, leading.lag, rank),
+    )

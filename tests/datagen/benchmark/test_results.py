@@ -2,7 +2,7 @@
 
 import json
 
-from datagen.benchmark.options import Asked
+from datagen.benchmark.options import Options
 from datagen.benchmark.predictions import ModelAnswer, Prediction
 from datagen.benchmark.results import CorpusResults, CorpusScores, NoisyScores, Results
 from datagen.files.plain import plain_json
@@ -16,7 +16,7 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
     scores = CorpusScores("out/a", True, 1, {"none": 1}, {}, {}, {}, {"rule": made_scores(detection_auc=HALF)})
     said = Prediction(3, "x", "b", "none", "", 0, 0, {"rule": ModelAnswer("none", 0.5, 1.0)})
     test = CorpusResults(scores, [said], [NoisyScores(-5.0, 2, scores)])
-    results = Results("out/t", Asked(), {"training_records": 7, "importances": {}}, [test], 1.5)
+    results = Results("out/t", Options(), {"training_records": 7, "importances": {}}, [test], 1.5)
     found = json.loads(plain_json(results.to_dict()))
     assert list(found) == ["train", "options", "training_records", "importances", "tests", "seconds"]
     (held,) = found["tests"]
@@ -32,4 +32,4 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
 
 
 def test_results_without_a_learning_curve_have_none():
-    assert Results("out/t", Asked(), {"importances": {}}, [], 1.0).learning_curve == {}
+    assert Results("out/t", Options(), {"importances": {}}, [], 1.0).learning_curve == {}

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from datagen.benchmark.options import Asked
+from datagen.benchmark.options import Options
 from datagen.benchmark.results import CorpusResults, CorpusScores, Results
 from datagen.drawing.classifier_sheet import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
 from datagen.drawing.style import house_style, with_panels
@@ -74,5 +74,5 @@ def test_every_model_has_its_table_of_confusion(summary_of):
 
 
 def test_the_sheet_of_a_corpus_without_faults_is_a_picture(summary_of):
-    results = Results("out/made", Asked(), {"importances": {}}, [CorpusResults(summary_of(96, 0), [], [])], 1.0)
+    results = Results("out/made", Options(), {"importances": {}}, [CorpusResults(summary_of(96, 0), [], [])], 1.0)
     assert scores_png(results).startswith(b"\x89PNG")

@@ -6,7 +6,7 @@ import pytest
 from labels.features.analysis import analyse
 from labels.features.families import lines_in
 from labels.features.kinematics import bearing_kinematics
-from labels.features.speed import families_term, sharpened, telling_harmonics
+from labels.features.speed import families_term, sharpened, unambiguous_harmonics
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
 
@@ -71,4 +71,4 @@ def test_lines_of_a_race_near_a_multiple_of_the_shaft_are_not_taken_for_it(impul
 def test_harmonics_that_a_line_of_a_race_may_lie_on_tell_no_speed():
     known = NEAR_WHOLE_ORDERS["bpfo of a 6203"][0]
     # 3 and 6 lie 1.7 % below one and two BPFO, 5 1.1 % above BPFI; all others are farther away than 5 %.
-    assert np.flatnonzero(telling_harmonics(known)).tolist() == [0, 1, 3, 6, 7]
+    assert np.flatnonzero(unambiguous_harmonics(known)).tolist() == [0, 1, 3, 6, 7]

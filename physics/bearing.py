@@ -20,12 +20,12 @@ class Bearing:
     `load_deflection` is K of F = K δⁿ for one rolling element between both races (N/mⁿ, δ along the contact normal),
     `exponent` is n: 3/2 for balls, 10/9 for rollers [P14 Eq. 6]. `clearance` is radial: half the diametral play.
     `row_offset` is the stagger of neighbouring rows (rad); None means half a ball spacing [P14 Eq. 2]. A conformity is
-    groove radius over ball diameter; it sets the width of the contacts, never K, and an outer raceway that is a sphere
-    has raceway radius over ball diameter.
+    groove radius over ball diameter; it sets the width of the contacts, never K. That of an outer raceway that is a
+    sphere is raceway radius over ball diameter.
 
-    InvalidParameter unless there are 3 to 200 balls that fit on the pitch circle, 1 or 2 rows, diameters and K above 0,
-    an exponent from 1 to 2, a contact angle from 0 to 60 degrees, a clearance within ±1 mm and conformities from 0.501
-    to 1000.
+    InvalidParameter unless there are 3 to 200 balls that fit on the pitch circle, in 1 or 2 rows. Diameters and K are
+    above 0, the exponent is from 1 to 2, the contact angle from 0 to 60 degrees, the clearance within ±1 mm, and
+    conformities are from 0.501 to 1000.
     """
 
     name: str

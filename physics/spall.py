@@ -35,15 +35,16 @@ class Spall:
       table      `table_angle` (rad, rising, relative to the centre, in the direction of increasing φ) and `table_depth`
                  (m) are a measured surface, over which the ball is rolled.
     `roughness` is the standard deviation (m) of the surface inside the spall, `roughness_values` its samples at equal
-    steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth). A taper of zero is a
-    step without slope, so the film, whose force is c_d times the rate of compression, gives none of the impulse c_d
-    `depth` that it gives over any taper however short: tukey's response to ever shorter tapers does not end in that to
-    none. A taper of 0.001 degrees has their limit. Beside tapers the path follows them to 1e-10 m if they vary as
-    smoothly as drawn ones, else to some 1e-8 m.
+    steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth).
+
+    A taper of zero is a step without slope. The film, whose force is c_d times the rate of compression, gives no
+    impulse there, but c_d `depth` over any taper however short. So tukey's response to ever shorter tapers does not end
+    in that to none; a taper of 0.001 degrees has their limit. Beside tapers the path follows
+    `roughness_values` to 1e-10 m if they vary as smoothly as drawn ones, else to some 1e-8 m.
 
     InvalidParameter unless `race`, `row` and `profile` are as above, the extent is above 0 and π at most, depths are
-    within 10 mm, the tapers fit into the extent, and roughness values (4 or more, 0 at both ends) or table (2 points or
-    more, within the extent) are finite and in order.
+    within 10 mm and the tapers fit into the extent. Roughness values (4 or more, 0 at both ends) or table (2 points or
+    more, within the extent) have to be finite and in order.
     """
 
     race: str

@@ -1,8 +1,8 @@
 """Whether a record shows a running machine at all, before anybody asks what is wrong with it.
 
 No scale is trusted for that: units are misread, and gains forgotten. What stands still has no lines of a shaft or of
-passing balls, a floor as white as the recorder's own, and a level that is either that of the recorder's last digit or
-too low for a machine.
+passing balls, and a floor as white as the recorder's own. Its level is either that of the recorder's last digit or too
+low for a machine.
 """
 
 from __future__ import annotations
@@ -41,8 +41,9 @@ STOPPED, DEAD = "machine stopped", "no signal"
 class Liveness:
     """What a record shows of a running machine.
 
-    RMS `velocity` (m/s) from 10 Hz to 1 kHz without hum, RMS in `digits` of the recorder, `colour` of the floor (dB, 0
-    if white), `evidence` (nats) of a turning shaft or of passing balls, and the `turns` that the shaft would have made.
+    `velocity` is the RMS (m/s) from 10 Hz to 1 kHz without hum, `digits` the RMS in steps of the recorder, `colour` how
+    far the floor is from white (dB). `evidence` (nats) is that of a turning shaft or of passing balls, and `turns` are
+    those that the shaft would have made.
     """
 
     velocity: float

@@ -23,9 +23,11 @@ SMALLEST_CORE = 1.0
 
 @dataclass(frozen=True)
 class RecordFacts:
-    """What pairs of one record share: `score` of the pass track, `inner` race or not, `peakedness` log mean over
-    median energy of the prewhitened signal, `predictability` log variance of the signal over that of its differences,
-    `noise` log share of white noise in it."""
+    """What pairs of one record share: the `score` of its pass track, and whether they cross the `inner` race.
+
+    The others are logarithms: `peakedness` of the mean over the median energy of the prewhitened signal,
+    `predictability` of the signal's variance over that of its differences, `noise` of the share of white noise in it.
+    """
 
     score: float
     inner: bool
@@ -47,9 +49,11 @@ class Pairs:
 
 @dataclass(frozen=True)
 class PairView:
-    """What the columns of pairs are computed from: the `mean` pass, its `summed` energy, the `facts` of the record, the
-    `places` (C,) of its candidates in samples from the anchor, and which of them are `first` and `last` (P,) of each
-    pair, whose `lag` (P,) is in samples."""
+    """What the columns of pairs are computed from: the `mean` pass, its `summed` energy and the `facts` of the record.
+
+    `places` (C,) are those of its candidates in samples from the anchor; `first` and `last` (P,) say which of them make
+    each pair, and `lag` (P,) is its lag in samples.
+    """
 
     mean: MeanPass
     summed: RunningEnergy

@@ -35,9 +35,9 @@ class SizeEstimate:
     """Size of the spall of one record.
 
     `lag` between the events in s, `lag_arc` the arc of the race that a ball covers in it, `extent` of the spall (rad)
-    and `extent_mm` along its race, each with an interval that held the truth in 90 % of the records of the size ladder
-    (its training and validation splits, as stored, of machines that the trees judging them had not seen) that were
-    given a size; of other records it says nothing. `candidates` (rad): the extents that give the same timing, `extent`
+    and `extent_mm` along its race. An interval held the truth in 90 % of the records of the size ladder that were given
+    a size: of its training and validation splits, as stored, of machines that the trees judging them had not seen. Of
+    other records it says nothing. `candidates` (rad): the extents that give the same timing, `extent`
     the first, the others whole ball spacings longer. `event_times` (K, 2), s: both events of each pass that was heard.
     `trust` is 1 less the relative error to be expected of the lag, between 0 and 1. Without an estimate the numbers are
     NaN and `reason` says why.

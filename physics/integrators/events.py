@@ -1,7 +1,7 @@
 """Locating, inside a step, the instant at which a ball starts or stops touching.
 
-Within a step the contact set is frozen, so the trial solution is smooth; between its ends the relative displacement is
-the quintic through displacement, velocity and acceleration at both, and cage angle and depth are known exactly. The
+Within a step the contact set is frozen, so the trial solution is smooth. Between its ends the relative displacement is
+the quintic through displacement, velocity and acceleration at both; cage angle and depth are known exactly. The
 earliest zero of the contact condition is bracketed and found by Newton's method or, where the condition has no slope to
 go by, by the Illinois variant of false position.
 """
@@ -91,8 +91,9 @@ def _mark_suspects(contacts: Contacts, share: float, suspects: Array) -> None:
 def earliest_change(contacts: Contacts, way: Way, halfway: bool, suspects: Array) -> tuple[float, int, float]:
     """Share of the step, number and rate of compression (m/s) of the ball that first contradicts the contact set.
 
-    Suspects are the balls that contradict it at the end of the step, where `press` has left them, if `halfway` those
-    that do there, and those for which `suspects` (G, M) holds the share of the step at which they were seen to, not 0.
+    Suspects are the balls that contradict it at the end of the step, where `press` has left them, and if `halfway` also
+    those that do there. So are those for which `suspects` (G, M) holds the share of the step, above 0, at which they
+    were seen to.
     Returns (2.0, −1, 0.0) if no suspect is confirmed. Leaves `contacts` somewhere inside the step.
     """
     _mark_suspects(contacts, 1.0, suspects)

@@ -2,10 +2,10 @@
 
 Outer ring, resonator and the inner ring's free motion are solved exactly under a contact force that is the polynomial
 through its values at the end of this step and of the last ones; the prediction leaves out the first of these. Past
-values are only of use while nothing breaks: after a change of the contact set, a kink or a step of another length the
-method restarts with steps of the exponential Runge-Kutta method of order 4 until its past no longer holds the break
-itself, where the force starts like a root. Not to be confused with Adams methods for the whole state, whose step the
-resonator would limit.
+values are only of use while nothing breaks. After a change of the contact set, a kink or a step of another length the
+method restarts with steps of the exponential Runge-Kutta method of order 4. It goes on with them until its past no
+longer holds the break itself, where the force starts like a root. Not to be confused with Adams methods for the whole
+state, whose step the resonator would limit.
 
 The state is longer by eleven: order, length and end time of the step before, a mark of its contact set, how many past
 forces are known, and the last three of them, two numbers each.

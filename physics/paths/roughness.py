@@ -28,14 +28,15 @@ def draw_roughness(
 ) -> tuple[float, ...]:
     """Heights (m) at equal steps along a spall of arc `extent` (rad), from entry edge to exit edge [P14 Eq. 17].
 
-    White noise, low-passed with zero phase as a contact of that width averages what is under it, by a Gaussian filter
-    that passes half the amplitude at a wavelength of 1.66 `contact_width` (m), tapered to exactly 0 over one contact
-    width at each edge, and brought to zero mean and the standard deviation `deviation` (m) over the spall; rounded to
-    1e-12 m, so that its decimal text is exact. Steps are an eighth of the contact width or shorter. Without a contact
-    width the noise is not filtered, for a ball that is rolled over it: the step is an eighth of the gap that a ball
-    bridges when it sags by `deviation` into it, √(8 Rb `deviation`), but at least 10 µm. No deviation: no values.
-    InvalidParameter unless the extent is above 0 and π at most, the deviation not below 0 and the contact width above
-    0.
+    White noise, low-passed with zero phase as a contact of `contact_width` (m) averages what is under it: by a Gaussian
+    filter that passes half the amplitude at a wavelength of 1.66 widths. It is tapered to exactly 0 over one width at
+    each edge, and brought to zero mean and the standard deviation `deviation` (m) over the spall. Heights are rounded
+    to 1e-12 m, so that their decimal text is exact. Steps are an eighth of the contact width or shorter.
+
+    Without a contact width the noise is not filtered, for a ball that is rolled over it: the step is an eighth of the
+    gap that a ball bridges when it sags by `deviation` into it, √(8 Rb `deviation`), but at least 10 µm. No deviation:
+    no values. InvalidParameter unless the extent is above 0 and π at most, the deviation not below 0 and the contact
+    width above 0.
     """
     require_between("extent", extent, 0.0, math.pi, "rad")
     require_positive("extent", extent, "rad")

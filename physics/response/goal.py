@@ -1,9 +1,9 @@
 """What a response is to reach, the tolerance of the steps that lead there, and the error that they leave.
 
 The modal method measures every step by the momentum it may be wrong by. What such a push leaves in the resonator's
-acceleration follows from the modes alone, so the accuracy asked for, the size of the signal seen so far and a usual
-number of pushes a second give the tolerance; and the sum of the errors made gives the estimate of the whole, times what
-a pilot shows that this scene makes of them: contact changes can multiply an error.
+acceleration follows from the modes alone. So the accuracy asked for, the size of the signal seen so far and a usual
+number of pushes a second give the tolerance. The sum of the errors made gives the estimate of the whole, times what a
+pilot shows that this scene makes of them: contact changes can multiply an error.
 """
 
 from __future__ import annotations

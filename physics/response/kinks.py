@@ -18,7 +18,7 @@ def known_kinks(scene: Scene, contacts: Contacts, longest: float = 0.0) -> Stops
     """Every crossing of an edge of a path during the scene, in time order.
 
     Where a ball passes from one spall to another within the `longest` step (s), a step ends at both edges of the ridge
-    between them, on which a free ball may touch unseen by steps that begin before it and end behind it.
+    between them: a free ball may touch there unseen by steps that begin before the ridge and end behind it.
     """
     paths = contacts.track.paths
     times, balls, spalls = [np.zeros(0)], [np.zeros(0, dtype=np.int64)], [np.zeros(0, dtype=np.int64)]

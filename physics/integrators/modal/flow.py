@@ -1,9 +1,9 @@
 """The linear part of the motion in modal form: outer ring, resonator, and inner ring on a spring in the balls' place.
 
-Each direction is z' = A z + b r + e w with z = (xi, vi, xo, vo, xr, vr): the spring k and damper c that stand for the
-mean contact belong to A, r is what the true contact force differs from them, w the outer load. In the eigenvectors of A
-every mode is one complex amplitude that turns by itself, so a step of any length costs a few numbers, and what is left
-to integrate numerically is only the small and slow r. The static deflection and the response to loads that turn with
+Each direction is z' = A z + b r + e w with z = (xi, vi, xo, vo, xr, vr). The spring k and damper c that stand for the
+mean contact belong to A; r is what the true contact force differs from them, w the outer load. In the eigenvectors of A
+every mode is one complex amplitude that turns by itself, so a step of any length costs a few numbers. What is left to
+integrate numerically is only the small and slow r. The static deflection and the response to loads that turn with
 the shaft are exact and taken off beforehand.
 """
 

@@ -35,9 +35,11 @@ LATER, BEHIND = 2.0, 1e-4
 
 
 class Ride(NamedTuple):
-    """How a ball rides over a `spall` in a `step` (s): the `arc` (rad) at which it starts, its `travel` (rad, above 0),
-    and the coefficients, from the cube of the share of the step down, of what its compression (m) would be over a
-    smooth race."""
+    """How a ball rides over a `spall` in a `step` (s): from the `arc` (rad) on over its `travel` (rad, above 0).
+
+    `over_race` is what its compression (m) would be over a smooth race: the coefficients of a cubic in the share of the
+    step, that of the cube first.
+    """
 
     spall: int
     step: float

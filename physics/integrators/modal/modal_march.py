@@ -2,9 +2,9 @@
 
 Steps are whole numbers of units, a sixteenth of a sample, or two to twenty-four samples, and shorter than a unit
 where an error asks for it; the samples inside a stride are exact responses of the modes to the step's contact force.
-Everything is measured by one tolerance, the momentum (N s) by which a step or a contact change may be wrong: the length
-of steps from the fourth power in the course of the contact force, how exactly a change is located from the jump of
-force it makes, how finely steps are graded next to it from how fast contact begins or ends.
+Everything is measured by one tolerance, the momentum (N s) by which a step or a contact change may be wrong. The length
+of steps follows from the fourth power in the course of the contact force, and how exactly a change is located from the
+jump of force it makes; next to it steps are graded as finely as contact begins or ends fast.
 """
 
 from __future__ import annotations

@@ -38,8 +38,10 @@ PAIRS = ("RK45", "DOP853")
 
 
 class Tableau(NamedTuple):
-    """An embedded pair: stages `a` (S, S) with the new step as last row, nodes `c` (S,), error weights `e` (2, S), of
-    which the second is zero where one is enough, and the `power` of the step control."""
+    """An embedded pair: stages `a` (S, S) with the new step as last row, nodes `c` (S,) and error weights `e` (2, S).
+
+    The second row of `e` is zero where one is enough; `power` is that of the step control.
+    """
 
     a: Array
     c: Array

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, png_of, with_panels
-from datagen.sizing.aggregation import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
+from datagen.sizing.record_errors import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 from datagen.sizing.scored_record import ScoredRecord
 
 if TYPE_CHECKING:

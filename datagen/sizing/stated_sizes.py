@@ -7,8 +7,8 @@ from pathlib import Path
 
 from datagen.corpus_files.index import read_index
 from datagen.corpus_files.manifest import read_manifest
-from datagen.sizing.aggregation import extent_error
 from datagen.sizing.bearing_intervals import mean_with_interval
+from datagen.sizing.record_errors import extent_error
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes
 

@@ -11,7 +11,8 @@ import numpy as np
 from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.forces import Contacts
-from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow, memory_of_errors, ringing
+from physics.integrators.modal.error_growth import memory_of_errors, ringing
+from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow
 from physics.integrators.modal.memory import RETUNE, SHORTEST, STRIDES, UNITS, Memory, Stride, memory_for
 from physics.integrators.modal.modal_march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.tables import tables_for

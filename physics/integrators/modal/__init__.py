@@ -2,7 +2,8 @@
 
 Read them in this order:
 
-- `flow`: the linear part in modes; `remainder`: what the contact force is more than that
+- `flow`: the linear part in modes; `remainder`: what the contact force is more than that; `error_growth`: what becomes
+  of an error
 - what a step needs: `phi`, `weights` (made of them), `layout` (where they lie), `tables` (of whole units), `between`
   (of all other lengths), `reading`
 - steps: `rk4` knows no step before it, `carried` goes on from its past

@@ -19,10 +19,11 @@ from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.streams import PURPOSES, stream
-from datagen.sizing.aggregation import extent_error, lag_error, noise_level, summarise
+from datagen.sizing.aggregation import summarise
 from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
+from datagen.sizing.record_errors import extent_error, lag_error, noise_level
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records

@@ -24,6 +24,7 @@ from scipy.linalg import expm
 from physics.assembly import assemble
 from physics.contact.forces import ACTIVE, COMPRESSION
 from physics.imperfections import Imperfections, Waviness
+from physics.integrators.modal.error_growth import ringing
 from physics.integrators.modal.flow import (
     AMPLITUDES,
     AXIS,
@@ -33,7 +34,6 @@ from physics.integrators.modal.flow import (
     amplitudes_of,
     linear_flow,
     physical_state,
-    ringing,
 )
 from physics.integrators.modal.judgement import FOURTH_POWER_ERROR, REJECTED, may_shrink
 from physics.integrators.modal.layout import (

@@ -1,0 +1,74 @@
+"""The figures of the scored records: mean errors by level of noise, abstentions and coverage, beside their targets."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
+from datagen.sizing.record_errors import NOISE_LEVELS, RULES, extent_error, lag_error, noise_level, noise_name, silent
+from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_summary import Figure
+from labels.interval import Interval
+
+# What the mean relative error of the lag and of the arc, by level of noise (dB), and the shares are to be.
+LAG_TARGETS = {math.inf: 0.05, 10.0: 0.10}
+ARC_TARGETS = {math.inf: 0.10, 10.0: 0.15}
+NO_ESTIMATE_TARGETS = {math.inf: 0.05}
+ABSTENTION_TARGET = 0.95
+COVERAGE_TARGET = (0.85, 0.95)
+
+
+def figures_of(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
+    """Every figure of the scored records, with its target where it has one."""
+    scorable = [one for one in records if one.scorable]
+    answered = [one for one in scorable if one.found]
+    figures: list[Figure] = []
+    for level in NOISE_LEVELS:
+        name = noise_name(level) + ("" if level == math.inf else " dB")
+        own = [one for one in answered if noise_level(one) == level]
+        asked = [one for one in scorable if noise_level(one) == level]
+        figures.append(_figure(f"lag error, {name}", own, lag_error, LAG_TARGETS.get(level)))
+        arc_target = ARC_TARGETS.get(level) if load_known else None
+        figures.append(_figure(f"arc error, {name}", own, extent_error, arc_target))
+        figures += [_figure(f"arc error by rule: {rule}, {name}", own, error) for rule, error in RULES.items()]
+        figures.append(_figure(f"no estimate, {name}", asked, silent, NO_ESTIMATE_TARGETS.get(level)))
+    eventless = [one for one in records if one.without_event]
+    figures.append(_figure("abstention where there is no event", eventless, silent, ABSTENTION_TARGET, at_least=True))
+    figures.append(_coverage("lag", answered, lambda one: _holds(one.answer.lag_interval, one.truth.lag)))
+    figures.append(_coverage("arc", answered, lambda one: _holds(one.answer.extent_interval, one.truth.extent)))
+    return figures
+
+
+def _holds(interval: tuple[float, float], true: float) -> float:
+    low, high = interval
+    return float(low <= true <= high)
+
+
+def _figure(
+    name: str,
+    records: list[ScoredRecord],
+    value: Callable[[ScoredRecord], float],
+    target: float | None = None,
+    *,
+    at_least: bool = False,
+) -> Figure:
+    values = np.array([value(one) for one in records])
+    kept = np.isfinite(values)
+    if not kept.any():
+        return Figure(name, mean_with_interval([], []), 0)
+    ends = interval_over_bearings(values[kept], bearing_numbers(records)[kept])
+    mean, count = Interval(float(values[kept].mean()), *ends), int(kept.sum())
+    if target is None:
+        return Figure(name, mean, count)
+    met = mean.value >= target if at_least else mean.value <= target
+    return Figure(name, mean, count, f"{'≥' if at_least else '≤'} {target:g}", bool(met))
+
+
+def _coverage(what: str, answered: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
+    plain = _figure(f"90 % interval of the {what} holds the truth", answered, inside)
+    low, high = COVERAGE_TARGET
+    return replace(plain, target=f"{low:g} to {high:g}", met=low <= plain.mean.value <= high)

@@ -1,0 +1,61 @@
+"""Errors of one scored record: of its lag and its arc, by our estimate and by other rules, and its level of noise."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from datagen.sizing.scored_record import CLEAN_DB, ScoredRecord
+
+NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
+
+
+def noise_level(one: ScoredRecord) -> float:
+    """The nominal noise level of a record, dB; infinite if it is clean, which is what 60 dB and more count as."""
+    if not one.truth.snr_db < CLEAN_DB:
+        return math.inf
+    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - one.truth.snr_db))
+
+
+def noise_name(level: float) -> str:
+    """ "clean" or the level in dB."""
+    return "clean" if level == math.inf else f"{level:g}"
+
+
+def lag_error(one: ScoredRecord) -> float:
+    """|error| of the lag over its true value."""
+    return abs(one.answer.lag - one.truth.lag) / one.truth.lag
+
+
+def extent_error(one: ScoredRecord) -> float:
+    """|error| of the extent over its true value."""
+    return abs(one.answer.extent - one.truth.extent) / one.truth.extent
+
+
+def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], float]:
+    return lambda one: abs(arc(one) - one.truth.extent) / one.truth.extent
+
+
+RULES: dict[str, Callable[[ScoredRecord], float]] = {
+    "full size, own lag": _rule(lambda one: one.answer.lag_arc),
+    "half size, own lag": _rule(lambda one: 2.0 * one.answer.lag_arc),
+    "plain envelope lag": _rule(lambda one: one.envelope_arc),
+    "own lag and static release": _rule(lambda one: one.static_arc),
+}
+
+
+def silent(one: ScoredRecord) -> float:
+    """1 if the record was given no size, else 0."""
+    return float(not one.found)
+
+
+def mean_of(values: list[float]) -> float:
+    """Mean of errors; NaN without any."""
+    return float(np.mean(values)) if values else math.nan
+
+
+def median_of(values: list[float]) -> float:
+    """Median of errors; NaN without any."""
+    return float(np.median(values)) if values else math.nan

@@ -207,10 +207,9 @@ def _test(
     rows = _rows(
         folder, labels, benchmark.reading(), benchmark.workers, listener.counting(f"features of {folder.name}")
     )
-    raw = None
     if benchmark.learning.takes_windows:
-        raw = _windows(benchmark, folder, labels, listener)
-    tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, imported, raw)
+        rows = replace(rows, raw=_windows(benchmark, folder, labels, listener))
+    tested = judge(folder, labels, rows, trained.rule, trained.models, benchmark.scoring.reject, imported)
     scores = summarise(tested)
     noise_tells = imported and np.isin(tested.truth, RACES).any()
     levels = benchmark.scoring.levels if noise_tells else ()

@@ -23,13 +23,18 @@ RECORDS_A_TASK = 24
 
 @dataclass(frozen=True)
 class CorpusRows:
-    """The `rows` of records of a corpus, why a record was `rejected`, and how many glitches and shocks it had: by
-    record, where any."""
+    """The `rows` of features of records of a corpus; by record, why it was `rejected` and how many glitches and shocks
+    it had, where any. `raw` are its windows for models that take them instead."""
 
     rows: Rows
     rejected: dict[int, str] = field(default_factory=dict)
     glitches: dict[int, int] = field(default_factory=dict)
     shocks: dict[int, int] = field(default_factory=dict)
+    raw: Rows | None = None
+
+    def asked_for(self, windows: bool) -> Rows:
+        """The raw windows if there are any and they are what is wanted, else the rows of features."""
+        return self.raw if windows and self.raw is not None else self.rows
 
 
 def read_rows(

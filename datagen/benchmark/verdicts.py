@@ -79,12 +79,11 @@ def judge(
     models: list[Model],
     reject: float,
     imported: bool,
-    raw: Rows | None = None,
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels, by what was `found` in them.
 
     A record is rejected where it cannot be judged or shows no running machine, or where what is said of its location
-    has a probability below `reject`; the rule rejects only the former. `raw` are windows for the models that take them.
+    has a probability below `reject`; the rule rejects only the former.
     """
     records = labels["record"].to_numpy(np.int64)
     reasons = np.array([found.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
@@ -93,10 +92,7 @@ def judge(
         for counts in (found.glitches, found.shocks)
     )
     verdicts = [_of_rule(rule, found.rows, records, reasons)]
-    verdicts += [
-        _of_model(model, raw if model.takes_windows and raw is not None else found.rows, records, reasons, reject)
-        for model in models
-    ]
+    verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
     classes = np.array([true_class(row) for _, row in labels.iterrows()], dtype=np.str_)
     return Tested(folder, labels, truth, classes, reasons, glitches, shocks, tuple(verdicts), imported)

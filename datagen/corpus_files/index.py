@@ -8,7 +8,7 @@ import io
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,29 +53,42 @@ def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
     return count
 
 
+class _OpenShard(NamedTuple):
+    """A shard whose rows are being read, in a heap by the `record` of the `row` that comes next; `later` are the rest.
+
+    No two have the same `record` and `shard`, so rows are never compared.
+    """
+
+    record: int
+    shard: int
+    row: Row
+    later: Iterator[Row]
+
+
 def _in_order_of_records(sidecars: Iterator[Sidecar], folder: Path) -> Iterator[Row]:
     """Rows of all shards by record, with only those shards in memory whose records interleave."""
-    open_shards: list[tuple[int, int, Iterator[Row], Row]] = []
+    open_shards: list[_OpenShard] = []
     for sidecar in sidecars:
         if not sidecar.records:
             continue
         # Shards follow one another by the first record they were asked for, which may be one that could not be made.
-        while open_shards and open_shards[0][0] < min(sidecar.settled):
+        while open_shards and open_shards[0].record < min(sidecar.settled):
             yield _next_row(open_shards)
         rows = _rows(sidecar, folder)
-        heapq.heappush(open_shards, (sidecar.records[0], sidecar.shard, rows, next(rows)))
+        heapq.heappush(open_shards, _OpenShard(sidecar.records[0], sidecar.shard, next(rows), rows))
     while open_shards:
         yield _next_row(open_shards)
 
 
-def _next_row(open_shards: list[tuple[int, int, Iterator[Row], Row]]) -> Row:
-    _, shard, rows, row = open_shards[0]
-    following = next(rows, None)
+def _next_row(open_shards: list[_OpenShard]) -> Row:
+    """The row of the lowest record; its shard goes on to the next one, or is done."""
+    first = open_shards[0]
+    following = next(first.later, None)
     if following is None:
         heapq.heappop(open_shards)
     else:
-        heapq.heapreplace(open_shards, (following[0], shard, rows, following))
-    return row
+        heapq.heapreplace(open_shards, first._replace(record=following[0], row=following))
+    return first.row
 
 
 def _rows(sidecar: Sidecar, folder: Path) -> Iterator[Row]:

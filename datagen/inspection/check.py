@@ -20,6 +20,7 @@ from datagen.errors import BadInput
 from datagen.files.netcdf import ONE_AT_A_TIME
 from datagen.inspection.conformity import violations
 from datagen.inspection.manifest_check import differences, recipe_of
+from datagen.inspection.remaking import remake_record
 from datagen.versions import program_hash
 from labels.schema import UNKNOWN
 
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from datagen.corpus import Corpus
-
-LARGEST_DIFFERENCE = 1e-3
 FORBIDDEN = "it cannot be read for lack of permission; change its permissions"
 
 
@@ -225,28 +223,11 @@ class _Check:
         ordered = sorted(self.records)
         with Corpus(self.folder) as corpus:
             for place in np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int)):
-                self._remake_one(corpus, ordered[place])
-
-    def _remake_one(self, corpus: Corpus, record: int) -> None:
-        from datagen.records.record import make_record
-        from datagen.scenarios.scenario import Scenario
-        from physics.outcome import SimulationFailed
-        from physics.rms import relative_error
-
-        stored = corpus.waveform(record).astype(np.float64)
-        try:
-            again = make_record(Scenario.from_json(str(corpus.waveform(record, "scenario")))).acceleration
-        except (BadInput, SimulationFailed) as problem:
-            self.problems.append(f"record {record} cannot be simulated again from its scenario: {problem}")
-            return
-        difference = relative_error(again.astype(np.float64), stored)
-        self.remade.append(record)
-        self.difference = max(self.difference, difference)
-        if not difference <= LARGEST_DIFFERENCE:
-            self.problems.append(
-                f"record {record} simulated again from its scenario differs by {difference:.2g} of its RMS; "
-                f"allowed: {LARGEST_DIFFERENCE:g}"
-            )
+                remade = remake_record(corpus, ordered[place])
+                self.problems += remade.problems
+                if remade.difference is not None:
+                    self.remade.append(ordered[place])
+                    self.difference = max(self.difference, remade.difference)
 
 
 def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[str]]:

@@ -18,14 +18,17 @@ LATEST_REGAIN_SPACINGS = 0.5  # behind the exit
 
 @dataclass(frozen=True)
 class StoredRecord:
-    """What a shard holds of a record: `acceleration` and the `clean` one (T, axes), whether it is `simulated`, the JSON
-    `text` that says how it came about ("" if there is none), and PASS_COLUMNS of its ball passes, if any are known."""
+    """What a shard holds of a record: `acceleration` and the `clean` one (T, axes), and whether it is `simulated`.
+
+    `text` is the JSON that says how it came about ("" if there is none); `passes` are PASS_COLUMNS of its ball passes
+    by name, if any are known.
+    """
 
     acceleration: Array
     clean: Array | None
     simulated: bool
     text: str
-    passes: list[Array] | None
+    passes: dict[str, Array] | None
 
     def contact_stiffness(self) -> tuple[float, float] | None:
         """Hertz factor and exponent from the scenario or the provenance; None if neither holds them."""
@@ -39,8 +42,13 @@ class StoredRecord:
         """The events of the spall of a record with these `labels`; None if its ball passes are not known."""
         if self.passes is None:
             return None
-        leave, release, regain, fall, rise = self.passes
-        return event_truth(release, regain, fall, rise, leave + LATEST_REGAIN_SPACINGS * nominal_period(labels))
+        return event_truth(
+            release=self.passes["release_time"],
+            regain=self.passes["regain_time"],
+            fall=self.passes["fall_time"],
+            rise=self.passes["rise_time"],
+            latest=self.passes["exit_time"] + LATEST_REGAIN_SPACINGS * nominal_period(labels),
+        )
 
 
 def stored_record(file: Any, position: int, record: int) -> StoredRecord:
@@ -49,8 +57,8 @@ def stored_record(file: Any, position: int, record: int) -> StoredRecord:
     text = file.variables.get("scenario" if simulated else "provenance")
     passes = None
     if set(PASS_COLUMNS) <= set(file.variables):
-        own = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
-        passes = [np.asarray(file.variables[name][:], dtype=np.float64)[own] for name in PASS_COLUMNS]
+        of_record = np.flatnonzero(np.asarray(file.variables["pass_record"][:]) == record)
+        passes = {name: np.asarray(file.variables[name][:], dtype=np.float64)[of_record] for name in PASS_COLUMNS}
     return StoredRecord(
         acceleration=np.asarray(file.variables["acceleration"][position], dtype=np.float64),
         clean=None if clean is None else np.asarray(clean[position], dtype=np.float64),

@@ -17,7 +17,13 @@ def test_a_ball_that_regains_contact_half_a_pass_behind_the_exit_or_later_tells_
     leave = 0.01 + PERIOD * np.arange(4)
     late = np.array([-0.1, 0.49, 0.51, 4.9]) * PERIOD
     unknown = np.full(4, np.nan)
-    passes = [leave, leave - 0.3 * PERIOD, leave + late, unknown, unknown]
+    passes = {
+        "exit_time": leave,
+        "release_time": leave - 0.3 * PERIOD,
+        "regain_time": leave + late,
+        "fall_time": unknown,
+        "rise_time": unknown,
+    }
     truth = StoredRecord(np.zeros((5, 1)), None, True, "", passes).truth(LABELS)
     assert truth is not None
     assert truth.last == pytest.approx((leave + late)[:2])
@@ -30,5 +36,5 @@ def test_passes_of_other_records_are_left_out() -> None:
     columns |= {"pass_record": np.array([1, 2, 1]), "acceleration": np.zeros((2, 5, 1))}
     stored = stored_record(SimpleNamespace(variables=columns), 0, 1)
     assert stored.passes is not None
-    assert [column.tolist() for column in stored.passes] == [[0.1, 0.3]] * 5
+    assert [column.tolist() for column in stored.passes.values()] == [[0.1, 0.3]] * 5
     assert stored.text == ""

@@ -1,0 +1,46 @@
+"""Records simulated again from their stored scenarios, and held against what is stored."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from datagen.errors import BadInput
+
+if TYPE_CHECKING:
+    from datagen.corpus import Corpus
+
+LARGEST_DIFFERENCE = 1e-3
+
+
+@dataclass(frozen=True)
+class Remade:
+    """How far a record made again is from the stored one, RMS over its RMS (None: it could not be made), and what
+    `problems` that shows."""
+
+    difference: float | None
+    problems: tuple[str, ...] = ()
+
+
+def remake_record(corpus: Corpus, record: int) -> Remade:
+    """Simulate a `record` of the `corpus` again from its stored scenario."""
+    from datagen.records.record import make_record
+    from datagen.scenarios.scenario import Scenario
+    from physics.outcome import SimulationFailed
+    from physics.rms import relative_error
+
+    stored = corpus.waveform(record).astype(np.float64)
+    try:
+        again = make_record(Scenario.from_json(str(corpus.waveform(record, "scenario")))).acceleration
+    except (BadInput, SimulationFailed) as problem:
+        return Remade(None, (f"record {record} cannot be simulated again from its scenario: {problem}",))
+    difference = relative_error(again.astype(np.float64), stored)
+    if difference <= LARGEST_DIFFERENCE:
+        return Remade(difference)
+    differs = (
+        f"record {record} simulated again from its scenario differs by {difference:.2g} of its RMS; "
+        f"allowed: {LARGEST_DIFFERENCE:g}"
+    )
+    return Remade(difference, (differs,))

@@ -15,9 +15,12 @@ AXES = ("x", "y")
 class Variable:
     """One array of a corpus.
 
-    `dims` and UDUNITS `unit`; `stored` says which records have it: "always" all, "simulated" all simulated ones (an
-    imported recording perhaps), "imported" all imported ones, "changing speed" recordings whose speed is known to
-    change, any other word those whose recipe asks for it by that key of its table `store`. `missing` as for labels.
+    `unit` is in UDUNITS; `missing` as for labels. `stored` says which records have it:
+
+    - "always": all
+    - "simulated": all simulated ones (an imported recording perhaps); "imported": all imported ones
+    - "changing speed": recordings whose speed is known to change
+    - any other word: those whose recipe asks for it by that key of its table `store`
     """
 
     name: str

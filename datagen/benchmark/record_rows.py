@@ -33,8 +33,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Row:
-    """One row: `values` (F,) of the feature table, whether it is `noisy` (noise was added to learn from), the `reason`
-    why what it shows must not be classified ("" if it may), and which `axis` of its record it is of."""
+    """One row: `values` (F,) of the feature table, of one window of one `axis` of a record.
+
+    It is `noisy` if noise was added to learn from. `reason` says why what it shows must not be classified, "" if it
+    may.
+    """
 
     values: Array
     noisy: bool

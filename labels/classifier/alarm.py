@@ -9,8 +9,8 @@ which their median spectral kurtosis measures.
 Whatever the probability, a record is called faulty too where a race's lines stand higher over the floor than in nearly
 all healthy records. Learners want impulsiveness beside lines, and a spall heard through a narrow band has little.
 
-Both are set for the mean of a record's axes, as for a single one, and lie higher for the vote of several axes, in which
-the one that says most counts twice, by as much as that vote raises healthy records.
+Both are set for the mean of a record's axes, as for a single one. In the vote of several axes the one that says most
+counts twice, so for that both lie higher, by as much as it raises healthy records.
 """
 
 from __future__ import annotations

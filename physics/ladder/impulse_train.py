@@ -37,8 +37,8 @@ MEAN_TIMES = 64
 class Edges(NamedTuple):
     """Steps of force on the outer ring, E of them.
 
-    `time` (s) of their middles, `row` and `ball` from 1, `angle` of the ball (rad), `change` of its load (N) over the
-    `ramp` (s), and whether it is all of its load that the ball loses or takes again (`unloads`).
+    `time` (s) is that of their middles; `row` and `ball` count from 1, `angle` is the ball's (rad). Its load changes by
+    `change` (N) over the `ramp` (s); with `unloads` that is all of it, lost or taken again.
     """
 
     time: Array

@@ -10,5 +10,5 @@ Read them in this order:
 - how long they are: `judgement`, `bumps` (what a step does not see of a path), `choice`
 - contact: `changes` (who may change sides), `location` (when), `approach` (the way there), `grazing` (touches between
   the instants of a step), `tension` (how long balls touch, and how long the film pulls)
-- `memory` (what a march remembers), `modal_march`, `output` (what it writes)
+- `memory` (what a march remembers), `modal_march`, `samples` (what it writes)
 """

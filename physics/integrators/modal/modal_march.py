@@ -49,9 +49,9 @@ from physics.integrators.modal.memory import (
     Memory,
     Stride,
 )
-from physics.integrators.modal.output import keep, record, write_inside
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.modal.rk4 import step_modal_rk4
+from physics.integrators.modal.samples import keep, record, write_inside
 from physics.integrators.modal.tension import add_contact_time
 from physics.integrators.output import (
     DONE,

@@ -25,7 +25,7 @@ FOLDERS = {
 }
 WORK = (
     "datagen.runs.run.Run.make",
-    "datagen.cards.report.corpus_facts",
+    "datagen.cards.corpus_report.corpus_facts",
     "datagen.sizing.corpus_run.score_sizes",
     "datagen.paper.book.import_module",
     "datagen.charts.measure.measure",

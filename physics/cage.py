@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
+from physics._jit import njit_inner, njit_lean
+from physics.arrays import Array
 from physics.checks import require, require_between, require_finite, require_not_negative, require_positive
 
 KNOTS_PER_CORRELATION_TIME = 4
@@ -20,7 +22,7 @@ INTERPOLATION_RULE = (
     "cage speed = nominal_speed * (1 - mean_slip + s(t)); cage angle = phi_c0 + integral of the cage speed from t = 0"
 )
 # Newton's method converges quadratically: a step this small, of the duration, is the last that moves anything.
-CROSSING_SHARE = 1e-11
+CROSSING_SHARE, MOST_CROSSING_STEPS = 1e-11, 30
 
 
 @dataclass(frozen=True)
@@ -111,22 +113,64 @@ def crossing_times(
 ) -> NDArray[np.float64]:
     """Times (N,) at which a rising piecewise polynomial over [0, duration] equals `target` (N,).
 
-    Newton's method from linear interpolation between samples; outside [0, duration] the path goes on at `mean_speed`.
+    Outside [0, duration] the path goes on at `mean_speed`.
     """
-    samples = np.linspace(0.0, duration, 4 * polynomial.c.shape[1] + 1)
-    values = polynomial(samples)
-    time = np.interp(target, values, samples)
-    slope = polynomial.derivative()
-    for _ in range(8):
-        nearer = np.clip(time - (polynomial(time) - target) / slope(time), 0.0, duration)
-        moved, time = np.abs(nearer - time).max(initial=0.0), nearer
+    time = np.array(target, dtype=np.float64)
+    _cross(np.ascontiguousarray(polynomial.c), polynomial.x, mean_speed, duration, time)
+    return time
+
+
+@njit_lean
+def _cross(coefficients: Array, breaks: Array, mean_speed: float, duration: float, targets: Array) -> None:
+    """Turn `targets` (N,) into the times at which the pieces with these `coefficients` (degree + 1, I) from one of the
+    `breaks` (I + 1,) to the next reach them."""
+    first, last = _path_at(coefficients, breaks, 0.0), _path_at(coefficients, breaks, duration)
+    for k in range(targets.size):
+        target = targets[k]
+        if target < first:
+            targets[k] = (target - first) / mean_speed
+        elif target > last:
+            targets[k] = duration + (target - last) / mean_speed
+        else:
+            targets[k] = min(max(_crossing(coefficients, breaks, duration, target), 0.0), duration)
+
+
+@njit_inner
+def _crossing(coefficients: Array, breaks: Array, duration: float, target: float) -> float:
+    """Newton's method in the last piece that begins at or below the `target`."""
+    degree = coefficients.shape[0] - 1
+    piece, behind = 0, coefficients.shape[1]
+    while behind - piece > 1:
+        middle = (piece + behind) // 2
+        if coefficients[degree, middle] <= target:
+            piece = middle
+        else:
+            behind = middle
+    width, since = breaks[piece + 1] - breaks[piece], 0.0
+    for _ in range(MOST_CROSSING_STEPS):
+        value, slope = _value_and_slope(coefficients, piece, since)
+        nearer = min(max(since + (target - value) / slope, 0.0), width)
+        moved, since = abs(nearer - since), nearer
         if moved <= CROSSING_SHARE * duration:
             break
-    before = target < values[0]
-    after = target > values[-1]
-    time[before] = (target[before] - values[0]) / mean_speed
-    time[after] = duration + (target[after] - values[-1]) / mean_speed
-    return time
+    return breaks[piece] + since
+
+
+@njit_inner
+def _path_at(coefficients: Array, breaks: Array, time: float) -> float:
+    piece = coefficients.shape[1] - 1
+    while piece > 0 and breaks[piece] > time:
+        piece -= 1
+    return _value_and_slope(coefficients, piece, time - breaks[piece])[0]
+
+
+@njit_inner
+def _value_and_slope(coefficients: Array, piece: int, since: float) -> tuple[float, float]:
+    value, slope = 0.0, 0.0
+    for power in range(coefficients.shape[0]):
+        slope = slope * since + value
+        value = value * since + coefficients[power, piece]
+    return value, slope
 
 
 @lru_cache(maxsize=16)

@@ -27,8 +27,9 @@ from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import race_depth
 from physics.response.kinks import known_kinks
-from physics.response.resampling import decimate, read_at
+from physics.response.resampling import decimate, read_at, read_repeated
 from physics.response.single_march import empty_output
+from physics.rms import stretches_apart
 from physics.scene import Scene
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
@@ -103,6 +104,8 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     tables_for(flow, 1.0 / RATE)
     carried(scene, time)
     read_at(still, time)
+    read_repeated(still, 1, 1.0, 1)
+    stretches_apart(still, 0, 0, 1)
     decimate(mode_accelerations([SensorMode(RATE / 8.0, 0.1)], still, still, still, RATE), 2)
     stiffness_series(scene, 1.0 / RATE, SAMPLES)
     stiffness_trace(scene, time)

@@ -18,8 +18,8 @@ from physics.integrators.output import Output
 from physics.paths.profile import is_rough
 from physics.response.adaptive import PILOT_SAMPLES, respond_accurately
 from physics.response.modal_case import March
-from physics.response.resampling import POINTS, read_at
-from physics.rms import rms
+from physics.response.resampling import read_at, read_repeated
+from physics.rms import rms, stretches_apart
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import ContactChanges, Trace
@@ -30,7 +30,7 @@ FINENESS = 4
 # A record must hold this many periods, or repeating spares too little; fewer where a spall is rough and steps short.
 FEWEST_PERIODS, FEWEST_ROUGH_PERIODS = 20, 12
 # Of the accuracy asked for: what the march may be wrong by, and how far its last period may be from all later ones.
-MARCHED, REPEATED = 0.9, 0.3
+MARCHED, REPEATED = 0.85, 0.4
 # A spall that a ball passes in fewer samples than this leaves spikes that lie between the samples that are read.
 FEWEST_SAMPLES_A_PASS = 2.0
 # Corners of the acceleration, where contacts change, are not read to a finer accuracy than this.
@@ -92,9 +92,6 @@ def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float,
     """The trace of `samples` at `rate` (Hz) that was `marched` at another rate, its last period again and again."""
     period, duration = period_of(scene), samples / rate
     time, end = np.arange(samples) / rate, marched.time.size / marching.cells * period
-    place = np.where(time < end, time, end - period + (time - end) % period) * (marching.cells / period)
-    # Points beyond the last sample are those of the period's beginning.
-    following = marched.acceleration[marched.time.size - marching.cells :][:POINTS]
     last = marched.acceleration[-marching.cells :]
     left = marching.away(marched.acceleration) / rms(last) if end < duration and last.any() else 0.0
     return replace(
@@ -102,7 +99,7 @@ def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float,
         rate=rate,
         time=time,
         method=METHOD if end < duration else marched.method,
-        acceleration=read_at(np.concatenate([marched.acceleration, following]), place),
+        acceleration=read_repeated(marched.acceleration, marching.cells, marching.cells / (period * rate), samples),
         changes=_repeated_changes(scene, marched.changes, end, duration),
         error_estimate=math.hypot(marched.error_estimate, left, _reading_error(last)),
     )
@@ -134,25 +131,30 @@ class _Repeating:
             output = march.go_on(grid._replace(samples=marched))
             output = output._replace(acceleration=output.acceleration[:marched])
             size = rms(output.acceleration[-self.cells :])
-            if count % 2 == 0 and self.away(output.acceleration) <= max(self.share * size, self.least):
+            if self.away(output.acceleration) <= max(self.share * size, self.least):
                 break
         return output
 
     def away(self, acceleration: Array) -> float:
-        """How far (m/s², RMS) the last of an even number of periods is estimated to be from all later ones.
+        """How far (m/s², RMS) the last of the periods so far is estimated to be from all later ones.
 
         What is left of the transient, were it to fall from now on as it did in the last half of the `acceleration`
         (T, 2), or no faster than the slowest mode decays. The last period is held against all others of that half: a
         response that repeats itself only after two or more periods differs from its neighbour.
         """
-        periods = acceleration.reshape(-1, self.cells, 2)
-        half = periods.shape[0] // 2
-        apart = max(rms(periods[-1] - other) for other in periods[half - 1 : -1])
-        before = rms(periods[half - 1] - periods[half // 2 - 1]) if half > 1 else math.inf
+        last = acceleration.shape[0] // self.cells - 1
+        half = (last + 1) // 2
+        middle = last - half
+        apart = max(self._apart(acceleration, last, other) for other in range(middle, last))
+        before = self._apart(acceleration, middle, (middle + 1) // 2 - 1) if middle > 0 else math.inf
         if apart == 0.0 or apart >= before:
             return math.inf if apart > 0.0 else 0.0
         fallen = max(apart / before, math.exp(-self._decay * half))
         return apart * fallen / (1.0 - fallen) if fallen < 1.0 else math.inf
+
+    def _apart(self, acceleration: Array, one: int, other: int) -> float:
+        """How far (m/s², RMS) two periods of the `acceleration` (T, 2) are apart."""
+        return stretches_apart(acceleration, one * self.cells, other * self.cells, self.cells)
 
 
 def _repeated_changes(scene: Scene, changes: ContactChanges, end: float, duration: float) -> ContactChanges:

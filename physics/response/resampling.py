@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from physics._jit import njit, njit_lean
+from physics._jit import njit_inline, njit_lean
 from physics.arrays import Array
 
 # Points of the polynomial through a place's neighbours: with 25 samples a period it is right to 1e-6.
@@ -82,22 +82,46 @@ def read_at(signal: Array, place: Array) -> Array:
     return values
 
 
-@njit
+@njit_lean
 def _read_at(signal: Array, place: Array, values: Array) -> None:
-    share = np.zeros(POINTS)
     for k in range(place.size):
-        first = min(max(int(place[k]) - POINTS // 2 + 1, 0), signal.shape[0] - POINTS)
-        x = place[k] - first
-        product = 1.0
+        _read_one(signal, place[k], signal.shape[0], values, k)
+
+
+def read_repeated(signal: Array, period: int, pace: float, count: int) -> Array:
+    """Values (count, C) at the places k · `pace` of `signal` (T, C), whose last `period` samples, 6 or more, go on and
+    on."""
+    values = np.zeros((count, signal.shape[1]))
+    _read_repeated(np.ascontiguousarray(signal), period, pace, values)
+    return values
+
+
+@njit_lean
+def _read_repeated(signal: Array, period: int, pace: float, values: Array) -> None:
+    end = signal.shape[0]
+    for k in range(values.shape[0]):
+        place = k * pace
+        if place >= end:
+            place -= math.floor((place - end) / period + 1.0) * period
+        _read_one(signal, place, period, values, k)
+
+
+@njit_inline
+def _read_one(signal: Array, place: float, period: int, values: Array, row: int) -> None:
+    """Fill one `row` of `values` (K, C): what `signal` (T, C) is at a `place`; points beyond its end are those a
+    `period` earlier, if that is less than the signal."""
+    last = signal.shape[0]
+    first = max(int(place) - POINTS // 2 + 1, 0)
+    if period >= last:
+        first = min(first, last - POINTS)
+    a = place - first
+    b, c, d, e, f = a - 1.0, a - 2.0, a - 3.0, a - 4.0, a - 5.0
+    ab, ef = a * b, e * f
+    abc, d_to_f = ab * c, d * ef
+    shares = (b * c * d_to_f, a * c * d_to_f, ab * d_to_f, abc * ef, abc * d * f, abc * d * e)
+    for channel in range(signal.shape[1]):
+        total = 0.0
         for j in range(POINTS):
-            share[j] = product * SHARES[j]
-            product *= x - j
-        product = 1.0
-        for j in range(POINTS - 1, -1, -1):
-            share[j] *= product
-            product *= x - j
-        for channel in range(signal.shape[1]):
-            total = 0.0
-            for j in range(POINTS):
-                total += share[j] * signal[first + j, channel]
-            values[k, channel] = total
+            point = first + j
+            total += SHARES[j] * shares[j] * signal[point if point < last else point - period, channel]
+        values[row, channel] = total

@@ -22,7 +22,7 @@ def ringing(flow: LinearFlow, duration: float) -> float:
     """
     sums = []
     for axis in range(2):
-        rate, kick, read = (complex_modes(flow, values, axis) for values in (flow.rate, flow.kick, flow.read[OUTPUT]))
+        rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[OUTPUT]), axis)
         rate, share = np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
         # Re(s e^λt) Re(s' e^λ't), integrated from 0 to ∞, for all pairs of modes.
         same = share[:, None] * share / (rate[:, None] + rate)
@@ -40,9 +40,7 @@ def memory_of_errors(flow: LinearFlow, swing: Array) -> float:
     """
     longest = 0.0
     for axis in range(2):
-        rate, kick, read = (
-            complex_modes(flow, values, axis) for values in (flow.rate, flow.kick, flow.read[DISPLACEMENT])
-        )
+        rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[DISPLACEMENT]), axis)
         fed = 0.5 * swing[axis] * np.abs(kick * read) > FEEDING * np.abs(rate.real)
         slowest = float(np.abs(rate.real[fed]).min(initial=math.inf))
         longest = max(longest, 1.0 / slowest if slowest > 0.0 else math.inf)

@@ -246,11 +246,12 @@ def physical_state(flow: LinearFlow, time: float, amplitudes: Array, state: Arra
 
 def slowest_decay(flow: LinearFlow) -> float:
     """Rate (1/s) at which the amplitude of the mode falls that falls slowest; 0 if one does not."""
-    return min(float(np.abs(complex_modes(flow, flow.rate, axis).real).min()) for axis in range(2))
+    return min(float(np.abs(complex_modes(flow, (flow.rate,), axis).real).min()) for axis in range(2))
 
 
-def complex_modes(flow: LinearFlow, values: Array, axis: int) -> NDArray[np.complex128]:
-    """Of the real numbers `values` (12,) those of one direction as complex ones, one a mode."""
-    pairs = values[axis * AXIS : (axis + 1) * AXIS].reshape(PAIRS, 2)
+def complex_modes(flow: LinearFlow, values: tuple[Array, ...], axis: int) -> NDArray[np.complex128]:
+    """Of the real numbers `values` (N times 12) those of one direction as complex ones (N, modes)."""
+    pairs = np.array(values)[:, axis * AXIS : (axis + 1) * AXIS].reshape(-1, PAIRS, 2)
     swinging = flow.twist[axis * PAIRS : (axis + 1) * PAIRS] > 0.0
-    return np.concatenate([pairs[swinging] @ np.array([1.0, 1j]), pairs[~swinging].ravel()])
+    upper, decaying = pairs[:, swinging], pairs[:, ~swinging]
+    return np.concatenate([upper[:, :, 0] + 1j * upper[:, :, 1], decaying.reshape(len(values), -1)], axis=1)

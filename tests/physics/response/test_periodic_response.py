@@ -11,7 +11,7 @@ from physics.imperfections import Imperfections, Waviness
 from physics.integrators.method_table import MODAL
 from physics.request import Accurate
 from physics.response.periodic import METHOD, balls_a_period, period_of
-from physics.response.resampling import read_at
+from physics.response.resampling import read_at, read_repeated
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
 from physics.trace import Kept
@@ -129,3 +129,14 @@ def test_a_polynomial_of_degree_five_is_read_exactly_anywhere():
     assert read_at(rows, place) == pytest.approx(expected, rel=1e-10, abs=1e-6)
     with pytest.raises(ValueError, match="5 samples"):
         read_at(rows[:5], place)
+
+
+def test_what_goes_on_and_on_is_read_from_its_last_period_even_across_its_end():
+    beginning, period, pace = 5, 8, 0.7
+    on_and_on = np.sin(2.0 * np.pi / period * np.arange(200))
+    # A beginning of its own, then whole periods; of them only two are given.
+    longer = np.column_stack([on_and_on, np.arange(200.0) % period])
+    longer[:beginning] += 3.0
+    known = longer[: beginning + 3 + 2 * period]
+    expected = read_at(longer, pace * np.arange(250))
+    assert read_repeated(known, period, pace, 250) == pytest.approx(expected, abs=1e-12)  # rounding

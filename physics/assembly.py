@@ -24,6 +24,7 @@ from physics.contact.track import (
     SPEED,
     WAVE_COEFFICIENTS,
     Track,
+    wave_columns,
 )
 from physics.imperfections import Waviness
 from physics.paths.depth_path import DepthPath, paths_of
@@ -126,13 +127,13 @@ def _cage_arrays(cages: tuple[CagePath, ...]) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=TABLES_KEPT)
 def _wave_cells(waves: tuple[Waviness, ...], balls: int) -> Array:
-    """Polynomials (2, C, 12 B) of the waves over C cells a spacing of B `balls`, as `Track` keeps them; read only.
+    """Polynomials (2, C, 6 S) of the waves over C cells a spacing of the `balls`, as `Track` keeps them; read only.
 
     They have the waves' values, slopes and curvatures at both ends of their cells, so that nothing jumps there that
     could ring a mode.
     """
     if not waves:
-        return np.zeros((2, 0, 2 * WAVE_COEFFICIENTS * balls))
+        return np.zeros((2, 0, WAVE_COEFFICIENTS * wave_columns(balls)))
     count = balls * -(-WAVINESS_CELLS_PER_WAVE * max(8, *(wave.order for wave in waves)) // balls)
     nodes = 2.0 * np.pi * np.arange(count + 1) / count
     value, slope, bend = np.zeros((3, 2, count + 1))
@@ -155,4 +156,5 @@ def _wave_cells(waves: tuple[Waviness, ...], balls: int) -> Array:
         axis=2,
     )
     of_cell = cells.reshape(2, balls, -1, WAVE_COEFFICIENTS).transpose(0, 2, 3, 1)
-    return np.concatenate([of_cell, of_cell], axis=3).reshape(2, -1, 2 * WAVE_COEFFICIENTS * balls)
+    room = np.zeros((2, of_cell.shape[1], WAVE_COEFFICIENTS, wave_columns(balls) - 2 * balls))
+    return np.concatenate([of_cell, of_cell, room], axis=3).reshape(2, of_cell.shape[1], -1)

@@ -104,7 +104,7 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     tables_for(flow, 1.0 / RATE)
     carried(scene, time)
     read_at(still, time)
-    read_repeated(still, 1, 1.0, 1)
+    read_repeated(still, 6, 1.0, 1)
     stretches_apart(still, 0, 0, 1)
     decimate(mode_accelerations([SensorMode(RATE / 8.0, 0.1)], still, still, still, RATE), 2)
     stiffness_series(scene, 1.0 / RATE, SAMPLES)

@@ -24,8 +24,10 @@ from physics.contact.power import power
 from physics.contact.track import (
     CAGE,
     FIRST_BALL,
+    SHORT_ROW_COLUMNS,
     SIGN,
     SPEED,
+    WAVE_COEFFICIENTS,
     Track,
     cage_at,
     hindmost,
@@ -49,6 +51,10 @@ LANES = 4
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
 FRAME_COLUMNS = 3
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(FRAME_COLUMNS)
+
+
+# A cell of the waviness and the first column of its table that a row of balls reads.
+Cell = tuple[int, np.uint64]
 
 
 class Law(NamedTuple):
@@ -79,6 +85,17 @@ def set_time(contacts: Contacts, time: float) -> None:
 @njit_inline
 def move_to(contacts: Contacts, time: float) -> None:
     """Bring what depends on time alone to `time` (s): the cages' frames, the floor under each ball and its rate."""
+    _move_to(contacts, time, True)
+
+
+@njit_inline
+def stand_at(contacts: Contacts, time: float) -> None:
+    """`move_to` for what rests: waves add nothing to the rates of the floors."""
+    _move_to(contacts, time, False)
+
+
+@njit_inline
+def _move_to(contacts: Contacts, time: float, rates: bool) -> None:
     balls, frames, track = contacts.balls, contacts.frames, contacts.track
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
@@ -88,7 +105,7 @@ def move_to(contacts: Contacts, time: float) -> None:
         frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE] = cosine_sine(angle)
         frames[cage, FRAME_SPEED] = speed
         if track.waviness.shape[1] > 0:
-            _add_waviness(contacts, cage, angle, speed, time)
+            _add_waviness(contacts, cage, angle, speed, time, rates)
         for spall in range(track.spalls.shape[0]):
             if track.spalls[spall, CAGE] == cage:
                 _add_spall(contacts, cage, spall, angle, speed, time)
@@ -109,30 +126,97 @@ def _add_spall(contacts: Contacts, cage: int, spall: int, angle: float, speed: f
 
 
 @njit_inner
-def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, time: float) -> None:
-    """Both races' waves under every ball: those of a row are whole spacings apart, at the same place within theirs."""
+def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, time: float, rates: bool) -> None:
+    """Both races' waves under every ball, with their `rates` or without: the balls of a row are whole spacings apart,
+    at the same place within theirs."""
     balls, track, waves = contacts.balls, contacts.track, contacts.track.waviness
-    row = track.row_size
+    row, columns = track.row_size, np.uint64(waves.shape[2] // WAVE_COEFFICIENTS)
     pace = speed * waves_per_radian(track)
     inner_pace = pace - track.shaft_speed * waves_per_radian(track)
-    # Unsigned places need no look at their sign, so that the loop over the balls takes vectors.
-    r4, r3, r2 = np.uint64(2 * row), np.uint64(4 * row), np.uint64(6 * row)
-    r1, r0 = np.uint64(8 * row), np.uint64(10 * row)
     for first in range(0, balls.shape[2] - row + 1, row):
         outer, outer_spacing, x = wave_cell(track, angle + balls[cage, PLACE, first])
         inner, inner_spacing, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
-        for j in range(np.uint64(row)):
-            a, b, here = np.uint64(outer_spacing) + j, np.uint64(inner_spacing) + j, np.uint64(first) + j
-            a5, a4, a3 = waves[0, outer, a], waves[0, outer, a + r4], waves[0, outer, a + r3]
-            a2, a1, a0 = waves[0, outer, a + r2], waves[0, outer, a + r1], waves[0, outer, a + r0]
-            b5, b4, b3 = waves[1, inner, b], waves[1, inner, b + r4], waves[1, inner, b + r3]
-            b2, b1, b0 = waves[1, inner, b + r2], waves[1, inner, b + r1], waves[1, inner, b + r0]
-            outer_depth = ((((a5 * x + a4) * x + a3) * x + a2) * x + a1) * x + a0
-            inner_depth = ((((b5 * z + b4) * z + b3) * z + b2) * z + b1) * z + b0
-            balls[cage, FLOOR, here] += outer_depth + inner_depth
-            outer_slope = (((5.0 * a5 * x + 4.0 * a4) * x + 3.0 * a3) * x + 2.0 * a2) * x + a1
-            inner_slope = (((5.0 * b5 * z + 4.0 * b4) * z + 3.0 * b3) * z + 2.0 * b2) * z + b1
-            balls[cage, FALL, here] += outer_slope * pace + inner_slope * inner_pace
+        # Unsigned places need no look at their sign, and a number of columns known to the compiler no look at whether
+        # what is read is what was written: only so do the loops over the few balls of a row take vectors.
+        here = np.uint64(cage), np.uint64(first), np.uint64(row)
+        a, b = (outer, np.uint64(outer_spacing)), (inner, np.uint64(inner_spacing))
+        if columns == SHORT_ROW_COLUMNS:
+            _add_floors(balls, waves, here, a, b, x, z, SHORT_ROW_COLUMNS)
+            if rates:
+                _add_rates(balls, waves, here, a, b, x, z, pace, inner_pace, SHORT_ROW_COLUMNS)
+        else:
+            _add_floors(balls, waves, here, a, b, x, z, columns)
+            if rates:
+                _add_rates(balls, waves, here, a, b, x, z, pace, inner_pace, columns)
+
+
+@njit_pasted
+def _add_floors(
+    balls: Array,
+    waves: Array,
+    here: tuple[np.uint64, np.uint64, np.uint64],
+    outer: Cell,
+    inner: Cell,
+    x: float,
+    z: float,
+    columns: np.uint64,
+) -> None:
+    """Add the waves in a cell of each race, at the places `x` and `z` in it, to the floors of the balls of a row:
+    `here` are its cage, its first column and its size, `columns` those that a power has in the table."""
+    cage, first, row = here
+    second, third, fourth = columns, columns + columns, columns + columns + columns
+    fifth = third + third
+    sixth = fifth + columns
+    x2, z2 = x * x, z * z
+    x3, x4, z3, z4 = x2 * x, x2 * x2, z2 * z, z2 * z2
+    x5, z5 = x4 * x, z4 * z
+    for j in range(row):
+        a, b = outer[1] + j, inner[1] + j
+        upper = (waves[0, outer[0], a] * x5 + waves[0, outer[0], a + second] * x4) + (
+            waves[0, outer[0], a + third] * x3 + waves[0, outer[0], a + fourth] * x2
+        )
+        lower = (waves[0, outer[0], a + fifth] * x + waves[0, outer[0], a + sixth]) + (
+            waves[1, inner[0], b + fifth] * z + waves[1, inner[0], b + sixth]
+        )
+        other = (waves[1, inner[0], b] * z5 + waves[1, inner[0], b + second] * z4) + (
+            waves[1, inner[0], b + third] * z3 + waves[1, inner[0], b + fourth] * z2
+        )
+        balls[cage, FLOOR, first + j] += (upper + lower) + other
+
+
+@njit_pasted
+def _add_rates(
+    balls: Array,
+    waves: Array,
+    here: tuple[np.uint64, np.uint64, np.uint64],
+    outer: Cell,
+    inner: Cell,
+    x: float,
+    z: float,
+    pace: float,
+    inner_pace: float,
+    columns: np.uint64,
+) -> None:
+    """As `_add_floors`, the rates of the waves to those of the floors; the balls pass `pace` and `inner_pace` cells a
+    second."""
+    cage, first, row = here
+    second, third, fourth = columns, columns + columns, columns + columns + columns
+    fifth = third + third
+    x2, z2 = x * x, z * z
+    x5, z5 = 5.0 * pace * x2 * x2, 5.0 * inner_pace * z2 * z2
+    x4, z4 = 4.0 * pace * x2 * x, 4.0 * inner_pace * z2 * z
+    x3, z3 = 3.0 * pace * x2, 3.0 * inner_pace * z2
+    x2, z2 = 2.0 * pace * x, 2.0 * inner_pace * z
+    for j in range(row):
+        a, b = outer[1] + j, inner[1] + j
+        upper = (waves[0, outer[0], a] * x5 + waves[0, outer[0], a + second] * x4) + (
+            waves[0, outer[0], a + third] * x3 + waves[0, outer[0], a + fourth] * x2
+        )
+        lower = waves[0, outer[0], a + fifth] * pace + waves[1, inner[0], b + fifth] * inner_pace
+        other = (waves[1, inner[0], b] * z5 + waves[1, inner[0], b + second] * z4) + (
+            waves[1, inner[0], b + third] * z3 + waves[1, inner[0], b + fourth] * z2
+        )
+        balls[cage, FALL, first + j] += (upper + lower) + other
 
 
 @njit_inline

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from physics._jit import njit_inline
 from physics.arrays import Array
 from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
@@ -16,6 +18,8 @@ FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, ENTRY, LEAVE, CELL, ROUGH, RELIEF = range(
 SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
 # Of the polynomial of a cell of the waviness.
 WAVE_COEFFICIENTS = 6
+# Columns that each of these has in the table: room for a row of up to 16 balls twice. Longer rows have twice theirs.
+SHORT_ROW_COLUMNS = np.uint64(32)
 
 TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
 
@@ -26,9 +30,9 @@ class Track(NamedTuple):
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 3) first knot (s), knots per second and
     seconds per knot.
     Spalls (D, 18) with as many `paths`.
-    `waviness` (2, C, 12 B): polynomials of degree five of the outer and inner race over C equal cells of each of the B
-    spacings of a row; of every cell the fifth powers of the spacings, twice round so that B of them follow any one,
-    then the fourth ones and so on. C is 0 for smooth races.
+    `waviness` (2, C, 6 S): polynomials of degree five of the outer and inner race over C equal cells of each of the B
+    spacings of a row; of every cell the fifth powers of the spacings, twice round so that B of them follow any one, in
+    the first of S = `wave_columns` columns, then the fourth ones and so on. C is 0 for smooth races.
     """
 
     cage: Array
@@ -39,6 +43,11 @@ class Track(NamedTuple):
     row_size: int
     spacing: float
     shaft_speed: float
+
+
+def wave_columns(balls: int) -> int:
+    """How many columns each power of a cell of the waviness has, for rows of so many `balls`."""
+    return max(int(SHORT_ROW_COLUMNS), 2 * balls)
 
 
 @njit_inline
@@ -69,10 +78,10 @@ def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[
 def wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     """Depth (m) and slope (m/rad) of one race's waves at an `angle` (rad) fixed to it."""
     cell, spacing, x = wave_cell(track, angle)
-    depth, slope = 0.0, 0.0
+    depth, slope, columns = 0.0, 0.0, track.waviness.shape[2] // WAVE_COEFFICIENTS
     for power in range(WAVE_COEFFICIENTS):
         slope = slope * x + depth
-        depth = depth * x + track.waviness[race, cell, spacing + power * 2 * track.row_size]
+        depth = depth * x + track.waviness[race, cell, spacing + power * columns]
     return depth, slope * waves_per_radian(track)
 
 

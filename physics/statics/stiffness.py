@@ -7,7 +7,7 @@ import numpy as np
 from physics._jit import njit, njit_inline, njit_lean
 from physics.arrays import Array
 from physics.assembly import assemble
-from physics.contact.forces import Contacts, move_to, set_time
+from physics.contact.forces import Contacts, set_time, stand_at
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
@@ -58,7 +58,7 @@ def rest_at(
 
     Last whether a position carries the load; where none does, the instant is lost and the rest is that of the centre.
     """
-    move_to(contacts, time)
+    stand_at(contacts, time)
     load_x, load_y = outer_load(motion, time)
     return _settle(contacts, load_x, load_y, x, y, tolerance)
 

@@ -155,10 +155,10 @@ def test_forces_over_spalls_are_the_plain_sum_over_the_balls(gearbox, build_scen
         assert np.max(np.abs(there - agree(healthy, time, deep))) > 1.0
 
 
-@pytest.mark.parametrize("balls", [3, 12, 16, 17])
+@pytest.mark.parametrize("balls", [3, 12, 13, 17])
 def test_waves_lie_under_every_ball_as_their_cosines_tell(gearbox, build_scene, balls):
     waves = (*WAVES, Waviness("outer", 400, 1e-6, 2.0))
-    small = dataclasses.replace(gearbox.bearing, balls=balls, ball_diameter=4e-3)
+    small = dataclasses.replace(gearbox.bearing, balls=balls, ball_diameter=4e-3, row_offset=math.pi / balls)
     machine = dataclasses.replace(gearbox, bearing=small)
     scene = build_scene(machine, start_angle=0.2, imperfections=Imperfections(waviness=waves))
     contacts, bearing = assemble(scene), scene.rig.bearing

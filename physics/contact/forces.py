@@ -53,8 +53,9 @@ FRAME_COLUMNS = 3
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(FRAME_COLUMNS)
 
 
-# A cell of the waviness and the first column of its table that a row of balls reads.
+# A cell of the waviness and the first column of its table that a row of balls reads; weights of its coefficients.
 Cell = tuple[int, np.uint64]
+Weights = tuple[float, float, float, float, float, float]
 
 
 class Law(NamedTuple):
@@ -137,86 +138,61 @@ def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, tim
         outer, outer_spacing, x = wave_cell(track, angle + balls[cage, PLACE, first])
         inner, inner_spacing, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)
         # Unsigned places need no look at their sign, and a number of columns known to the compiler no look at whether
-        # what is read is what was written: only so do the loops over the few balls of a row take vectors.
+        # what is read is what was written: only so does the loop over the few balls of a row take vectors.
         here = np.uint64(cage), np.uint64(first), np.uint64(row)
         a, b = (outer, np.uint64(outer_spacing)), (inner, np.uint64(inner_spacing))
+        p, q = _powers(x), _powers(z)
         if columns == SHORT_ROW_COLUMNS:
-            _add_floors(balls, waves, here, a, b, x, z, SHORT_ROW_COLUMNS)
+            _add_waves(balls, FLOOR, here, waves, a, b, p, q, SHORT_ROW_COLUMNS)
             if rates:
-                _add_rates(balls, waves, here, a, b, x, z, pace, inner_pace, SHORT_ROW_COLUMNS)
+                _add_waves(balls, FALL, here, waves, a, b, _rates(p, pace), _rates(q, inner_pace), SHORT_ROW_COLUMNS)
         else:
-            _add_floors(balls, waves, here, a, b, x, z, columns)
+            _add_waves(balls, FLOOR, here, waves, a, b, p, q, columns)
             if rates:
-                _add_rates(balls, waves, here, a, b, x, z, pace, inner_pace, columns)
+                _add_waves(balls, FALL, here, waves, a, b, _rates(p, pace), _rates(q, inner_pace), columns)
 
 
 @njit_pasted
-def _add_floors(
-    balls: Array,
-    waves: Array,
-    here: tuple[np.uint64, np.uint64, np.uint64],
-    outer: Cell,
-    inner: Cell,
-    x: float,
-    z: float,
-    columns: np.uint64,
-) -> None:
-    """Add the waves in a cell of each race, at the places `x` and `z` in it, to the floors of the balls of a row:
-    `here` are its cage, its first column and its size, `columns` those that a power has in the table."""
-    cage, first, row = here
-    second, third, fourth = columns, columns + columns, columns + columns + columns
-    fifth = third + third
-    sixth = fifth + columns
-    x2, z2 = x * x, z * z
-    x3, x4, z3, z4 = x2 * x, x2 * x2, z2 * z, z2 * z2
-    x5, z5 = x4 * x, z4 * z
-    for j in range(row):
-        a, b = outer[1] + j, inner[1] + j
-        upper = (waves[0, outer[0], a] * x5 + waves[0, outer[0], a + second] * x4) + (
-            waves[0, outer[0], a + third] * x3 + waves[0, outer[0], a + fourth] * x2
-        )
-        lower = (waves[0, outer[0], a + fifth] * x + waves[0, outer[0], a + sixth]) + (
-            waves[1, inner[0], b + fifth] * z + waves[1, inner[0], b + sixth]
-        )
-        other = (waves[1, inner[0], b] * z5 + waves[1, inner[0], b + second] * z4) + (
-            waves[1, inner[0], b + third] * z3 + waves[1, inner[0], b + fourth] * z2
-        )
-        balls[cage, FLOOR, first + j] += (upper + lower) + other
+def _powers(x: float) -> Weights:
+    square = x * x
+    return square * square * x, square * square, square * x, square, x, 1.0
 
 
 @njit_pasted
-def _add_rates(
+def _rates(of_x: Weights, pace: float) -> Weights:
+    """Rates of the powers of x where x grows by `pace` a second."""
+    _, x4, x3, x2, x, _ = of_x
+    return 5.0 * pace * x4, 4.0 * pace * x3, 3.0 * pace * x2, 2.0 * pace * x, pace, 0.0
+
+
+@njit_pasted
+def _add_waves(
     balls: Array,
-    waves: Array,
+    entry: int,
     here: tuple[np.uint64, np.uint64, np.uint64],
+    waves: Array,
     outer: Cell,
     inner: Cell,
-    x: float,
-    z: float,
-    pace: float,
-    inner_pace: float,
+    p: Weights,
+    q: Weights,
     columns: np.uint64,
 ) -> None:
-    """As `_add_floors`, the rates of the waves to those of the floors; the balls pass `pace` and `inner_pace` cells a
-    second."""
+    """Add the coefficients in a cell of each race, weighed by `p` and `q`, to an `entry` of the balls of a row: `here`
+    are its cage, its first ball and its size; a power has so many `columns`."""
     cage, first, row = here
-    second, third, fourth = columns, columns + columns, columns + columns + columns
-    fifth = third + third
-    x2, z2 = x * x, z * z
-    x5, z5 = 5.0 * pace * x2 * x2, 5.0 * inner_pace * z2 * z2
-    x4, z4 = 4.0 * pace * x2 * x, 4.0 * inner_pace * z2 * z
-    x3, z3 = 3.0 * pace * x2, 3.0 * inner_pace * z2
-    x2, z2 = 2.0 * pace * x, 2.0 * inner_pace * z
+    second, third = columns, columns + columns
+    fourth, fifth, sixth = third + columns, third + third, third + third + columns
     for j in range(row):
         a, b = outer[1] + j, inner[1] + j
-        upper = (waves[0, outer[0], a] * x5 + waves[0, outer[0], a + second] * x4) + (
-            waves[0, outer[0], a + third] * x3 + waves[0, outer[0], a + fourth] * x2
+        balls[cage, entry, first + j] += (
+            (waves[0, outer[0], a] * p[0] + waves[0, outer[0], a + second] * p[1])
+            + (waves[0, outer[0], a + third] * p[2] + waves[0, outer[0], a + fourth] * p[3])
+            + (waves[0, outer[0], a + fifth] * p[4] + waves[0, outer[0], a + sixth] * p[5])
+        ) + (
+            (waves[1, inner[0], b] * q[0] + waves[1, inner[0], b + second] * q[1])
+            + (waves[1, inner[0], b + third] * q[2] + waves[1, inner[0], b + fourth] * q[3])
+            + (waves[1, inner[0], b + fifth] * q[4] + waves[1, inner[0], b + sixth] * q[5])
         )
-        lower = waves[0, outer[0], a + fifth] * pace + waves[1, inner[0], b + fifth] * inner_pace
-        other = (waves[1, inner[0], b] * z5 + waves[1, inner[0], b + second] * z4) + (
-            waves[1, inner[0], b + third] * z3 + waves[1, inner[0], b + fourth] * z2
-        )
-        balls[cage, FALL, first + j] += (upper + lower) + other
 
 
 @njit_inline

@@ -11,18 +11,21 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from physics._jit import discard_cache, nothing_cached, raised_by_cache
+from physics._jit import compile_for, discard_cache, nothing_cached, raised_by_cache
 from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.contact.forces import Contacts
 from physics.contact_events import contact_events
+from physics.integrators.modal.approach import leads_astray
+from physics.integrators.modal.changes import look
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
 from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
 from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
+from physics.integrators.trial import Trial
 from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import race_depth
@@ -47,10 +50,12 @@ MARCHING = "from physics.warming import compile_march; compile_march()"
 def warm_up() -> None:
     """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again.
 
-    With an empty cache and two processors, a second process compiles the march, which takes as long as all else.
+    With an empty cache and two processors, a second process compiles the march, which takes as long as all else and
+    those of its parts that it comes to last.
     """
     if nothing_cached() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():
+            compile_last_parts_of_the_march()
             _use_kernels_beside_the_march(_scene())
     try:
         _use_every_kernel()
@@ -66,6 +71,15 @@ def compile_march() -> None:
     scene = _scene()
     contacts, flow, grid, memory, output = _before_a_march(scene)
     march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output)
+
+
+def compile_last_parts_of_the_march() -> None:
+    """Compile those parts of the modal march that its own compilation comes to last."""
+    contacts, flow, grid, memory, output = _before_a_march(_scene())
+    now, then = memory.states
+    trial = Trial(0.0, 0.0, now, (0.0, 0.0), then, (0.0, 0.0), 0)
+    compile_for(look, contacts, flow, grid, memory, 0, trial, True, True, output)
+    compile_for(leads_astray, contacts, grid, memory, 0.0)
 
 
 def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory, Output]:

@@ -6,10 +6,20 @@
 """
 
 from physics._jit.cache import CACHE_FOLDER, discard_cache, fingerprint, nothing_cached, raised_by_cache
-from physics._jit.decorators import njit, njit_inline, njit_inner, njit_lean, njit_pasted, specialise, uncompiled
+from physics._jit.decorators import (
+    compile_for,
+    njit,
+    njit_inline,
+    njit_inner,
+    njit_lean,
+    njit_pasted,
+    specialise,
+    uncompiled,
+)
 
 __all__ = [
     "CACHE_FOLDER",
+    "compile_for",
     "discard_cache",
     "fingerprint",
     "njit",

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,9 +19,8 @@ from physics.cage import CagePath
 from physics.catalog import rig
 from physics.contact.forces import Contacts
 from physics.contact_events import contact_events
-from physics.integrators.modal.approach import leads_astray
-from physics.integrators.modal.changes import look
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
+from physics.integrators.modal.location import locate
 from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
 from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import empty_tables, tables_for
@@ -50,12 +50,12 @@ MARCHING = "from physics.warming import compile_march; compile_march()"
 def warm_up() -> None:
     """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again.
 
-    With an empty cache and two processors, a second process compiles the march, which takes as long as all else and
-    those of its parts that it comes to last.
+    With an empty cache and two processors, a second process compiles the march, which takes as long as all else and one
+    of its parts that it comes to late.
     """
     if nothing_cached() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():
-            compile_last_parts_of_the_march()
+            compile_location()
             _use_kernels_beside_the_march(_scene())
     try:
         _use_every_kernel()
@@ -68,18 +68,16 @@ def warm_up() -> None:
 
 def compile_march() -> None:
     """Compile the modal march, and nothing that is only called before or after it."""
-    scene = _scene()
+    scene = replace(_scene(), spalls=())
     contacts, flow, grid, memory, output = _before_a_march(scene)
     march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output)
 
 
-def compile_last_parts_of_the_march() -> None:
-    """Compile those parts of the modal march that its own compilation comes to last."""
-    contacts, flow, grid, memory, output = _before_a_march(_scene())
+def compile_location() -> None:
+    """Compile the part of the modal march that locates changes of contact."""
+    contacts, flow, _, memory, _ = _before_a_march(_scene())
     now, then = memory.states
-    trial = Trial(0.0, 0.0, now, (0.0, 0.0), then, (0.0, 0.0), 0)
-    compile_for(look, contacts, flow, grid, memory, 0, trial, True, True, output)
-    compile_for(leads_astray, contacts, grid, memory, 0.0)
+    compile_for(locate, contacts, flow, memory, Trial(0.0, 0.0, now, (0.0, 0.0), then, (0.0, 0.0), 0), True)
 
 
 def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory, Output]:

@@ -53,21 +53,19 @@ def test_the_march_that_is_compiled_on_its_own_is_the_one_that_records_need() ->
     assert done.stdout == "1\n"
 
 
-PARTS = """
-from physics.integrators.modal.approach import leads_astray
-from physics.integrators.modal.changes import look
-from physics.warming import compile_last_parts_of_the_march, compile_march
+LOCATION = """
+from physics.integrators.modal.location import locate
+from physics.warming import compile_location, compile_march
 
 compile_march()
-compile_last_parts_of_the_march()
-for part in (look, leads_astray):
-    print(len(part._cache._cache_file._load_index()))
+compile_location()
+print(len(locate._cache._cache_file._load_index()))
 """
 
 
-def test_parts_of_the_march_that_are_compiled_on_their_own_are_those_that_it_takes() -> None:
-    done = subprocess.run([sys.executable, "-c", PARTS], capture_output=True, text=True, check=True)
-    assert done.stdout == "1\n1\n"  # the march's own would be a second one
+def test_the_part_of_the_march_that_is_compiled_on_its_own_is_the_one_that_it_takes() -> None:
+    done = subprocess.run([sys.executable, "-c", LOCATION], capture_output=True, text=True, check=True)
+    assert done.stdout == "1\n"  # the march's own would be a second one
 
 
 @pytest.mark.parametrize("damaged", [True, False])

@@ -24,8 +24,8 @@ PACKED = (b"\x1f\x8b", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
 
 # What is allowed where a row has more or fewer cells than there are columns.
 ROWS_ALIKE = (
-    "as many in every row; csv.skip_lines leaves out what is above the table, and with csv.header = false too a "
-    "header that names more columns than there are"
+    "as many in every row; csv.skip_lines leaves out what is above the table, csv.skip_below what is between header "
+    "and numbers, and csv.header = false with skip_lines a header that names more or fewer columns than there are"
 )
 
 
@@ -68,8 +68,9 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
 
     A delimiter may end each row: the last column is then empty.
     """
-    rows = read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding, most=1 + layout.header)
-    if len(rows) <= layout.header:
+    head = layout.head_rows
+    rows = read_csv_rows(path, layout.delimiter, layout.skip_lines, layout.encoding, most=head + 1)
+    if len(rows) <= head:
         return None
     line, cells = rows[-1]
     last = len(cells) - 1
@@ -80,17 +81,18 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
         with open_text(path, layout.encoding) as file, warnings.catch_warnings(action="ignore"):
             table = np.loadtxt(
                 _lines(file, layout.decimal), delimiter=None if layout.delimiter == BLANKS else layout.delimiter,
-                comments=None, skiprows=rows[0][0] if layout.header else layout.skip_lines, ndmin=2,
+                comments=None, skiprows=rows[head - 1][0] if head else layout.skip_lines, ndmin=2,
                 converters=converters,
             )  # fmt: skip
     except (ValueError, TypeError):
         return None
     if table.shape[1] == 1 and _has_gaps(path, layout, line):
         return None
-    names = _names(path, rows[0], layout, table.shape[1])
-    if len(names) != table.shape[1] or not np.isfinite(table[:, :last] if converters else table).all():
+    names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], converters is not None)
+    if len(names) != width or not np.isfinite(table[:, :last] if converters else table).all():
         return None
-    odd = {names[last]: (line, cells[last])} if converters else {}
+    table = table[:, :width]
+    odd = {names[last]: (line, cells[last])} if converters and width > last else {}
     return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, _headless_hint(names, layout))
 
 
@@ -104,7 +106,7 @@ def _has_gaps(path: Path, layout: CsvLayout, first: int) -> bool:
 def _without_blanks(rows: list[Row], layout: CsvLayout) -> list[Row]:
     """The rows that are not blank; a blank one between the numbers of a table of one column is an empty cell."""
     full = [row for row in rows if row[1]]
-    head = int(layout.header)
+    head = layout.head_rows
     if len(full) <= head or len(full[0][1]) > 1:
         return full
     first, last = full[head][0], full[-1][0]
@@ -134,15 +136,27 @@ def _names(path: Path, head: Row, layout: CsvLayout, width: int) -> list[str]:
     return names
 
 
+def _without_end(names: list[str], width: int, empty: bool) -> tuple[list[str], int]:
+    """The names of a table's columns, and of its `width` cells in each row as many as count, without one last cell that
+    is nothing but a delimiter at the end of the header alone, or of all rows alone, where the last is `empty`."""
+    if width == len(names) + 1 and empty:
+        return names, width - 1
+    if width == len(names) - 1 and not names[-1]:
+        return names[:-1], width
+    return names, width
+
+
 def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
     """The columns of any table, cell by cell."""
     if not rows:
         return Columns({}, {})
     names = _names(path, rows[0], layout, len(rows[0][1]))
-    if layout.header:
-        rows = rows[1:]
+    rows = rows[layout.head_rows :]
     if rows:
         _refuse_split_numbers(path, *rows[0], layout)
+    if len({len(row) for _, row in rows}) == 1:
+        names, width = _without_end(names, len(rows[0][1]), not any(row[-1].strip() for _, row in rows))
+        rows = [(line, row[:width]) for line, row in rows]
     for line, row in rows:
         if len(row) != len(names):
             hint = _hint(layout.delimiter.join(row), layout) if len(names) == 1 else ""
@@ -157,6 +171,8 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         if not math.isfinite(columns[name][k])
     }
     hint = _headless_hint(names, layout) or _decimal_hint([cell for _, cell in odd.values()], layout)
+    if not hint and layout.header and any(_is_unit(odd[name][1], columns[name]) for name in odd):
+        hint = f"; did you mean csv = {{skip_below = {layout.skip_below + 1}}}?"
     if len(names) == 1 and odd:
         hint = _hint(odd[names[0]][1], layout) or hint
     return Columns(columns, odd, hint)
@@ -178,6 +194,11 @@ def _refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayo
                 f'; did you mean csv = {{delimiter = {json.dumps(sign)}, decimal = ","}}?',
                 f"{path}, line {line}", "csv.delimiter", ",",
             )  # fmt: skip
+
+
+def _is_unit(text: str, column: Array) -> bool:
+    """Whether a `text` that is no number is nothing but the first cell of a `column` of numbers."""
+    return bool(text.strip()) and column.size > 1 and bool(np.isfinite(column[1:]).all())
 
 
 def _headless_hint(names: list[str], layout: CsvLayout) -> str:

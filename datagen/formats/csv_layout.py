@@ -24,6 +24,8 @@ class CsvLayout(Table):
     """True if a line of column names comes first; without it the columns are called "1", "2", …"""
     skip_lines: Annotated[int, Field(ge=0)] = 0
     """Lines to leave out at the start."""
+    skip_below: Annotated[int, Field(ge=0)] = 0
+    """Lines to leave out below that of column names, such as one of units; blank ones do not count."""
     encoding: str = UTF_8
     """Encoding of the text, as Python calls it: utf-8, latin-1, utf-16, …"""
 
@@ -40,6 +42,17 @@ class CsvLayout(Table):
                 "decimal sign and delimiter are the same", "delimiter", "a character other than the one in decimal"
             )
         return self
+
+    @model_validator(mode="after")
+    def _below_is_below_a_header(self) -> CsvLayout:
+        if self.skip_below and not self.header:
+            raise refuse("there is no header to be below; skip_lines leaves out lines at the start", "skip_below", "0")
+        return self
+
+    @property
+    def head_rows(self) -> int:
+        """Rows above the numbers that are not among `skip_lines`."""
+        return int(self.header) + self.skip_below
 
     @field_validator("encoding")
     @classmethod

@@ -42,7 +42,12 @@ def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, t
     ("rows", "layout", "message"),
     [
         (["a,b", *ROWS, "end,0"], "", 'line 52: y = "a": 1 of 51 cells are not finite numbers, the first is "end"'),
-        (["a,b", "g,g", *ROWS], "", 'line 2: y = "a": 1 of 51 cells are not finite numbers, the first is "g"'),
+        (
+            ["a,b", "g,g", *ROWS],
+            "",
+            'line 2: y = "a": 1 of 51 cells are not finite numbers, the first is "g"'
+            "; did you mean csv = {skip_below = 1}?",
+        ),
         (
             ["a,b", *ROWS, "", ",0", "inf,0"],
             "",
@@ -99,6 +104,8 @@ def cell_by_cell_only(patched: pytest.MonkeyPatch) -> None:
         ("a;b\r\n", CsvLayout(delimiter=";", decimal=",")),
         ("a\tb\n", CsvLayout(delimiter="\t")),
         ("a  b\n", CsvLayout(delimiter=" ")),
+        ("a,b\n\ns,g\n\n", CsvLayout(skip_below=1)),
+        ("a,b,\n", CsvLayout()),
     ],
 )
 def test_a_table_of_nothing_but_numbers_is_read_at_once_and_gives_the_same(

@@ -1,4 +1,7 @@
-"""MATLAB's .mat files: version 4 to 7 by scipy, 7.3, which is an HDF5 file, by h5py."""
+"""MATLAB's .mat files: version 4 to 7 by scipy, 7.3, which is an HDF5 file, by h5py.
+
+HDF5 files of other programs that are called so lack MATLAB's own beginning, and its order of dimensions.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.formats.arrays import Arrays
+from datagen.formats.netcdf_file import read_netcdf
 
 HDF5_MARK = b"\x89HDF\r\n\x1a\n"
 USER_BLOCK = 512
@@ -26,6 +30,8 @@ def read_mat(path: Path) -> Arrays:
     """
     with path.open("rb") as file:
         start = file.read(USER_BLOCK + len(HDF5_MARK))
+    if start.startswith(HDF5_MARK):
+        return read_netcdf(path)
     return _read_hdf5(path) if start[USER_BLOCK:] == HDF5_MARK else _read_old(path)
 
 

@@ -1,4 +1,5 @@
-"""NetCDF files, and HDF5 files that the netCDF library can read: variables scaled by their own attributes."""
+"""NetCDF files, and HDF5 files that the netCDF library can read: variables scaled by their own attributes, and the
+numbers among the attributes."""
 
 from __future__ import annotations
 
@@ -17,8 +18,16 @@ from datagen.formats.arrays import Arrays
 CLASSIC = (b"CDF\x01", b"CDF\x02")
 
 
+# What parts the name of a variable from that of its attribute.
+ATTRIBUTE = "@"
+Place = tuple[str, str]
+
+
 class _Variables(Mapping[str, NDArray[Any]]):
-    """The variables of a file, each read when it is asked for; missing values are NaN."""
+    """The variables of a file, each read when it is asked for; missing values are NaN.
+
+    Attributes come by their names too, but are not among those that are listed, nor fit a pattern.
+    """
 
     def __init__(self, path: Path) -> None:
         import netCDF4
@@ -26,37 +35,54 @@ class _Variables(Mapping[str, NDArray[Any]]):
         self.path = path
         with ONE_AT_A_TIME, netCDF4.Dataset(path) as file:
             self.places = dict(_numeric(file, ""))
+        self.names = tuple(name for name, (_, attribute) in self.places.items() if not attribute)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         import netCDF4
 
-        place = self.places[name]
+        place, attribute = self.places[name]
         try:
             with ONE_AT_A_TIME, netCDF4.Dataset(self.path) as file:
-                values = file[place][...]
+                held: Any = file[place] if place else file
+                if attribute:
+                    return np.asarray(held.getncattr(attribute))
+                values = held[...]
         except Exception as problem:  # whatever the damaged bytes lead the library to
             raise BadInput(f"its variable {name} cannot be read: {problem}", str(self.path)) from None
         masked = np.ma.isMaskedArray(values) and np.ma.is_masked(values)
         return values.astype(np.float64).filled(np.nan) if masked else np.asarray(values)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.places)
+        return iter(self.names)
 
     def __len__(self) -> int:
-        return len(self.places)
+        return len(self.names)
 
 
-def _numeric(group: Any, prefix: str) -> Iterator[tuple[str, str]]:
-    """Name and place of each numeric variable of a group and of those in it."""
+def _numeric(group: Any, prefix: str) -> Iterator[tuple[str, Place]]:
+    """Name and place of each numeric variable and attribute of a group and of those in it."""
+    above = group.path.rstrip("/")
+    yield from _attributes(group, prefix.removesuffix("."), above)
     for name, held in group.variables.items():
         if np.dtype(held.dtype).kind in "iufb":
-            yield f"{prefix}{name}", f"{group.path.rstrip('/')}/{name}"
+            yield f"{prefix}{name}", (f"{above}/{name}", "")
+        yield from _attributes(held, f"{prefix}{name}", f"{above}/{name}")
     for name, inner in group.groups.items():
         yield from _numeric(inner, f"{prefix}{name}.")
 
 
+def _attributes(held: Any, name: str, place: str) -> Iterator[tuple[str, Place]]:
+    """Name and place of each numeric attribute of a group or variable."""
+    for attribute in held.ncattrs():
+        if np.asarray(held.getncattr(attribute)).dtype.kind in "iuf":
+            yield f"{name}{ATTRIBUTE}{attribute}", (place, attribute)
+
+
 def read_netcdf(path: Path) -> Arrays:
-    """The variables of a netCDF file by name, "GROUP.NAME" those of a group; raises BadInput."""
+    """The variables of a netCDF file by name, "GROUP.NAME" those of a group; raises BadInput.
+
+    An attribute that is a number is called "NAME@ATTRIBUTE" or "GROUP@ATTRIBUTE", one of the whole file "@ATTRIBUTE".
+    """
     _check_whole(path)
     try:
         return _Variables(path)

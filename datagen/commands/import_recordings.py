@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -53,3 +54,16 @@ def _tell(done: Imported) -> None:
         f"{done.records} records of {done.files} files are in {done.folder} "
         f"({done.shards} shards, {for_people(done.bytes)}, {done.seconds:.1f} s)"
     )
+    for reason, count in _unjudged(Path(done.folder)).items():
+        print(f"`classify` will reject {count} of them: {reason}")
+
+
+def _unjudged(folder: Path) -> Counter[str]:
+    """How many records of a corpus say too little of their bearing or speed to be judged, by what is missing."""
+    from datagen.benchmark.fitness import unfit
+    from datagen.benchmark.known import known_kinematics
+    from datagen.corpus import Corpus
+
+    with Corpus(folder) as corpus:
+        rows = corpus.labels.to_dict("records")
+    return Counter(unfit(row, None, 0, 0.0, 0.0) for row in rows if known_kinematics(row) is None)

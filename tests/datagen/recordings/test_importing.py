@@ -279,6 +279,33 @@ def test_a_dead_sensor_comes_in_with_a_warning(mat: Mat, tmp_path: Path) -> None
     assert run("check", tmp_path / "out")[0] == 0
 
 
+@pytest.mark.parametrize(
+    ("said", "lines"),
+    [
+        ('bearing = "skf_6205"\nspeed_rpm = 1797', []),
+        ("bpfo = 3.58\nbpfi = 5.42\nspeed_rpm = 1797", []),
+        ("bpfo = 3.58\nspeed_rpm = 1797", ["`classify` will reject 2 of them: geometry unknown"]),
+        ('bearing = "skf_6205"', ["`classify` will reject 2 of them: speed unknown"]),
+        (
+            'speed_rpm = 0\n[[recording.override]]\nfiles = "b.mat"\nspeed_rpm = 1797',
+            [
+                "`classify` will reject 1 of them: speed not above 0",
+                "`classify` will reject 1 of them: geometry unknown",
+            ],
+        ),
+    ],
+)
+def test_records_that_say_too_little_to_be_judged_are_counted(
+    said: str, lines: list[str], mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "spec.toml").write_text(f'{DOUBTED}files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{said}\n')
+    code, shown, _ = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out")
+    assert code == 0
+    assert shown.splitlines()[1:] == lines
+
+
 DOUBTED = 'name = "mine"\n[[recording]]\nname = "all"\nunit = "g"\n'
 
 

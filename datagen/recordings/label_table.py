@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
@@ -32,7 +33,7 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     """The rows of the table at `path`; raises BadInput naming the file, the line and the column.
 
     An empty cell says nothing. A cell of the column `file` may hold several names with | between: the first that
-    exists is meant.
+    exists is meant. Folders in it may be parted as on Windows.
     """
     try:
         rows = read_csv_rows(path)
@@ -52,6 +53,11 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
 
 def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) -> None:
     known = (FILE_COLUMN, *SETTINGS, *note_columns)
+    other = next((sign for sign in ";\t" if sign in header[0]), None)
+    if len(header) == 1 and other:
+        raise BadInput(
+            f"the cells of this table are parted by {json.dumps(other)}", place, allowed="commas between cells"
+        )
     for column in header:
         if column not in known:
             hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
@@ -67,7 +73,8 @@ def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], pla
     if len(cells) != len(header):
         raise BadInput(f"{len(cells)} cells, but the table has {len(header)} columns", place)
     said = {name: cell.strip() for name, cell in zip(header, cells, strict=True) if cell.strip()}
-    files = tuple(name.strip() for name in said.pop(FILE_COLUMN, "").split("|") if name.strip())
+    named = said.pop(FILE_COLUMN, "").replace("\\", "/")
+    files = tuple(name.strip() for name in named.split("|") if name.strip())
     if not files:
         raise BadInput("this cell is empty", place, FILE_COLUMN)
     notes: dict[str, Any] = {name: _plain(said.pop(name)) for name in note_columns if name in said}

@@ -127,7 +127,19 @@ class _Finder:
             elif not fitting:
                 raise BadInput(f"no file below {self.root} matches", place, "files", pattern)
             paths |= dict.fromkeys(fitting)
-        return list(paths)
+        return self._wanted(list(paths), recording, place)
+
+    def _wanted(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
+        """The paths without those that are to be left out."""
+        for pattern in recording.unwanted:
+            kept = [path for path in paths if not self._fits(path, pattern)]
+            if len(kept) == len(paths) and recording.absent_files == "refuse":
+                raise BadInput("matches none of the files", place, "leave_out", pattern, self._some(paths))
+            paths = kept
+        return paths
+
+    def _some(self, paths: list[Path]) -> str:
+        return ", ".join([self._name(path) for path in paths[:4]] + (["…"] if len(paths) > 4 else []))
 
     def _name(self, path: Path) -> str:
         """The file's name from the root, where it lies below it."""
@@ -161,7 +173,7 @@ class _Finder:
                 if not any(self._fits(path, pattern) for path in paths):
                     raise BadInput(
                         "matches none of these recordings", f"{place}, override[{number}]", "files", pattern,
-                        ", ".join([self._name(path) for path in paths[:4]] + (["…"] if len(paths) > 4 else [])),
+                        f'{self._some(paths)}; with absent_files = "skip" there may be none',
                     )  # fmt: skip
 
     def _requests(self, recording: Recording, place: str, path: Path, row: TableRow | None) -> Iterator[Request]:
@@ -178,7 +190,7 @@ class _Finder:
             yield Request(recording.name, path, self._name(path), channel, settings, where)
 
 
-_NOT_SETTINGS = ("name", "files", "table", "note_columns", "absent_files", "override")
+_NOT_SETTINGS = ("name", "files", "leave_out", "table", "note_columns", "absent_files", "override")
 
 
 def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:

@@ -145,7 +145,8 @@ class Source:
             raise BadInput("is not a finite number", str(self.path), name, said.variable)
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
-            raise self._not_finite(bad, found.size, said.variable, name)
+            allowed = "times in s; of dates and hours of a clock the rate itself, a number" if said.times else ""
+            raise self._not_finite(bad, found.size, said.variable, name, allowed)
         if said.times:
             value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
         elif name in CONSTANT and np.ptp(found) > 0.0:

@@ -18,6 +18,10 @@ from datagen.settings.toml_file import read_toml
 Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
 
 
+def _each(patterns: str | tuple[str, ...] | None) -> tuple[str, ...]:
+    return () if patterns is None else (patterns,) if isinstance(patterns, str) else patterns
+
+
 class Override(RecordingSettings):
     """Settings of some of the files, which go before everything else said of them."""
 
@@ -27,7 +31,7 @@ class Override(RecordingSettings):
     @property
     def patterns(self) -> tuple[str, ...]:
         """The names or patterns."""
-        return (self.files,) if isinstance(self.files, str) else self.files
+        return _each(self.files)
 
 
 class Recording(RecordingSettings):
@@ -37,6 +41,8 @@ class Recording(RecordingSettings):
     """Name of this part of the corpus, stored with each of its records."""
     files: str | Patterns | None = None
     """Patterns of files below the root; ** is any number of folders."""
+    leave_out: str | Patterns | None = None
+    """Patterns of files that `files` would find and that are not wanted."""
     table: str | None = None
     """CSV table beside the SPEC or below the root: a column `file`, other columns named like settings."""
     note_columns: tuple[str, ...] = Field(default=(), strict=False)
@@ -50,12 +56,19 @@ class Recording(RecordingSettings):
     def _names_files(self) -> Recording:
         if self.files is None and self.table is None:
             raise refuse("no files are named", "files", 'a pattern such as "*.mat", or a table of files')
+        if self.leave_out is not None and self.files is None:
+            raise refuse("the table alone says which files are meant", "leave_out", "with files only")
         return self
 
     @property
     def patterns(self) -> tuple[str, ...]:
         """The patterns of files, none if a table lists them."""
-        return () if self.files is None else (self.files,) if isinstance(self.files, str) else self.files
+        return _each(self.files)
+
+    @property
+    def unwanted(self) -> tuple[str, ...]:
+        """The patterns of files that are left out."""
+        return _each(self.leave_out)
 
 
 class Spec(Table):

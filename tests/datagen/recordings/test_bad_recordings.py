@@ -156,6 +156,7 @@ def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Pa
     ("table", "message"),
     [
         ("fil,location\na.mat,inner\n", 't.csv, line 1: fil: unknown column; did you mean "file"?'),
+        ("file;x\na.mat;1,5\n", 't.csv, line 1: the cells of this table are parted by ";"; allowed: commas between'),
         ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
         ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),

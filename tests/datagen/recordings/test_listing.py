@@ -69,3 +69,42 @@ def test_files_whose_names_begin_with_a_point_are_passed_over(
     assert bring(SPEC + more).labels["recording"].tolist() == ["a"]
     with pytest.raises(BadInput, match=r"\._a\.mat: cannot be read as a \.mat file"):
         bring(SPEC + 'files = "set/._*"\n', "asked_for")
+
+
+@pytest.mark.parametrize("unwanted", ['"K2/broken.mat"', '"broken.mat"', '["K1/x*", "K2/*"]'])
+def test_files_that_are_not_wanted_are_left_out_unread(unwanted: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("K1/good.mat")
+    for name in ("K1/x.mat", "K2/broken.mat") if "K1" in unwanted else ("K2/broken.mat",):
+        mat(name)
+        (tmp_path / name).write_bytes(b"broken")
+    corpus = bring(SPEC + f'files = "K?/*.mat"\nleave_out = {unwanted}\n')
+    assert corpus.labels["source_file"].tolist() == ["K1/good.mat"]
+
+
+def test_leaving_out_no_file_is_refused_unless_files_may_be_absent(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    spec = SPEC + 'files = "*.mat"\nleave_out = ["b.mat"]\n'
+    with pytest.raises(BadInput) as refused:
+        bring(spec)
+    message = 'recording[1] (all): leave_out = "b.mat": matches none of the files; allowed: a.mat'
+    assert str(refused.value) == f"{tmp_path / 'spec.toml'}: {message}"
+    assert len(bring(spec + 'absent_files = "skip"\n')) == 1
+
+
+def test_a_table_alone_leaves_nothing_out(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text("file\na.mat\n")
+    with pytest.raises(BadInput, match=r"leave_out.*the table alone says which files are meant.*with files only"):
+        bring(SPEC + 'table = "t.csv"\nleave_out = "b.mat"\n')
+
+
+@pytest.mark.parametrize("more", ["", 'files = "**/*.mat"\n'])
+def test_a_table_may_part_folders_as_windows_does(more: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("inner/deep/1.mat", "outer/1.mat"):
+        mat(name)
+    (tmp_path / "t.csv").write_text("file,location\nouter\\1.mat,outer\nno.mat|inner\\deep\\*.mat,inner\n")
+    labels = bring(SPEC + 'table = "t.csv"\nrecording = "{folder}"\n' + more).labels
+    assert dict(zip(labels["source_file"], labels["location"], strict=True)) == {
+        "inner/deep/1.mat": "inner",
+        "outer/1.mat": "outer",
+    }

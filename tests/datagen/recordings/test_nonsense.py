@@ -141,7 +141,7 @@ def test_an_override_of_no_file_is_refused_unless_files_may_be_absent(bring: Bri
     mat("a.mat")
     override = '[[recording.override]]\nfiles = ["a.mat", "z*.mat"]\nload_n = 3\n'
     message = refusal(bring, GOOD + override, tmp_path)
-    assert 'override[1]: files = "z*.mat": matches none of these recordings; allowed: a.mat' in message
+    assert 'override[1]: files = "z*.mat": matches none of these recordings; allowed: a.mat; with absent' in message
     assert bring(GOOD + 'absent_files = "skip"\n' + override).labels["load_n"].tolist() == [3.0]
 
 

@@ -77,3 +77,15 @@ def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat
         bring(SPEC + 'rate_hz = {variable = "t"}\n')
     with pytest.raises(BadInput, match=r"recording\[1\]\.load_n\.times.*: times can only give a sampling rate"):
         bring(SPEC + 'rate_hz = 1000\nload_n = {variable = "t", times = true}\n')
+
+
+def test_hours_of_a_clock_in_place_of_times_come_with_a_way_out(bring: Bring, tmp_path: Path) -> None:
+    rows = (f"2024-03-01T12:00:00.{k:06d},{k % 7}" for k in range(40))
+    (tmp_path / "a.csv").write_text("\n".join(["t,a", *rows]))
+    with pytest.raises(
+        BadInput, match=r'the first is "2024-03-01T12:00:00\.000000"; allowed: times in s; of dates and'
+    ):
+        bring(
+            '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\ny = "a"\n'
+            'rate_hz = {variable = "t", times = true}\n'
+        )

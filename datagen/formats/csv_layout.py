@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from datagen.files.csv_rows import UTF_8
 from datagen.settings.table import Table, refuse
 
+ONE_CHARACTER = 'one character, such as ";", or "\\t" for a tabulator'
 ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
 
 
@@ -53,6 +54,13 @@ class CsvLayout(Table):
     def head_rows(self) -> int:
         """Rows above the numbers that are not among `skip_lines`."""
         return int(self.header) + self.skip_below
+
+    @field_validator("delimiter", "decimal", mode="before")
+    @classmethod
+    def _is_one_character(cls, sign: Any) -> Any:
+        if isinstance(sign, str) and len(sign) != 1:
+            raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ONE_CHARACTER})
+        return sign
 
     @field_validator("encoding")
     @classmethod

@@ -37,6 +37,9 @@ EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
 # Samples in a row, and the share of all, that may be missing and filled by straight lines.
 LONGEST_GAP, MOST_MISSING = 10, 0.01
 CONSTANT = ("rate_hz",)
+# What is allowed where a variable does not give one number.
+ONE_OF_THEM = 'a single number of it, as in "NAME[0]" or "NAME[0,2]"'
+TIMES = "times in s; of dates and hours of a clock the rate itself, a number"
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))
 
@@ -145,7 +148,7 @@ class Source:
             raise BadInput("is not a finite number", str(self.path), name, said.variable)
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
-            allowed = "times in s; of dates and hours of a clock the rate itself, a number" if said.times else ""
+            allowed = TIMES if said.times else ONE_OF_THEM if bad.size < found.size else ""
             raise self._not_finite(bad, found.size, said.variable, name, allowed)
         if said.times:
             value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
@@ -165,7 +168,7 @@ class Source:
         if found.size / 2 < zeros < found.size:
             raise BadInput(
                 f"is 0 in {zeros} of {found.size} places, so its mean means nothing", str(self.path), field, wish,
-                'a single number of it, as in "NAME[0]" or "NAME[0,2]"',
+                ONE_OF_THEM,
             )  # fmt: skip
         return float(np.mean(found, dtype=np.float64))
 

@@ -137,7 +137,7 @@ BAD_RECORDINGS = [
     ("two.npz", 'channels = ["c"]', "two.npz: the file has no such variable"),
     ("uneven.npz", 'channels = ["a", "b"]\nrate_hz = 32768', "uneven.npz: the two channels are not equally long"),
     ("two.npz", 'channels = ["a", "b", "a"]', "two.npz: it has 3 columns; allowed: one or two"),
-    ("good.csv", 'rate_hz = 32768\ncsv.delimiter = ",,"', 'recording.csv.delimiter = ",,"; allowed: at most 1'),
+    ("good.csv", 'rate_hz = 32768\ncsv.delimiter = ",,"', 'recording.csv.delimiter = ",,"; allowed: one character'),
     ("good.npy", "rate_hz = 32768\ngain_m_s2 = -1", "recording.gain_m_s2 = -1; allowed: a number from 0"),
     ("good.npy", f'rate_hz = 32768\nsha256 = "{"0" * 64}"', "good.npy is another file: its SHA-256 is"),
 ]

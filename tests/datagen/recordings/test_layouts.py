@@ -83,11 +83,32 @@ def stepped(folder: Path) -> None:
     write_mat(folder / "0Nm_Normal.mat", Signal={"x_values": axis, "y_values": values})
 
 
+def named(folder: Path) -> None:
+    for name in ("ib600_2", "n600_3_2", "ob1000_2"):
+        write_table(folder / f"{name}.csv", noise(64, 1))
+
+
+def exported(folder: Path) -> None:
+    rows = "".join(f"{k / 8000:.6f};{value:.6f};\r\n" for k, value in enumerate(noise(64)))
+    (folder / "export").mkdir()
+    text = "Zeit;Kanal 1\r\ns;m/s²\r\n" + rows.replace(".", ",")
+    (folder / "export/1.txt").write_text(text, encoding="latin-1", newline="")
+
+
+def stacked(folder: Path) -> None:
+    np.savez(folder / "pack.npz", signals=noise(2, 64), labels=[1, 2])
+    head, row = re.findall(r"^table = \"stacked.csv\" *# (.*)\n *# (.*)$", SPEC, re.MULTILINE)[0]
+    second = row.replace("0", "1").replace("inner", "outer")
+    (folder / "stacked.csv").write_text(f"{head}\n{row}\n{second}\n")
+
+
 @pytest.fixture(scope="module")
 def corpus(tmp_path_factory: pytest.TempPathFactory) -> Corpus:
     """The records of all layouts."""
     folder = tmp_path_factory.mktemp("layouts")
-    for write in (structures, numbered, clocked, dated, encoder, first_row, tacho, stepped):
+    for write in (
+        structures, numbered, clocked, dated, encoder, first_row, tacho, stepped, named, exported, stacked,
+    ):  # fmt: skip
         write(folder)
     (folder / "layouts.toml").write_text(SPEC, encoding="utf-8")
     import_recordings(load_spec(folder / "layouts.toml"), folder / "out")
@@ -113,6 +134,9 @@ EXPECTED: dict[str, tuple[list[str], float, list[float]]] = {
     "first_row": (["H_1_0"], 42000.0, [1770.0]),
     "tacho": (["normal/12.288 underhang", "normal/12.288 overhang"], 50000.0, [737.28] * 2),
     "stepped": (["0Nm_Normal"], 25600.0, [3010.0]),
+    "named": (["ib600_2", "ob1000_2", "n600_3_2"], 50000.0, [600.0, 1000.0, 600.0]),
+    "exported": (["export/1"], 8000.0, [1480.0]),
+    "stacked": (["pack row 0", "pack row 1"], 12000.0, [1797.0] * 2),
 }
 
 
@@ -126,12 +150,17 @@ def test_a_layout_of_the_page_comes_in_with_its_names_rate_and_speed(part: str, 
 
 
 def test_a_set_point_of_the_speed_is_not_called_measured(labels: pd.DataFrame) -> None:
-    for part in ("numbered", "clocked", "dated", "stepped"):
+    for part in ("numbered", "clocked", "dated", "stepped", "named"):
         assert set(labels.loc[[part], "speed_basis"]) == {"nominal"}
 
 
 def test_the_page_shows_as_many_layouts_as_are_tried(labels: pd.DataFrame) -> None:
     assert set(labels.index) == set(EXPECTED) == set(re.findall(r'^name = "(\w+)"$', SPEC, re.MULTILINE)) - {"layouts"}
+
+
+def test_what_is_defective_is_told_by_a_name_or_a_table(labels: pd.DataFrame) -> None:
+    assert labels.loc["named", "location"].tolist() == ["inner", "outer", "none"]
+    assert labels.loc["stacked", "location"].tolist() == ["inner", "outer"]
 
 
 def test_bearings_are_told_apart_by_folder_and_channel(labels: pd.DataFrame) -> None:

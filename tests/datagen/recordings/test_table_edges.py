@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -88,3 +89,24 @@ def test_a_table_whose_names_and_cells_do_not_match_is_refused(head: str, rows: 
     (tmp_path / "a.csv").write_text("\n".join([head, *rows]))
     with pytest.raises(BadInput, match=r"a\.csv, line \d+: \d cells, but the table has \d columns; allowed: as many"):
         read_arrays(tmp_path / "a.csv", None, SEMICOLON)
+
+
+@pytest.mark.parametrize("sign", ["tab", "", "\\\\t"])
+@pytest.mark.parametrize("setting", ["delimiter", "decimal"])
+def test_a_sign_is_one_character(setting: str, sign: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(ROWS))
+    with pytest.raises(BadInput) as refused:
+        bring(SPEC + f'csv = {{{setting} = "{sign}"}}\n')
+    assert str(refused.value).endswith(r'allowed: one character, such as ";", or "\t" for a tabulator')
+
+
+def test_a_number_in_the_first_row_alone_is_taken_from_there(bring: Bring, tmp_path: Path) -> None:
+    rows = [f"{cell};{'29.5' * (k == 0)}" for k, cell in enumerate(CELLS[:, 0])]
+    (tmp_path / "a.csv").write_text("\n".join(["acc Y;Speed (Hz)", *rows]))
+    spec = SPEC + 'csv = {delimiter = ";"}\nspeed_hz = {variable = "Speed (Hz)"}\n'
+    message = (
+        'line 3: speed_hz = "Speed (Hz)": 119 of 120 cells are not finite numbers, the first is ""; allowed: a single'
+    )
+    with pytest.raises(BadInput, match=re.escape(message)):
+        bring(spec)
+    assert bring(spec.replace("(Hz)", "(Hz)[0]")).labels["speed_rpm"].tolist() == [1770.0]

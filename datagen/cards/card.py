@@ -60,10 +60,20 @@ def _holdings(facts: Facts) -> Iterable[str]:
             for kind in facts.kinds]  # fmt: skip
     total = ("all", "", facts.info.records, *facts.splits.values())
     yield from _table(("condition", "location", "records", *splits), [*rows, total])
+    yield from _asked(facts)
     others = {name: counts for name, counts in facts.info.counts.items() if name not in ("condition", "location")}
     counted = [(f"`{name}`", _counts(counts)) for name, counts in others.items() if name != "split"]
     yield from _table(("label", "records by value"), counted)
     yield f"![Counts and distributions of the labels]({OVERVIEW})\n"
+
+
+def _asked(facts: Facts) -> Iterable[str]:
+    """Records by condition that the recipe asks for, beside those that there are."""
+    asked, made = facts.info.asked_by_condition, facts.info.counts["condition"]
+    if asked:
+        yield f"The weights of the recipe ask for these of {facts.info.asked} records on average:\n"
+        rows = [(name, f"{asked.get(name, 0.0):.1f}", made.get(name, 0)) for name in {**asked, **made}]
+        yield from _table(("condition", "asked for", "made"), rows)
 
 
 def _counts(counts: Mapping[str, int]) -> str:

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 def info_tables(info: Info) -> list[Table]:
     """The facts of a corpus, as `spallgen info` shows them."""
     crossed = [_crossed(info, title) for title in info.crossed]
-    return [_summary(info), _counts(info), *crossed, *([_refused(info)] if info.refused else []), _ranges(info)]
+    asked = [_asked(info)] if info.asked_by_condition else []
+    refused = [_refused(info)] if info.refused else []
+    return [_summary(info), _counts(info), *asked, *crossed, *refused, _ranges(info)]
 
 
 def _summary(info: Info) -> Table:
@@ -79,6 +81,19 @@ def _counts(info: Info) -> Table:
     table = Table("label", "records by value", title="balance")
     for name, counts in info.counts.items():
         table.add_row(name, ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items()))
+    return table
+
+
+def _asked(info: Info) -> Table:
+    """Records by condition that the recipe asks for, beside those that there are."""
+    table = Table("condition", title="records by condition, as the weights of the recipe ask for them and as made")
+    for heading in ("asked for", "share", "made", "share"):
+        table.add_column(heading, justify="right")
+    asked, made = info.asked_by_condition, info.counts["condition"]
+    for condition in {**asked, **made}:
+        wanted, there = asked.get(condition, 0.0), made.get(condition, 0)
+        shares = (f"{wanted / max(info.asked, 1):.1%}", f"{there / max(info.records, 1):.1%}")
+        table.add_row(condition, f"{wanted:.1f}", shares[0], str(there), shares[1])
     return table
 
 

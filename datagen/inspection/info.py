@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import ShardEntry
+from datagen.inspection.asked_for import asked_of
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 
@@ -38,7 +39,8 @@ class Info:
 
     `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
-    records by two labels at once, `bearings_in_split` virtual bearings; `refused` are the impossible draws.
+    records by two labels at once, `bearings_in_split` virtual bearings; `asked_by_condition` what the weights of the
+    recipe give of the records asked for; `refused` are the impossible draws.
     `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
     overwritten or not to be read; all else is counted as if they were there. `origin` is simulated or imported: of
     recordings nothing was asked for, drawn or solved.
@@ -63,6 +65,7 @@ class Info:
     damaged_files: dict[str, int]
     bearings_in_split: dict[str, int]
     counts: dict[str, dict[str, int]]
+    asked_by_condition: dict[str, float]
     crossed: dict[str, dict[str, dict[str, int]]]
     refused: dict[str, Refused]
     ranges: dict[str, Range]
@@ -100,6 +103,7 @@ def corpus_info(folder: Path) -> Info:
         missing_files=_records_of(shard for shard in manifest.shards if not (folder / shard.file).is_file()),
         damaged_files=_records_of(shard for shard in manifest.shards if _is_damaged(folder / shard.file, shard.bytes)),
         bearings_in_split=_counts(table.drop_duplicates("bearing_id")["split"]),
+        asked_by_condition=asked_of(manifest, folder),
         counts={name: _counts(table[name]) for name in COUNTED},
         crossed={f"{one} x {other}": _crossed(table, one, other) for one, other in CROSSED},
         refused=manifest.refused,

@@ -25,6 +25,7 @@ Arc = Annotated[Distribution, Between(0.0, 180.0, above=True)]
 TaperArc = Annotated[Distribution, Between(0.0, 180.0)]
 Share = Annotated[Distribution, Between(0.0, 1.0)]
 Combination = tuple[str, str, str]
+KIND = ("condition", "race", "profile")  # what a combination is of
 PlaceOf = Callable[[str], str]
 FILE_SCHEMA = {"type": "string"}
 ANYWHERE = Uniform(0.0, 360.0)
@@ -120,6 +121,11 @@ class DefectSettings(SpallSettings):
         """Where the `field` that holds for a combination is written: alone, or after the table that refines it."""
         tables = [word for word in combination if getattr(getattr(self, word, None), field, None) is not None]
         return f"{tables[-1]}.{field}" if tables else field
+
+    def stated_of(self, combination: Combination) -> set[str]:
+        """Where what holds for a combination is written, as `place_of` says it; of a healthy one its words alone."""
+        spall = self.refined.get(combination)
+        return {*KIND, *(() if spall is None else (self.place_of(combination, field) for field in _given(spall)))}
 
     def check_against_bearings(self, most_rows: int, ball_counts: tuple[int, ...]) -> None:
         """Raise PydanticCustomError for spalls that no bearing of a part can have.

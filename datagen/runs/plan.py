@@ -15,6 +15,7 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
+from datagen.runs.redraws import RedrawCount
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from datagen.telling import Say, unheard
@@ -49,17 +50,19 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = unheard) -> list[PlannedSh
 
     Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
     is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. Where it takes long, `say`
-    hears how far it has got. Raises BadInput if a record can hardly be drawn.
+    hears how far it has got, and at its end of impossible draws where they are many. Raises BadInput if a record can
+    hardly be drawn.
     """
     shards: list[PlannedShard] = []
     growing: dict[Hashable, int] = {}
     forces_kept: set[tuple[str, str]] = set()
-    heard = time.monotonic()
+    heard, drawn_again = time.monotonic(), RedrawCount(recipe)
     for record in range(stop):
         if time.monotonic() - heard >= SECONDS_BETWEEN:
             heard = time.monotonic()
             say(f"{record} of {stop} records are drawn; none is made before all are")
         scenario = draw_scenario(recipe, record)
+        drawn_again.add(scenario)
         stored = stored_signals(recipe, scenario, forces_kept)
         kind = (shard_key(scenario), stored)
         if kind not in growing:
@@ -71,6 +74,8 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = unheard) -> list[PlannedSh
         shards[place] = replace(shards[place], records=(*shards[place].records, record))
         if len(shards[place].records) == recipe.store.records_per_shard:
             del growing[kind]
+    if sentence := drawn_again.sentence():
+        say(sentence)
     return shards
 
 

@@ -15,10 +15,10 @@ from datagen.files.atomic import NO_SPACE
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
+from datagen.runs.redraws import own_redraws
 from datagen.runs.workers import none_woken, woken_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
-from datagen.scenarios.scenario import Scenario
 from datagen.telling import Say
 from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
@@ -76,7 +76,7 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
     redraws: list[Redraw] = []
     for index in planned.records:
         scenario = draw_scenario(recipe, index)
-        redraws += _own_redraws(recipe, scenario)
+        redraws += own_redraws(recipe, scenario)
         try:
             records.append(make_record(scenario, planned.stored))
         except SimulationFailed as problem:
@@ -95,9 +95,3 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
         count_refused(redraws),
     )
     return ShardRow(planned.number, len(records), len(failed), written.bytes)
-
-
-def _own_redraws(recipe: Recipe, scenario: Scenario) -> list[Redraw]:
-    """The record's redraws; those of its machine only if it is the machine's first record, so that each counts once."""
-    first = recipe.place(scenario.record).record_in_machine == 0
-    return [redraw for redraw in scenario.redraws if first or redraw.scope == "record"]

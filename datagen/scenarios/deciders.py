@@ -12,6 +12,7 @@ from datagen.recipes.defect_settings import ENTRY_TAPERS, EXIT_TAPERS, EXTENTS
 from datagen.settings.toml_lines import Location
 
 if TYPE_CHECKING:
+    from datagen.recipes.defect_settings import Combination
     from datagen.recipes.recipe import Recipe
 
 BALL_DIAMETERS = ("ball_diameter_mm", "ball_diameter_of_pitch", "ball_diameter")
@@ -46,6 +47,7 @@ DECIDERS: dict[str, tuple[str, ...]] = {
     "depth": ("depth_um", "roughness_um"),
     "duration_s": ("duration_s", "rate_hz", *RESONATORS),
     "entry_taper": (*ENTRY_TAPERS, *EXIT_TAPERS, *EXTENTS),
+    "extent": (*EXTENTS, "table", "condition", "balls", "fill", "bearing", "rig"),
     "exit_taper": (*EXIT_TAPERS, *EXTENTS),
     "film_damping": ("film_damping_us", "film_damping_n_s_per_m", "film_damping", *RATED_LOADS, "clearance_um"),
     "full_scale": ("recorder_range_m_s2",),
@@ -66,23 +68,21 @@ DECIDERS: dict[str, tuple[str, ...]] = {
 }
 
 
-def deciders(recipe: Recipe, part: int, parameter: str, reason: str) -> list[tuple[Location, object]]:
+def deciders(
+    recipe: Recipe, part: int, parameter: str, kind: Combination | None = None
+) -> list[tuple[Location, object]]:
     """Where the recipe says something that decides the `parameter` of the part with that index, and what, as in TOML.
 
-    The likeliest to be wrong comes first; of settings of one name that whose table, such as `extended`, is a word of
-    the `reason`. Nothing is found of what the recipe leaves at its default.
+    The likeliest to be wrong comes first. Of what is said of spalls only that which holds for the `kind` counts, if one
+    is given. Nothing is found of what the recipe leaves at its default.
     """
     names = DECIDERS.get(parameter)
     found = [
-        (location, value) for location, value in _said(recipe, part) if parameter and _decides(location[-1], parameter)
+        (location, value)
+        for location, value in _said(recipe, part, kind)
+        if parameter and _decides(location[-1], parameter)
     ]
-    words = set(reason.replace(",", " ").split())
-
-    def likelihood(setting: tuple[Location, object]) -> tuple[int, bool]:
-        *tables, name = setting[0]
-        return (names.index(str(name)) if names else 0, not words.intersection(map(str, tables)))
-
-    return sorted(found, key=likelihood)
+    return sorted(found, key=lambda setting: names.index(str(setting[0][-1])) if names else 0)
 
 
 def _decides(name: str | int, parameter: str) -> bool:
@@ -90,10 +90,16 @@ def _decides(name: str | int, parameter: str) -> bool:
     return str(name) in names if names is not None else str(name).startswith(parameter)
 
 
-def _said(recipe: Recipe, index: int) -> Iterator[tuple[Location, object]]:
-    """Every setting of a part that the recipe states, with those of the whole recipe that hold for it."""
-    part = recipe.part[index]
-    yield from _settings(part, ("part", index))
+def _said(recipe: Recipe, index: int, kind: Combination | None) -> Iterator[tuple[Location, object]]:
+    """Every setting of a part that the recipe states, with those of the whole recipe that hold for it.
+
+    Of its spalls, only what holds for the `kind`, if one is given.
+    """
+    part, defect = recipe.part[index], ("part", index, "defect")
+    holding = None if part.defect is None or kind is None else part.defect.stated_of(kind)
+    for location, value in _settings(part, ("part", index)):
+        if holding is None or location[:3] != defect or ".".join(map(str, location[3:])) in holding:
+            yield location, value
     for name in ("signal", *(name for name in ("chain", "background") if getattr(part, name) is None)):
         yield from _settings(getattr(recipe, name), (name,))
 

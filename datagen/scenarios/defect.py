@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, DefectSettings, SpallSettings
+from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, Combination, DefectSettings, SpallSettings
 from datagen.recipes.profile_table import ProfileTable
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
@@ -25,18 +25,40 @@ ROWS: dict[str, tuple[int, ...]] = {"1": (1,), "2": (2,), "both": (1, 2)}
 def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, draw: Draw) -> tuple[Spall, ...]:
     """Spalls of one record under `load` (N), which only sets the width of contact that smooths their roughness.
 
-    Raises InvalidParameter if what was drawn cannot be; the caller draws again.
+    Raises InvalidParameter if what was drawn cannot be; the caller draws again, with the same `draw.meant`.
     """
     if settings is None:
         return ()
     pick = draw.picker("defect")
-    condition, race, profile = (pick.word(word) for word in (settings.condition, settings.race, settings.profile))
-    if condition == "healthy":
+    kind = draw.meant.settle((pick.word(settings.condition), pick.word(settings.race), pick.word(settings.profile)))
+    if kind[0] == "healthy":
         return ()
-    spalls = list(_draw_all(settings.refined[condition, race, profile], race, profile, bearing, load, draw))
+    turn = draw.turns.turn
+    try:
+        return _spalls_of(kind, settings, bearing, load, draw)
+    except InvalidParameter:
+        others = (other for other in settings.refined if other != kind)
+        if not any(_can_be(other, settings, bearing, load, replace(draw, turn=turn)) for other in others):
+            draw.meant.release()
+        raise
+
+
+def _spalls_of(
+    kind: Combination, settings: DefectSettings, bearing: Bearing, load: float, draw: Draw
+) -> tuple[Spall, ...]:
+    condition, race, profile = kind
+    spalls = list(_draw_all(settings.refined[kind], race, profile, bearing, load, draw))
     _require_condition(condition, max(spall.extent for spall in spalls), bearing)
     require_apart(spalls)
     return tuple(spalls)
+
+
+def _can_be(kind: Combination, settings: DefectSettings, bearing: Bearing, load: float, draw: Draw) -> bool:
+    try:
+        _spalls_of(kind, settings, bearing, load, draw)
+    except InvalidParameter:
+        return False
+    return True
 
 
 def _draw_all(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from datagen.recipes.recipe import Recipe
 from datagen.scenarios.design import Design, dimension_of
+from datagen.scenarios.meant import Meant
 from datagen.scenarios.picker import Picker
 from datagen.scenarios.streams import stream
 from datagen.scenarios.turns import Turn, Turns
@@ -20,7 +21,8 @@ BALANCES = {"machine": "balance_machines", "record": "balance_records"}
 class Draw:
     """The streams of machine or record (`scope`) `number` of a recipe, in its part with index `part`.
 
-    `place` is its place among the machines or records of the part. `turn` says which balanced settings were met before.
+    `place` is its place among the machines or records of the part. `turn` says which balanced settings were met before,
+    `meant`, which its attempts share, what it is to be.
     """
 
     recipe: Recipe
@@ -30,6 +32,7 @@ class Draw:
     place: int
     attempt: int = 0
     turn: Turn | None = None
+    meant: Meant = field(default_factory=Meant)
 
     def stream(self, purpose: str, item: int = 0) -> np.random.Generator:
         """A fresh generator at the start of one of its streams."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
+from datagen.recipes.defect_settings import Combination
 from datagen.recipes.recipe import FEWEST_STORED_SAMPLES, Recipe, Signal, Split
 from datagen.scenarios.background import Background
 from datagen.scenarios.chain import draw_chain
@@ -31,7 +32,7 @@ class Machine:
 
     `rate` (Hz) and `samples` say how it is recorded, `settle` (s) how long it runs before, `envelope_band` (Hz) where
     its envelope is taken; `redraws` lists the impossible draws before this one; `turn` is its place among machines with
-    its values of balanced settings.
+    its values of balanced settings; `kind` is that of its own spalls, None if it has none.
     """
 
     number: int
@@ -49,6 +50,7 @@ class Machine:
     envelope_band: tuple[float, float]
     turn: Turn
     redraws: tuple[Redraw, ...]
+    kind: Combination | None = None
 
 
 def draw_machine(recipe: Recipe, part_index: int, number: int, place: int) -> Machine:
@@ -68,13 +70,13 @@ class _Wanted:
 @lru_cache(maxsize=4)
 def _first_possible(wanted: _Wanted) -> Machine:
     """The first attempt that gives a machine; kept, because the records of a machine ask for it one after another."""
-    draw, redraws = wanted.draw, list[Redraw]()
+    draw, redraws, meant = wanted.draw, list[Redraw](), wanted.draw.meant
     for attempt in range(MOST_ATTEMPTS):
         try:
             return _draw(replace(draw, attempt=attempt), tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("machine", attempt, refused.field, str(refused)))
-    raise given_up(draw.recipe, draw.recipe.part[draw.part], f"machine {wanted.number}", redraws)
+    raise given_up(draw.recipe, draw.recipe.part[draw.part], f"machine {wanted.number}", redraws, meant.kind)
 
 
 def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
@@ -102,6 +104,7 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
     )
     if part.defect is not None and part.defect.drawn_for == "machine":
         draw_spalls(part.defect, rig.bearing, rig.rated_load, replace(draw, turn=machine.turn))
+        machine = replace(machine, kind=draw.meant.kind)
     return machine
 
 

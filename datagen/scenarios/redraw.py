@@ -13,6 +13,7 @@ from datagen.settings.problems import dotted
 from datagen.settings.toml_lines import Location, place_in_file
 
 if TYPE_CHECKING:
+    from datagen.recipes.defect_settings import Combination
     from datagen.recipes.recipe import Part, Recipe
 
 MOST_ATTEMPTS = 200
@@ -54,22 +55,32 @@ def add_refused(counted: Iterable[dict[str, Refused]]) -> dict[str, Refused]:
     return dict(sorted(total.items(), key=lambda item: (-item[1].count, item[0])))
 
 
-def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw]) -> BadInput:
+def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw], kind: Combination | None = None) -> BadInput:
     """The error of a part that can hardly be drawn: names the settings that decided the last refusal, and its reason.
 
-    Where the reasons differ, or what was refused, it also says how often each parameter was.
+    `kind` is what it was meant to be, if a kind was drawn: condition, race and profile. Where the reasons differ, or
+    what was refused, it also says how often each parameter was.
     """
     place: Location = ("part", recipe.part.index(part))
     last = redraws[-1]
-    decided_by = deciders(recipe, recipe.part.index(part), last.field, last.reason)
+    decided_by = deciders(recipe, recipe.part.index(part), last.field, kind)
     location, value = decided_by[0] if decided_by else (place, None)
     others = ", ".join(setting_text(dotted(where), said) for where, said in decided_by[1:])
     return BadInput(
-        f'{what} of part "{part.name}": {_tally(redraws)}' + (f" (this also follows from {others})" if others else ""),
+        f'{what} of part "{part.name}"{_as_meant(kind)}: {_tally(redraws)}'
+        + (f" (this also follows from {others})" if others else ""),
         file=place_in_file(recipe.source, location),
         field=dotted(location),
         value=value,
     )
+
+
+def _as_meant(kind: Combination | None) -> str:
+    """What the record or machine was to be, in words."""
+    if kind is None:
+        return ""
+    condition, race, profile = kind
+    return ", meant to be " + (condition if condition == "healthy" else f"{condition} ({race} race, profile {profile})")
 
 
 def _tally(redraws: list[Redraw]) -> str:

@@ -177,9 +177,18 @@ class OneOf(_Setting):
 
 def possible_words(distribution: Distribution) -> tuple[Any, ...]:
     """Every value a word setting can take (of weight above zero)."""
-    weights = getattr(distribution, "weights", ())
+    return tuple(shares_of_words(distribution))
+
+
+def shares_of_words(distribution: Distribution) -> dict[Any, float]:
+    """The share of draws that each value of a word setting takes, of those that it can take."""
     stated = distribution.stated()
-    return tuple(v for k, v in enumerate(stated) if not weights or weights[k] > 0.0)
+    weights = getattr(distribution, "weights", ()) or (1.0,) * len(stated)
+    shares: dict[Any, float] = {}
+    for value, weight in zip(stated, weights, strict=True):
+        if weight > 0.0:
+            shares[value] = shares.get(value, 0.0) + weight / sum(weights)
+    return shares
 
 
 def refuse(problem: str, field: str = "", allowed: str = "") -> PydanticCustomError:

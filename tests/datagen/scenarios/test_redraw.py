@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from datagen.recipes.defect_settings import Combination
 from datagen.recipes.recipe import load_recipe
 from datagen.recipes.recipe_schema import recipe_schema
 from datagen.scenarios.deciders import DECIDERS
@@ -98,13 +99,13 @@ def test_the_line_of_the_key_is_told_that_gave_the_last_impossible_value(tmp_pat
     assert str(refused.value) in words
 
 
-def words(tmp_path: Path, text: str, *refused: tuple[str, str]) -> str:
-    """The message after draws of one part were refused for these parameters, with these reasons."""
+def words(tmp_path: Path, text: str, *refused: tuple[str, str], kind: Combination | None = None) -> str:
+    """The message after draws of one part, meant to be of that kind, were refused for these parameters and reasons."""
     path = tmp_path / "try.toml"
     path.write_text('name = "try"\nseed = 1\n[signal]\nrate_hz = 65536\nduration_s = 0.1\n' + text, encoding="utf-8")
     recipe = load_recipe(str(path))
     redraws = [Redraw("record", attempt, field, reason) for attempt, (field, reason) in enumerate(refused)]
-    return str(given_up(recipe, recipe.part[0], "record 3", redraws))
+    return str(given_up(recipe, recipe.part[0], "record 3", redraws, kind))
 
 
 SPALLS = """[[part]]
@@ -139,10 +140,28 @@ def test_draws_refused_for_several_reasons_are_counted_and_the_last_is_told(tmp_
     )
 
 
-def test_of_two_tables_that_of_the_kind_of_spall_that_was_refused_is_told_first(tmp_path: Path) -> None:
-    for condition, line in ("line", 14), ("extended", 16):
-        message = words(tmp_path, SPALLS, ("extent", f"condition = {condition}, but the spall is not"))
+def test_only_settings_that_hold_for_the_kind_of_spall_that_was_refused_are_told(tmp_path: Path) -> None:
+    for condition, other, line in ("line", "extended", 14), ("extended", "line", 16):
+        message = words(tmp_path, SPALLS, ("extent", "it is not"), kind=(condition, "outer", "tukey"))
         assert f"line {line}: part[1].defect.{condition}.extent_spacing = " in message
+        assert f'record 3 of part "one", meant to be {condition} (outer race, profile tukey): all 1 draws' in message
+        assert message.endswith(
+            '(this also follows from part[1].defect.condition = {choice = ["line", "extended"]}, '
+            'part[1].machine.rig = "gearbox")'
+        )
+        assert f"defect.{other}" not in message
+
+
+def test_what_a_table_of_the_kind_replaces_is_not_told(tmp_path: Path) -> None:
+    text = SPALLS.replace("depth_um = 9\n", "depth_um = 9\nextent_mm = 40\n")
+    for condition in ("line", "extended"):
+        assert "extent_mm" not in words(tmp_path, text, ("extent", "no"), kind=(condition, "outer", "tukey"))
+    assert "extent_mm" in words(tmp_path, text, ("extent", "no"))
+
+
+def test_of_a_record_that_was_to_be_healthy_no_spall_is_told(tmp_path: Path) -> None:
+    message = words(tmp_path, SPALLS, ("depth", "no"), kind=("healthy", "outer", "tukey"))
+    assert 'try.toml, line 6: part[1]: record 3 of part "one", meant to be healthy: all 1 draws' in message
 
 
 def test_a_parameter_that_the_recipe_says_nothing_of_is_told_by_its_part(tmp_path: Path) -> None:

@@ -14,6 +14,8 @@ ROUNDING = 1e-15
 # How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
 # ends says that the ball touches.
 HALVINGS, CUTS = 3, 3
+# Share of its radius by which a ball may touch beside its centre.
+FARTHEST = 1.0 - 1e-12
 
 
 class Surface(Protocol):
@@ -51,14 +53,15 @@ class Ball(NamedTuple):
         """Of contacts with the surface at `depth` (N,), m, that lie `away` (N,), rad, ahead of the ball: the radius of
         the contact, its offset to the side of the ball's centre, and its distance from there along the radius, m."""
         radius = self.race_radius - self.turn * depth
-        longest = self.ball_radius * (1.0 - 1e-12)
+        longest = self.ball_radius * FARTHEST
         lever = np.clip(radius * np.sin(away), -longest, longest)
         return radius, lever, np.sqrt(self.ball_radius**2 - lever**2)
 
     def drop(self, depth: Array, away: Array) -> Array:
-        """Drop (N,) of its centre, m."""
-        radius, _, hanging = self._lever(depth, away)
-        return self.turn * (self.race_radius - radius * np.cos(away)) + self.ball_radius - hanging
+        """Drop (N,) of its centre, m; infinite where it is too far away to touch there."""
+        radius, lever, hanging = self._lever(depth, away)
+        drop = self.turn * (self.race_radius - radius * np.cos(away)) + self.ball_radius - hanging
+        return np.where(np.abs(lever) < self.ball_radius * FARTHEST, drop, math.inf)
 
     def slope(self, depth: Array, away: Array) -> Array:
         """Slope (N,) of its path, m/rad."""

@@ -27,8 +27,9 @@ from physics.spall import Spall
 
 CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4
-# Steps of a rolled path (m), and how many of them make a cell.
-ROLLED_STEP, CELL_STEPS = 2e-6, 2
+# Steps of a rolled path (m), how many of them make a cell, and the most over one spall: beyond 0.2 m they are longer.
+# In rough spalls of 0.6 to 1.9 m this moved paths by 0.07 to 0.5 nm (RMS), and by up to 0.2 µm at single corners.
+ROLLED_STEP, CELL_STEPS, MOST_STEPS = 2e-6, 2, 100_000
 # A measured table is rough if it turns from falling to rising or back more often than this.
 MOST_TURNS = 8
 # A record asks for the path of each of its spalls about eight times.
@@ -124,7 +125,8 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     measured = spall.profile == "table"
     surface = table_surface(spall) if measured else gap_surface(spall)
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    half, step, rough = spall.extent / 2.0, ROLLED_STEP / race_radius, bool(spall.roughness_values)
+    half, rough = spall.extent / 2.0, bool(spall.roughness_values)
+    step = max(ROLLED_STEP / race_radius, spall.extent / MOST_STEPS)
     rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, table_arcs(spall))
     smooth = branches(rolled)
     width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)

@@ -9,6 +9,7 @@ from measures import hanging
 from scipy.interpolate import CubicSpline
 
 from physics.paths.profile import build_path, is_rough, race_depth
+from physics.paths.roughness import draw_roughness
 from physics.paths.spall_surface import roughness_curve, window
 from physics.spall import Spall
 
@@ -155,3 +156,21 @@ def test_a_surface_that_is_nowhere_proud_of_the_race_never_lifts_the_ball_above_
     assert depth.min() > -1e-13
     assert np.abs(path.depth(path.breaks[[0, -1]])).max() < 1e-13
     assert np.abs(path.slope(path.breaks[-1:] - 1e-9)).max() < 1e-7  # m/rad: 2 nm/s at the rated speed
+
+
+@pytest.mark.parametrize(("pitch", "ball"), [(1.0, 0.05), (3.0, 0.1)])
+def test_the_path_over_a_spall_of_metres_has_bounded_cells_and_is_as_exact_as_over_its_beginning(gearbox, pitch, ball):
+    bearing = dataclasses.replace(gearbox.bearing, pitch_diameter=pitch, ball_diameter=ball)
+    extent = 1.2
+    heights = draw_roughness(np.random.default_rng(1), bearing, "outer", extent, 1e-5, None)
+    whole = Spall("outer", 1, 4.7, extent, 1e-4, 0.0, 0.0, "ball_path", 1e-5, heights)
+    path = build_path(whole, bearing)
+    assert path.cells.sum() < 60_000
+    # The same surface over its first 0.1 m alone, where steps are as short as on any small spall.
+    few = math.ceil(0.1 / (extent * bearing.raceway_radius("outer")) * (len(heights) - 1))
+    share = few / (len(heights) - 1)
+    beginning = dataclasses.replace(whole, extent=share * extent, roughness_values=(*heights[:few], 0.0))
+    arcs = np.linspace(0.1, 0.8, 20001) * share * extent
+    drops = [build_path(one, bearing).depth(arcs - one.extent / 2.0) for one in (whole, beginning)]
+    assert np.std(drops[1]) > 1e-6
+    assert np.sqrt(np.mean((drops[0] - drops[1]) ** 2)) < 2e-9

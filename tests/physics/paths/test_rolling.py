@@ -317,3 +317,20 @@ def test_arcs_are_no_further_apart_than_asked(race):
     arcs, _ = roll(gap(1e-5), race, half=0.3, step=STEP)
     assert np.max(np.diff(arcs)) <= STEP * (1 + 1e-9)
     assert np.ptp(np.diff(arcs)) < 1e-12
+
+
+@RACES
+def test_a_ball_falls_to_the_floor_of_a_hole_deeper_than_itself_and_is_found_there_at_once(race):
+    half, floor, asked = 3.0 * BALL / RACE[race], 2.5 * BALL, []
+
+    def surface(arc, order=0):
+        asked.append(arc.size)
+        bumps = 1e-6 * np.cos(4e2 * arc)
+        return np.full_like(arc, floor) + bumps if order == 0 else -4e-4 * np.sin(4e2 * arc)
+
+    path = rolled_path(surface, half, race, RACE[race], BALL, STEP)
+    # A ball that touches neither edge from beside its centre rests on the floor, a little above its deepest points.
+    free = np.abs(path.arc) < half - 1.05 * math.asin(BALL / RACE[race])
+    assert free.sum() > 500
+    assert np.all(np.abs(path.drop[free] - floor) <= 1e-6 * (1.0 + 1e-9))
+    assert len(asked) < 500

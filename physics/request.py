@@ -43,7 +43,7 @@ class Accurate:
 
 @dataclass(frozen=True)
 class FixedSteps:
-    """The nonlinear model by `substeps` steps a sample of a `method` of integrators.methods.MARCHES.
+    """The nonlinear model by `substeps` steps a sample of a `method` of integrators.method_table.MARCHES.
 
     `substeps`: 1 to 1024, or None for the fewest that are stable and resolve the fastest mode.
     `estimate_error`: a second response, at half the step, says what error was made.
@@ -64,7 +64,7 @@ class FixedSteps:
 
 @dataclass(frozen=True)
 class HalvedSteps:
-    """The nonlinear model by a `method` of integrators.methods.MARCHES, to a stated accuracy.
+    """The nonlinear model by a `method` of integrators.method_table.MARCHES, to a stated accuracy.
 
     Steps are halved, down to 32 a sample, until the response differs from one at half the step by no more than the
     `accuracy`, a relative RMS error of the acceleration, 1e-6 to 0.1.

@@ -57,7 +57,7 @@ KEEPABLE = ("state", "force", "outer")
 class Trace:
     """The response of a Scene sampled at `rate` (Hz).
 
-    `model` is its name in `physics.simulate`, and `method` what solved it: a name of `integrators.method_table.METHODS`,
+    `model` is its name in `physics.simulate`, and `method` what solved it: one of `integrators.method_table.METHODS`,
     "modal, repeated" where the last period of a modal march stands for all later ones, or a simpler model's own.
     `step` (s): of the modal method the mean over the march, of methods with fixed steps each step's length away from
     contact changes and kinks, of dormand_prince the longest it may take; NaN of the reference method, which does not

@@ -158,6 +158,7 @@ def _crossing(coefficients: Array, breaks: Array, duration: float, target: float
 
 @njit_inner
 def _path_at(coefficients: Array, breaks: Array, time: float) -> float:
+    """What the path is at `time` (s), rad; beyond its ends the outermost pieces go on."""
     piece = coefficients.shape[1] - 1
     while piece > 0 and breaks[piece] > time:
         piece -= 1
@@ -166,6 +167,7 @@ def _path_at(coefficients: Array, breaks: Array, time: float) -> float:
 
 @njit_inner
 def _value_and_slope(coefficients: Array, piece: int, since: float) -> tuple[float, float]:
+    """The path (rad) and its speed (rad/s), `since` (s) after the beginning of a piece."""
     value, slope = 0.0, 0.0
     for power in range(coefficients.shape[0]):
         slope = slope * since + value

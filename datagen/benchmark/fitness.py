@@ -24,14 +24,19 @@ FEWEST_TURNS = 1.0
 HIGHEST_SHARE = 0.45
 
 
+def what_is_missing(labels: Mapping[str, Any]) -> str:
+    """Why no kinematics are known of a record with these labels: its speed or its geometry."""
+    speed = float(labels["speed_rpm"])
+    return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION if speed <= 0.0 else UNKNOWN_GEOMETRY
+
+
 def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int, rate: float, bandwidth: float) -> str:
     """Why a record of so many `samples` at `rate` (Hz), of which features see `bandwidth` (Hz), cannot be judged.
 
     Empty if it can.
     """
     if kinematics is None:
-        speed = float(labels["speed_rpm"])
-        return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION if speed <= 0.0 else UNKNOWN_GEOMETRY
+        return what_is_missing(labels)
     duration = samples / rate
     if samples < FEWEST_SAMPLES_USED or duration < SHORTEST or duration * kinematics.shaft_hz < FEWEST_TURNS:
         return TOO_SHORT

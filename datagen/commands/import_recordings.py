@@ -60,10 +60,10 @@ def _tell(done: Imported) -> None:
 
 def _unjudged(folder: Path) -> Counter[str]:
     """How many records of a corpus say too little of their bearing or speed to be judged, by what is missing."""
-    from datagen.benchmark.fitness import unfit
+    from datagen.benchmark.fitness import what_is_missing
     from datagen.benchmark.known import known_kinematics
     from datagen.corpus import Corpus
 
     with Corpus(folder) as corpus:
         rows = corpus.labels.to_dict("records")
-    return Counter(unfit(row, None, 0, 0.0, 0.0) for row in rows if known_kinematics(row) is None)
+    return Counter(what_is_missing(row) for row in rows if known_kinematics(row) is None)

@@ -16,8 +16,6 @@ from datagen.formats.arrays import Arrays
 
 # The two formats of netCDF-3 that scipy knows too.
 CLASSIC = (b"CDF\x01", b"CDF\x02")
-
-
 # What parts the name of a variable from that of its attribute.
 ATTRIBUTE = "@"
 Place = tuple[str, str]

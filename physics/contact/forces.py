@@ -52,8 +52,8 @@ LANES = 4
 FRAME_COLUMNS = 3
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(FRAME_COLUMNS)
 
-
-# A cell of the waviness and the first column of its table that a row of balls reads; weights of its coefficients.
+# A cell of the waviness and the first column of its table that a row of balls reads; weights of its coefficients, that
+# of the fifth power first.
 Cell = tuple[int, np.uint64]
 Weights = tuple[float, float, float, float, float, float]
 

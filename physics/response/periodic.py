@@ -142,11 +142,12 @@ class _Repeating:
         (T, 2), or no faster than the slowest mode decays. The last period is held against all others of that half: a
         response that repeats itself only after two or more periods differs from its neighbour.
         """
-        last = acceleration.shape[0] // self.cells - 1
-        half = (last + 1) // 2
-        middle = last - half
+        periods = acceleration.shape[0] // self.cells
+        half = periods // 2
+        # The last period of all, of the first half, and of the first quarter.
+        last, middle, early = periods - 1, periods - half - 1, (periods - half) // 2 - 1
         apart = max(self._apart(acceleration, last, other) for other in range(middle, last))
-        before = self._apart(acceleration, middle, (middle + 1) // 2 - 1) if middle > 0 else math.inf
+        before = self._apart(acceleration, middle, early) if middle > 0 else math.inf
         if apart == 0.0 or apart >= before:
             return math.inf if apart > 0.0 else 0.0
         fallen = max(apart / before, math.exp(-self._decay * half))

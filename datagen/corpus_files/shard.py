@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from datagen.corpus_files.format import Identity, content_hash
 from datagen.corpus_files.stated import UNREADABLE, amount, row, text, whole
-from datagen.files.atomic import write_atomically
+from datagen.files.atomic import sweep_temporaries, write_atomically
 from datagen.files.netcdf import netcdf_bytes
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
@@ -156,6 +156,18 @@ def finished_shards(folder: Path) -> Iterator[Sidecar]:
         sidecar = read_sidecar(path)
         if sidecar is not None and is_whole(folder, sidecar):
             yield sidecar
+
+
+def sweep_unfinished(folder: Path) -> None:
+    """Delete what killed writers left in the corpus `folder`: temporary files, and files of shards without sidecar.
+
+    Call it with the folder locked and no writer at work in it.
+    """
+    for place in (folder, folder / "shards"):
+        sweep_temporaries(place)
+    for path in (folder / "shards").glob("shard_*.nc"):
+        if not path.with_suffix(".json").exists():
+            path.unlink(missing_ok=True)
 
 
 def has_finished_shards(folder: Path) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from contextlib import nullcontext
+from contextlib import ExitStack, nullcontext
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity, format_hash
@@ -47,20 +47,22 @@ def generate(
     require_memory(recipe)
     require_possible_rates(recipe, asked)
     engine = (engine or Engine()).for_tasks(sum(stop - start for start, stop in asked))
-    with engaged(engine), nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready:
+    with (
+        ExitStack() as once_workers_are_gone,
+        engaged(engine),
+        nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready,
+    ):
         # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
         planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)), listener.say)
         require_room(recipe, planned, folder)
         _make_folder(folder)
-        with locked(folder):
-            found = earlier_runs(folder, identity)  # again: another run may have been here since
-            if found.lost:
-                listener.say(found.lost)
-            run = Run(recipe, folder, identity, add_spans(found.asked, asked), asked, listener)
-            try:
-                run.make(planned, are_ready)
-            finally:
-                run.finish()
+        once_workers_are_gone.enter_context(locked(folder))
+        found = earlier_runs(folder, identity)  # again: another run may have been here since
+        if found.lost:
+            listener.say(found.lost)
+        run = Run(recipe, folder, identity, add_spans(found.asked, asked), asked, listener)
+        once_workers_are_gone.callback(run.finish)
+        run.make(planned, are_ready)
     return run.summary(time.monotonic() - began)
 
 

@@ -14,8 +14,8 @@ from typing import Any
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, Span, write_manifest
-from datagen.corpus_files.shard import Failure, Sidecar, finished_shards
-from datagen.files.atomic import NO_SPACE, sweep_temporaries, write_atomically
+from datagen.corpus_files.shard import Failure, Sidecar, finished_shards, sweep_unfinished
+from datagen.files.atomic import NO_SPACE, write_atomically
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
 from datagen.runs.progress import for_people
@@ -96,8 +96,7 @@ class Run:
 
     def _begin(self) -> None:
         """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
-        for place in (self.folder, self.folder / "shards"):
-            sweep_temporaries(place)
+        sweep_unfinished(self.folder)
         self._rescan()
         self.made_before = self._made()
         write_manifest(self.folder, self.manifest)
@@ -117,7 +116,12 @@ class Run:
         self._make_persistently(todo)
 
     def finish(self) -> None:
-        """Rebuild manifest, index and the list of failures from the finished shards."""
+        """Rebuild manifest, index and the list of failures from the finished shards; call it once workers are gone.
+
+        What a worker that was stopped on the way has left is deleted: a shard that its sidecar does not vouch for
+        would be read by whoever opens all files of the folder.
+        """
+        sweep_unfinished(self.folder)
         self._rescan()
         try:
             # The manifest first: a folder with an index alone would be taken for somebody else's.

@@ -16,6 +16,7 @@ from datagen.corpus_files.shard import (
     read_sidecar,
     shard_path,
     sidecar_path,
+    sweep_unfinished,
     write_shard,
 )
 from datagen.records.record import Record
@@ -64,6 +65,25 @@ def test_a_shard_counts_as_finished_only_with_a_readable_sidecar_and_a_file_of_i
     text = sidecar_path(tmp_path, 2).read_text()
     sidecar_path(tmp_path, 2).write_text(text[: len(text) // 2])
     assert [sidecar.shard for sidecar in finished_shards(tmp_path)] == [3]
+
+
+def test_sweeping_deletes_what_no_sidecar_vouches_for_and_nothing_else(
+    tmp_path: Path, make_plain_record: Maker
+) -> None:
+    for shard in range(2):
+        write(tmp_path, [make_plain_record(shard)], shard)
+    write(tmp_path, [], 2, failed=(Failure(2, "no equilibrium"),))
+    sidecar_path(tmp_path, 0).unlink()
+    kept = {
+        shard_path(tmp_path, 1),
+        *(sidecar_path(tmp_path, shard) for shard in (1, 2)),
+        tmp_path / "shards" / "own.nc",
+    }
+    (tmp_path / "shards" / "own.nc").touch()
+    for folder in (tmp_path, tmp_path / "shards"):
+        (folder / ".killed.0123.part").touch()
+    sweep_unfinished(tmp_path)
+    assert {path for path in tmp_path.rglob("*") if path.is_file()} == kept
 
 
 @pytest.mark.parametrize("text", ["", "null", "[]", "{}", '{"shard": 1}', "\udcff"])

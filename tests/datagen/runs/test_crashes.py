@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from datagen.files.atomic import write_atomically
 from datagen.inspection.check import check_corpus
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate
@@ -160,6 +161,20 @@ def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
     for folder in ("out", "uninterrupted"):
         assert generate(load_recipe(longer), tmp_path / folder, engine=Engine(workers=1)).complete
     assert contents(tmp_path / "out") == contents(tmp_path / "uninterrupted")
+
+
+def test_what_is_interrupted_between_a_shard_and_its_sidecar_leaves_no_shard(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(path: Path, data: bytes) -> None:
+        if path.suffix == ".json":
+            raise KeyboardInterrupt
+        write_atomically(path, data)
+
+    monkeypatch.setattr("datagen.corpus_files.shard.write_atomically", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        generate(tiny, tmp_path / "out", engine=Engine(workers=1))
+    assert list((tmp_path / "out" / "shards").iterdir()) == []
 
 
 @pytest.mark.parametrize("stop", [sigterm, sigterms_to_all])

@@ -24,7 +24,8 @@ class Outcome(Enum):
     INACCURATE = "ask for less accuracy, or let the modal method choose its own steps"
     UNRESOLVED = "raise the sampling rate, or give the resonator more mass or less stiffness"
     TOO_MANY_STEPS = (
-        "ask for less accuracy, or use an implicit or exponential method, whose step stiffness does not limit"
+        "ask for less accuracy, check damping, masses and stiffness for extreme values, or in place of an explicit "
+        "method take an implicit or exponential one, whose step stiffness does not limit"
     )
     BAD_REQUEST = "correct the argument named in the message"
 

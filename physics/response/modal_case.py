@@ -138,8 +138,7 @@ class March:
         require_done(
             status,
             f"down to {SHORTEST * grid.interval / UNITS:.3g} s",
-            f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz; a larger accuracy or least_error "
-            "takes fewer",
+            f"more than {MOST_STEPS_PER_SAMPLE} steps a sample of {case.rate:.6g} Hz would be needed",
         )
         return self.output
 

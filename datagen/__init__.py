@@ -9,6 +9,6 @@
   against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
-- what all of them use: `errors` (what a person wrote, refused), `telling` (how far a command has got),
-  `exits` (how programs end), `own_code` (of users), `versions`, `scored_runs` (their log)
+- what all of them use: `errors` (what a person wrote, refused), `progress` (how far a command has got),
+  `exits` (how programs end), `user_code` (what users bring), `versions`, `scored_runs` (their log)
 """

@@ -12,7 +12,7 @@ def write_marked(page: Path, name: str, script: str, text: str) -> None:
 
     Raises ValueError where the page does not have both marks exactly once, and leaves it as it is.
     """
-    begin, end = f"<!-- {name}: begin (written by {_told(script)}) -->", f"<!-- {name}: end -->"
+    begin, end = f"<!-- {name}: begin (written by {_shown(script)}) -->", f"<!-- {name}: end -->"
     page_text = page.read_text(encoding="utf-8")
     if page_text.count(begin) != 1 or page_text.count(end) != 1 or page_text.index(begin) > page_text.index(end):
         raise ValueError(f"{page} needs {begin} and, behind it, {end}, each once")
@@ -20,6 +20,6 @@ def write_marked(page: Path, name: str, script: str, text: str) -> None:
     page.write_text(f"{head}{begin}\n{text}\n{end}{rest.split(end)[1]}", encoding="utf-8")
 
 
-def _told(script: str) -> str:
+def _shown(script: str) -> str:
     """The script's `__file__` as the pages name it: from the project's folder, with slashes."""
     return Path(script).resolve().relative_to(ROOT).as_posix()

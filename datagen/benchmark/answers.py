@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.own_code import FIELD, own_code
+from datagen.user_code import FIELD, user_code
 from labels.classifier.classes import CLASSES
 from physics.arrays import Array
 
@@ -29,7 +29,7 @@ def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
     that are not classes, for another shape, and for numbers that are not probabilities.
     """
     name = given or estimator_name(estimator)
-    with own_code(name, "it failed to answer"):
+    with user_code(name, "it failed to answer"):
         said, names = _answer(estimator, table)
     if len(said) != len(table) or said.ndim not in (1, 2):
         raise _refused(name, f"it answers with the shape {said.shape} to {len(table)} rows")

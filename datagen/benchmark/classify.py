@@ -39,8 +39,8 @@ from datagen.benchmark.training import (
 from datagen.benchmark.verdicts import judge, pooled_draws
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
+from datagen.progress import SILENT, Count, Listener
 from datagen.scored_runs import write_line
-from datagen.telling import NOBODY, Count, Listener
 from labels.classifier.alarm import Alarm
 from physics.bearing import RACES
 
@@ -94,7 +94,7 @@ class Benchmark:
         )
 
 
-def run(benchmark: Benchmark, listener: Listener = NOBODY) -> Results:
+def run(benchmark: Benchmark, listener: Listener = SILENT) -> Results:
     """What the models say and score on every corpus; raises BadInput."""
     began = time.monotonic()
     if is_saved(benchmark.train):

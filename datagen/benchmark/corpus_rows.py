@@ -14,7 +14,7 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordRows, feature_rows, record_rows
 from datagen.benchmark.rows import Rows, joined
 from datagen.corpus import Corpus
-from datagen.telling import Count, unheard
+from datagen.progress import Count, ignore
 from labels.features.turning import Turning
 from labels.variables import SHAFT_ANGLE
 
@@ -38,10 +38,10 @@ class CorpusRows:
 
 
 def read_rows(
-    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = unheard
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = ignore
 ) -> CorpusRows:
-    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory; `count` hears how
-    many are done."""
+    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory; `count` is
+    called with how many are done."""
     tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
     found: dict[int, RecordRows] = {}
     count(0, records.size)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_own
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
-from datagen.telling import Say, unheard
+from datagen.progress import Say, ignore
 from labels.classifier.classes import HEALTHY
 from labels.classifier.scores import balanced_accuracy, bootstrap
 from labels.interval import Interval
@@ -28,13 +28,13 @@ def learning_curve(
     own: Any | None = None,
     takes_windows: bool = False,
     given: str = "",
-    step: Say = unheard,
+    step: Say = ignore,
 ) -> dict[str, list[dict[str, Any]]]:
     """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
     from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out.
 
     The models are our `learner`, or with the user's `own` estimator copies of that, which must not be fitted yet;
-    `given` is its name in messages. `step` hears how far it has got.
+    `given` is its name in messages. `step` is called with how far it has got.
     """
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))

@@ -15,15 +15,17 @@ from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
-from datagen.own_code import load_own
 from datagen.scored_runs import log_path
+from datagen.user_code import load_user_code
 from labels.classifier.learners import LEARNERS
 
 INPUTS = (FEATURES, WINDOWS)
 LEAST_BANDWIDTH = 1000.0
 LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
 TRAINING = f"the folder of a simulated corpus, a file that {SAVE} wrote, {NAME} or {NAME}-without-INGREDIENT"
-SPOKEN = "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
+ESTIMATOR_FORMS = (
+    "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
+)
 
 
 def benchmark_of(
@@ -40,7 +42,7 @@ def benchmark_of(
     _require_learning(learning)
     _require_scoring(scoring)
     _require_use(train, tests, learning, learning_curve, save)
-    own = load_own(learning.estimator, SPOKEN) if learning.estimator is not None else None
+    own = load_user_code(learning.estimator, ESTIMATOR_FORMS) if learning.estimator is not None else None
     if scoring.levels and learning.takes_windows:
         problem = "noise is added where features are computed"
         raise BadInput(problem, "", "--noise-db", scoring.noise_db, "--input features")

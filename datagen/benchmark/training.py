@@ -16,8 +16,8 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.own_code import own_code
-from datagen.telling import Count, Say, unheard
+from datagen.progress import Count, Say, ignore
+from datagen.user_code import user_code
 from labels.classifier.alarm import Alarm
 from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS
@@ -113,9 +113,10 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
 
 
 def training_set(
-    folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count = unheard
+    folder: Path, labels: pandas.DataFrame, reading: Reading, workers: int, count: Count = ignore
 ) -> TrainingSet:
-    """Rows of the records with these labels, with their classes and bearings; `count` hears how many are done."""
+    """Rows of the records with these labels, with their classes and bearings; `count` is called with how many
+    are done."""
     found = read_rows(folder, labels["record"].to_numpy(np.int64), reading, workers, count)
     return labelled(found.rows, labels)
 
@@ -139,8 +140,11 @@ def train_rule(training: TrainingSet) -> Rule:
     return fit_rule(healthy.table, healthy.record, healthy.axis)
 
 
-def train_models(training: TrainingSet, learner: str, step: Say = unheard) -> list[Model]:
-    """One model a learner ("all": every one); `step` hears which. Raises BadInput if it cannot learn from this."""
+def train_models(training: TrainingSet, learner: str, step: Say = ignore) -> list[Model]:
+    """One model a learner ("all": every one); `step` is called with the name of each.
+
+    Raises BadInput if one cannot learn from this.
+    """
     try:
         names = LEARNERS if learner == "all" else (learner,)
         fitted = []
@@ -163,7 +167,7 @@ def copy_of(own: Any, given: str = "") -> Any:
     """An unfitted copy of the user's estimator; raises BadInput, which names it as `given`, if it cannot be copied."""
     from sklearn.base import clone
 
-    with own_code(given or estimator_name(own), "it cannot be copied"):
+    with user_code(given or estimator_name(own), "it cannot be copied"):
         return clone(own, safe=False)
 
 
@@ -174,7 +178,7 @@ def train_own(training: TrainingSet, own: Any, takes_windows: bool, given: str =
     """
     name = estimator_name(own)
     if hasattr(own, "fit"):
-        with own_code(given or name, "it failed to learn"):
+        with user_code(given or name, "it failed to learn"):
             own.fit(training.rows.table, training.classes)
     model = Model(name, own, EVEN, takes_windows, given)
     if len(training.rows):

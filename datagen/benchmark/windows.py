@@ -12,7 +12,7 @@ from scipy import fft
 
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
-from datagen.telling import Count, unheard
+from datagen.progress import Count, ignore
 from physics.arrays import Array
 
 WINDOW_SAMPLES = 4096
@@ -25,11 +25,11 @@ def common_rate(folders: Iterable[Path], bandwidth: float) -> float:
     return min(lowest, 2.0 * bandwidth)
 
 
-def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: Count = unheard) -> Rows:
+def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: Count = ignore) -> Rows:
     """Windows (N, 4096) at `rate` (Hz), in m/s², of at most eight places of each axis of a record.
 
     What the window is too long for is padded with silence. They lie in a temporary file, read as they are needed, so
-    that memory does not grow with the corpus. `count` hears how many records are read.
+    that memory does not grow with the corpus. `count` is called with how many records are read.
     """
     owners: list[int] = []
     axes: list[int] = []

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from datagen.cards.facts import Facts, Kind, Solved
 from datagen.corpus_files.format import IMPORTED
-from datagen.runs.progress import for_people
+from datagen.files.byte_counts import bytes_text
 from labels.schema import LABEL, LABELS, UNKNOWN
 
 NOT_STATED = "not stated"
@@ -36,7 +36,7 @@ def _head(facts: Facts) -> Iterable[str]:
         "records": _records(facts),
         "bearings": f"{info.bearings} (label `bearing_id`; never divided between splits)",
         "sampling": f"{', '.join(f'{rate:g} Hz' for rate in facts.rates_hz)}; {length} a record",
-        "size": f"{info.signal_seconds:.1f} s of signal in {info.shards} shards, {for_people(info.bytes)}",
+        "size": f"{info.signal_seconds:.1f} s of signal in {info.shards} shards, {bytes_text(info.bytes)}",
     }
     yield from _table(("", ""), rows.items())
 

@@ -15,7 +15,7 @@ from datagen.charts.contestants import METHOD, Contestant, contestants
 from datagen.charts.response import Response, of_trace
 from datagen.charts.response_errors import SCORED_FROM, ResponseErrors, response_errors
 from datagen.charts.scenes import Subject
-from datagen.telling import Say
+from datagen.progress import Say
 from datagen.versions import measured_on
 from physics.integrators.method import NO_MODES
 from physics.integrators.method_table import METHODS, REFERENCE
@@ -77,13 +77,13 @@ class Chart:
     made_with: dict[str, str]
 
 
-def measure(subject: Subject, quick: bool, rounds: int, say: Say) -> Chart:
-    """Run everything on `subject`; `say` hears of every contestant before it is run.
+def measure(subject: Subject, quick: bool, rounds: int, step: Say) -> Chart:
+    """Run everything on `subject`; `step` is called with the name of every contestant before it is run.
 
     Raises SimulationFailed where the scene has no reference, being one that cannot be simulated.
     """
     scene = subject.lasting(min(subject.scene.duration, QUICK_DURATION)) if quick else subject.scene
-    say("reference")
+    step("reference")
     warm_up()
     reference = of_trace(
         simulate(scene, subject.rate, FixedSteps(QUICK_STEPS), keep=Kept(state=True))
@@ -93,7 +93,7 @@ def measure(subject: Subject, quick: bool, rounds: int, say: Say) -> Chart:
     runs = []
     entered = contestants(scene, quick)
     for number, contestant in enumerate(entered, 1):
-        say(f"{number} of {len(entered)}: {contestant.name} {contestant.setting}".rstrip())
+        step(f"{number} of {len(entered)}: {contestant.name} {contestant.setting}".rstrip())
         runs.append(_run(contestant, subject, scene, reference, rounds))
     return Chart(
         subject=subject.name,

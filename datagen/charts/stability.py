@@ -10,7 +10,7 @@ import numpy as np
 
 from datagen.charts.contestants import start_of
 from datagen.charts.measure import made_with
-from datagen.telling import Say
+from datagen.progress import Say
 from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter
@@ -129,11 +129,11 @@ SWEEPS = (
 )
 
 
-def stability_maps(say: Say) -> list[Map]:
-    """Every method over every sweep; `say` hears of each sweep."""
+def stability_maps(step: Say) -> list[Map]:
+    """Every method over every sweep; `step` is called with the name of each sweep."""
     maps = []
     for sweep in SWEEPS:
-        say(sweep.name)
+        step(sweep.name)
         scenes = [sweep.apply(reference_scene("G1", DURATION), value) for value in sweep.values]
         exact = [_exact(scene) for scene in scenes]
         maps += [_map(name, sweep, scenes, exact) for name in (MODAL, *MARCHES)]

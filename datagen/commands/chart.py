@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, write_json
+from datagen.commands.progress_display import show_steps
 from datagen.errors import BadInput
 
 SOURCE_HELP = (
@@ -43,11 +44,10 @@ def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Pat
     from datagen.charts.scenes import find_subject
     from datagen.charts.table import chart_table
     from datagen.files.results import results_folder, write_files
-    from datagen.runs.progress import steps_told
 
     subject = find_subject(source, record)
     folder = results_folder(out)
-    with steps_told() as listener:
+    with show_steps() as listener:
         measured = measure(subject, quick, rounds, listener.step)
     from datagen.drawing.work_precision import work_precision_png
 
@@ -58,10 +58,9 @@ def _stability(out: Path) -> tuple[list[Path], object]:
     from datagen.charts.stability import facts, stability_maps
     from datagen.drawing.stability_map import stability_sheets
     from datagen.files.results import results_folder, write_files
-    from datagen.runs.progress import steps_told
 
     folder = results_folder(out)
-    with steps_told() as listener:
+    with show_steps() as listener:
         maps = stability_maps(listener.step)
     found = facts(maps)
     return write_files(folder, "stability_maps", stability_sheets(maps), found), found

@@ -30,12 +30,12 @@ def check(
         complain(sentence)
     if verdict.remedy:
         complain(verdict.remedy)
-    _tell_verdict(verdict, remake)
+    _print_verdict(verdict, remake)
     if not verdict.sound:
         raise typer.Exit(FAILED)
 
 
-def _tell_verdict(verdict: Verdict, remake: int) -> None:
+def _print_verdict(verdict: Verdict, remake: int) -> None:
     state = "sound" if verdict.sound else f"NOT sound: {len(verdict.problems)} problems"
     print(f"{verdict.folder}: {verdict.records} records in {verdict.shards} shards, {state}")
     if not verdict.remade and verdict.sound and remake and not verdict.imported:

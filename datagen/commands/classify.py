@@ -11,6 +11,7 @@ import typer
 from datagen.benchmark.options import SPEED_ERROR, Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
+from datagen.commands.progress_display import show_steps
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
@@ -96,14 +97,13 @@ def classify(
     benchmark = benchmark_of(train, (*(test or []), *(more or [])), options, learning_curve, workers, out, save)
     results = _run(benchmark, out)
     write_json(json_file, results.to_dict())
-    tell_results(results.tests)
+    print_results(results.tests)
 
 
 def _run(benchmark: Benchmark, out: Path | None) -> Results:
     from datagen.benchmark.classify import run
-    from datagen.runs.progress import steps_told
 
-    with steps_told() as listener:
+    with show_steps() as listener:
         results = run(benchmark, listener)
     if out is not None:
         from datagen.benchmark.predictions import prediction_table
@@ -116,7 +116,7 @@ def _run(benchmark: Benchmark, out: Path | None) -> Results:
     return results
 
 
-def tell_results(tests: list[CorpusResults]) -> None:
+def print_results(tests: list[CorpusResults]) -> None:
     """Print the scores of every corpus, and the answers about records that are not scored."""
     from datagen.commands.tables import verdict_table
 

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, complain, write_json
+from datagen.commands.progress_display import show_records
 from datagen.errors import BadInput
 from datagen.exits import FAILED
+from datagen.files.byte_counts import bytes_text
 
 if TYPE_CHECKING:
     from datagen.runs.run import Summary
@@ -38,15 +40,14 @@ def generate(
     """Make the records of a recipe, or continue where an earlier run stopped."""
     from datagen.recipes.recipe import load_recipe
     from datagen.runs.generate import generate as make
-    from datagen.runs.progress import records_told
     from datagen.runs.workers import Engine
 
     chosen = None if records is None else _numbers("--records", records)
     engine = Engine(workers=workers, backend=backend, scheduler=scheduler)
-    with records_told() as listener:
+    with show_records() as listener:
         run = make(load_recipe(recipe), out, limit=limit, records=chosen, engine=engine, listener=listener)
     write_json(json_file, run)
-    _tell_run(run)
+    _print_run(run)
     if not run.complete:
         raise typer.Exit(FAILED)
 
@@ -62,8 +63,7 @@ def _numbers(option: str, text: str) -> list[int]:
     return numbers
 
 
-def _tell_run(run: Summary) -> None:
-    from datagen.runs.progress import for_people
+def _print_run(run: Summary) -> None:
 
     for failure in run.failed[:3]:
         complain(f"record {failure.record} could not be made: {failure.reason.strip().splitlines()[-1]}")
@@ -72,6 +72,6 @@ def _tell_run(run: Summary) -> None:
     if run.problem:
         complain(run.problem)
     print(
-        f"{run.made} of {run.asked} records are in {run.folder} ({run.new} new, {for_people(run.bytes)}, "
+        f"{run.made} of {run.asked} records are in {run.folder} ({run.new} new, {bytes_text(run.bytes)}, "
         f"{run.seconds:.1f} s)"
     )

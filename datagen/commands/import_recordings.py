@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, complain, write_json
+from datagen.commands.progress_display import show_steps
+from datagen.files.byte_counts import bytes_text
 
 if TYPE_CHECKING:
     from datagen.recordings.importing import Imported
@@ -28,16 +30,14 @@ def import_recordings(
     """Import recordings (.mat, .npz, .npy, .csv, .wav, .nc) as a corpus; nothing is written if any file is bad."""
     from datagen.recordings.importing import import_recordings as bring
     from datagen.recordings.spec import load_spec
-    from datagen.runs.progress import steps_told
 
-    with steps_told() as listener:
+    with show_steps() as listener:
         done = bring(load_spec(spec), out, root, listener.step)
     write_json(json_file, done)
-    _tell(done)
+    _print_result(done)
 
 
-def _tell(done: Imported) -> None:
-    from datagen.runs.progress import for_people
+def _print_result(done: Imported) -> None:
 
     for problem, names in (
         ("not found", done.absent),
@@ -52,7 +52,7 @@ def _tell(done: Imported) -> None:
         complain(done.few_turns)
     print(
         f"{done.records} records of {done.files} files are in {done.folder} "
-        f"({done.shards} shards, {for_people(done.bytes)}, {done.seconds:.1f} s)"
+        f"({done.shards} shards, {bytes_text(done.bytes)}, {done.seconds:.1f} s)"
     )
     for reason, count in _unjudged(Path(done.folder)).items():
         print(f"`classify` will reject {count} of them: {reason}")

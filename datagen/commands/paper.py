@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, write_json
+from datagen.commands.progress_display import show_steps
 
 
 @command("spallgen paper --out paper-figures --figures 5,6,q2")
@@ -23,10 +24,9 @@ def paper(
 ) -> None:
     """Draw Figures 5 to 11 of Petersen (2014) from simulations, beside its numbers, and answer three questions."""
     from datagen.paper.book import chosen, write_book
-    from datagen.runs.progress import steps_told
 
     names = chosen(figures)
-    with steps_told() as listener:
+    with show_steps() as listener:
         results = write_book(out, names, listener.say)
     write_json(json_file, results)
     print(f"pictures, tables and README.md are in {out}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
+from datagen.commands.progress_display import show_steps
 from datagen.files.places import require_results_folder
 
 if TYPE_CHECKING:
@@ -50,7 +51,6 @@ def size(
     Recordings are scored against the extents stated for them, and such a run is logged in their folder, in
     scored_runs.jsonl.
     """
-    from datagen.runs.progress import steps_told
     from datagen.sizing.corpus_run import score_sizes
     from datagen.sizing.flat_rows import flat_scores
     from datagen.sizing.known_sizes import parse_known_sizes
@@ -59,19 +59,19 @@ def size(
     if out is not None:
         require_results_folder(out)
     sizes = parse_known_sizes(known_size or ())
-    with steps_told() as listener:
+    with show_steps() as listener:
         scores = score_sizes(folder, estimator, load_known, split, workers, sizes, listener.counting("sizes"))
     write_json(json_file, flat_scores(scores))
     if out is not None:
         from datagen.drawing.size_report import size_report_png
 
         write_report(scores, out, size_report_png(scores) if scores.summary is not None else None)
-    _tell(scores)
+    _print_result(scores)
     if out is not None:
         print(f"report, table and pictures are in {out}")
 
 
-def _tell(scores: SizeScores) -> None:
+def _print_result(scores: SizeScores) -> None:
     from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 
     answered, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)

@@ -9,7 +9,7 @@ from rich.table import Table
 
 from datagen.corpus_files.format import IMPORTED
 from datagen.corpus_files.reading import AGAIN
-from datagen.runs.progress import for_people
+from datagen.files.byte_counts import bytes_text
 
 if TYPE_CHECKING:
     from datagen.benchmark.predictions import ModelAnswer, Prediction
@@ -35,7 +35,7 @@ def _summary(info: Info) -> Table:
         **({"missing": f"{_lost(info.missing_files)}: {AGAIN}"} if info.missing_files else {}),
         **({"damaged": _lost(info.damaged_files)} if info.damaged_files else {}),
         **({"bearings, by split": _bearings(info)} if recorded else _simulated(info)),
-        "shards": f"{info.shards}, together {for_people(info.bytes)}, {info.record_bytes / 1e6:.2f} MB a record",
+        "shards": f"{info.shards}, together {bytes_text(info.bytes)}, {info.record_bytes / 1e6:.2f} MB a record",
         "length": f"{info.signal_seconds:.1f} s of signal",
         **_making(info, recorded),
         "made with": ", ".join(f"{name} {version}" for name, version in info.made_with.items()),

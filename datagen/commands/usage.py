@@ -29,17 +29,18 @@ class Program(TyperGroup):
     def make_context(self, info_name: str | None, args: list[str], *more: Any, **extra: Any) -> Any:
         """The context of a run with these `args`; those of the command are kept for messages."""
         self._given = [str(part) for part in args]
-        with self._told():
+        with self._guarded():
             _refuse_empty(self.commands.get(next(iter(self._given), "")), self._given)
             return super().make_context(info_name, args, *more, **extra)
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command of the context."""
-        with self._told():
+        with self._guarded():
             return super().invoke(ctx)
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
+    def _guarded(self) -> Iterator[None]:
+        """What the block raises for a command line that cannot be read, or a closed output, becomes an exit code."""
         try:
             with self._readable():
                 yield

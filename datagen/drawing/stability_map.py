@@ -124,7 +124,7 @@ def _draw(axes: Axes, one: Map, first: bool, last: bool) -> None:
     axes.set(ylim=(len(one.rows) - 0.5, -0.5), xlim=(-0.5, len(one.values) - 0.5))
     axes.set_xticks(range(len(one.values)), [_short(value) for value in one.values], rotation=90)
     shown = range(0, len(one.rows), 2)
-    axes.set_yticks(shown, [_told(one.scale, one.rows[k]) for k in shown] if first else [""] * len(shown))
+    axes.set_yticks(shown, [_row_label(one.scale, one.rows[k]) for k in shown] if first else [""] * len(shown))
     axes.tick_params(length=2, color=GREY, labelsize=LETTERS)
     axes.tick_params(axis="x", bottom=last, labelbottom=last)
     if first:
@@ -142,7 +142,7 @@ def _short(value: float) -> str:
     return f"$10^{{{exponent}}}$" if factor == 1.0 else f"${factor:g}·10^{{{exponent}}}$"
 
 
-def _told(scale: str, row: float) -> str:
+def _row_label(scale: str, row: float) -> str:
     if scale == BY_STEP:
         return f"1/{round(1.0 / row)}" if row < 1.0 else f"{row:g}"
     return f"{row:g}" if row >= 1e-3 else f"$10^{{{math.log10(row):.0f}}}$"

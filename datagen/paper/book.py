@@ -15,7 +15,7 @@ from datagen.files.places import require_results_folder
 from datagen.files.plain import plain_json
 from datagen.paper.chapter import Chapter
 from datagen.paper.tables import csv_text, page
-from datagen.telling import Say, unheard
+from datagen.progress import Say, ignore
 
 CHAPTERS = {
     "5": "figure05_load_distribution",
@@ -43,12 +43,12 @@ def chosen(figures: str | None) -> list[str]:
     return [key for key in CHAPTERS if key in asked]
 
 
-def write_book(out: Path, keys: Sequence[str], say: Say = unheard) -> dict[str, Any]:
+def write_book(out: Path, keys: Sequence[str], say: Say = ignore) -> dict[str, Any]:
     """Compute and draw the chapters `keys` into the folder `out`; returns what paper.json holds.
 
-    For each chapter name.png and name.csv, and for all paper.json and README.md; `say` hears the title of each chapter
-    that is written. Raises BadInput if the folder cannot
-    be made or written into, before anything is computed, and where it is full.
+    For each chapter name.png and name.csv, and for all paper.json and README.md; `say` is called with the title of
+    each chapter that is written. Raises BadInput if the folder cannot be made or written into, before anything is
+    computed, and where it is full.
     """
     require_results_folder(out)
     write_results(out, {})

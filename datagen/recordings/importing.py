@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-import math
-import os
-import re
-import shutil
-import socket
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,26 +13,24 @@ from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, write_manifest
 from datagen.corpus_files.shard import finished_shards, write_shard
 from datagen.errors import BadInput
-from datagen.files.atomic import TEMPORARY_SUFFIX
 from datagen.files.places import require_folder
+from datagen.progress import Say, Throttle, ignore
 from datagen.recordings.dataset import imported_dataset
-from datagen.recordings.doubts import turns_doubt
+from datagen.recordings.import_plan import ImportPlan, PlannedRecord
 from datagen.recordings.listing import Listing, Request, list_requests
-from datagen.recordings.recorded import Key, Recorded, read_recording
+from datagen.recordings.recorded import Recorded, read_recording
 from datagen.recordings.source import remembered_files, source_hash
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
+from datagen.recordings.staging import staged, writing
 from datagen.recordings.unchanged import require_unchanged
-from datagen.telling import Say, unheard
 from datagen.versions import program_hash, program_versions
-from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
     import xarray
 
-SHARD_BYTES = 64e6
-# An import that ends within this time tells no progress.
-SECONDS_UNTOLD = 2.0
+# An import that ends within this time shows no progress.
+SECONDS_BETWEEN_STEPS = 2.0
 
 
 @dataclass(frozen=True)
@@ -61,65 +52,38 @@ class Imported:
     few_turns: str
 
 
-@dataclass(frozen=True)
-class _Planned:
-    """A record whose samples have been checked and dropped again: `piece` of `request`, with its index.
-
-    `content` is the hash by which its samples are known again.
-    """
-
-    index: int
-    request: Request
-    piece: int
-    key: Key
-    bytes: int
-    content: str
-
-
-def import_recordings(spec: Spec, folder: Path, root: Path | None = None, tell: Say = unheard) -> Imported:
+def import_recordings(spec: Spec, folder: Path, root: Path | None = None, step: Say = ignore) -> Imported:
     """Make the corpus of the SPEC's recordings in `folder`, which must not exist or be empty.
 
-    Files are looked for below `root`, by default the SPEC's own. Where it takes long, `tell` hears how far it has got.
-    Raises BadInput for anything wrong in the SPEC or the files, before `folder` is touched.
+    Files are looked for below `root`, by default the SPEC's own. `step` is called with how far it has got where that
+    takes long. Raises BadInput for anything wrong in the SPEC or the files, before `folder` is touched.
     """
     with remembered_files():
-        return _import(spec, folder, root or _own_root(spec), _patient(tell))
+        return _import(spec, folder, root or _stated_root(spec), _seldom(step))
 
 
-def _patient(tell: Say) -> Say:
-    began = time.monotonic()
-    return lambda step: tell(step) if time.monotonic() - began >= SECONDS_UNTOLD else None
+def _seldom(step: Say) -> Say:
+    """`step` for whoever calls it oftener than a person can read."""
+    reports = Throttle(SECONDS_BETWEEN_STEPS, time.monotonic() + SECONDS_BETWEEN_STEPS)
+    return lambda sentence: step(sentence) if reports.due(time.monotonic()) else None
 
 
-def _own_root(spec: Spec) -> Path:
+def _stated_root(spec: Spec) -> Path:
+    """The folder of the recordings as the SPEC states it; BadInput for a shipped SPEC, which cannot know it."""
     if spec.source in shipped_specs().values():
         raise BadInput("this SPEC comes without its recordings", field="--root", allowed="the folder that holds them")
     return spec.source.parent / spec.root
 
 
-def _import(spec: Spec, folder: Path, root: Path, tell: Say) -> Imported:
+def _import(spec: Spec, folder: Path, root: Path, step: Say) -> Imported:
     began = time.monotonic()
-    _check_folder(folder)
+    _require_new(folder)
     listing = list_requests(spec, root)
-    plan = _Plan(spec)
+    plan = ImportPlan(spec)
     for number, request in enumerate(listing.requests, start=1):
-        tell(f"checking {request.name}, {number} of {len(listing.requests)}")
+        step(f"checking {request.name}, {number} of {len(listing.requests)}")
         plan.add(request)
-    manifest = _manifest(spec, listing, len(plan.records))
-    with _staged(folder) as staging:
-        for number, planned in enumerate(plan.shards):
-            tell(f"writing shard {number + 1} of {len(plan.shards)}")
-            start = time.perf_counter()
-            dataset = _dataset(planned, manifest)
-            seconds = round(time.perf_counter() - start, 3)
-            with _writing(folder):
-                write_shard(staging, number, manifest.identity, dataset, (), "zlib", seconds)
-        with _writing(folder):
-            write_index(staging, finished_shards(staging))
-            manifest = manifest.with_shards(staging, finished_shards(staging))
-            write_manifest(staging, manifest)
-        for path in {*(request.path for request in listing.requests), *listing.tables}:
-            require_unchanged(path)  # so that what was read is what the hashes in the manifest are of
+    manifest = _write(plan, _manifest(spec, listing, len(plan.records)), listing, folder, step)
     return Imported(
         str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
         len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped), tuple(plan.dead),
@@ -127,7 +91,26 @@ def _import(spec: Spec, folder: Path, root: Path, tell: Say) -> Imported:
     )  # fmt: skip
 
 
-def _check_folder(folder: Path) -> None:
+def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path, step: Say) -> Manifest:
+    """Write the planned shards, the index and the manifest; returns the manifest with its shards."""
+    with staged(folder) as staging:
+        for number, planned in enumerate(plan.shards):
+            step(f"writing shard {number + 1} of {len(plan.shards)}")
+            start = time.perf_counter()
+            dataset = _dataset(planned, manifest)
+            seconds = round(time.perf_counter() - start, 3)
+            with writing(folder):
+                write_shard(staging, number, manifest.identity, dataset, (), "zlib", seconds)
+        with writing(folder):
+            write_index(staging, finished_shards(staging))
+            manifest = manifest.with_shards(staging, finished_shards(staging))
+            write_manifest(staging, manifest)
+        for path in {*(request.path for request in listing.requests), *listing.tables}:
+            require_unchanged(path)  # so that what was read is what the hashes in the manifest are of
+    return manifest
+
+
+def _require_new(folder: Path) -> None:
     require_folder(folder)
     if folder.exists() and any(folder.iterdir()):
         raise BadInput(
@@ -136,83 +119,7 @@ def _check_folder(folder: Path) -> None:
         )  # fmt: skip
 
 
-class _Plan:
-    """The records found so far, none of them twice, and the shards they go into."""
-
-    def __init__(self, spec: Spec) -> None:
-        self.spec = spec
-        self.records: list[_Planned] = []
-        self.skipped: list[str] = []
-        self.dead: list[str] = []
-        self.doubts: dict[str, list[str]] = {}
-        self.fewest_turns, self.few_turns = math.inf, ""
-        self.names: dict[str, str] = {}
-        self.contents: dict[str, str] = {}
-        self.splits: dict[str, str] = {}
-
-    def add(self, request: Request) -> None:
-        """Read the records of a request, check them against all before, and keep what is needed to read them again."""
-        for piece, record in enumerate(read_recording(request)):
-            if self._is_new(record, request):
-                self._check_split(record, request)
-                self._doubt(record, request)
-                self.records.append(
-                    _Planned(len(self.records), request, piece, record.key, record.bytes, record.content)
-                )
-
-    def _doubt(self, record: Recorded, request: Request) -> None:
-        """Keep what is odd about a record."""
-        name = record.labels["recording"]
-        if record.dead:
-            self.dead.append(f"{name} ({', '.join(record.dead)})")
-        for doubt, figures in record.doubts.items():
-            self.doubts.setdefault(doubt, []).append(f"{name} ({figures})" if figures else name)
-        if record.turns < self.fewest_turns:
-            self.fewest_turns = record.turns
-            self.few_turns = turns_doubt(record.turns, record.labels, request.settings)
-
-    def _is_new(self, record: Recorded, request: Request) -> bool:
-        name, where = record.labels["recording"], f"{request.name} ({request.place})"
-        if name in self.names:
-            raise BadInput(
-                f"this name is already taken by {self.names[name]}", request.place, "recording", name,
-                'a different name for each record, as in recording = "{path} {channel}"',
-            )  # fmt: skip
-        self.names[name] = where
-        if record.dead == record.axes:
-            return True  # all that is dead looks alike, and need be no repeat
-        twin = self.contents.setdefault(record.content, name)
-        if twin == name or self.spec.same_samples == "keep":
-            return True
-        if self.spec.same_samples == "refuse":
-            raise BadInput(
-                f'record "{name}" has exactly the samples of "{twin}", {self.names[twin]}', str(request.path),
-                "same_samples", "refuse", '"skip", which leaves such repeats out, or "keep"',
-            )  # fmt: skip
-        self.skipped.append(name)
-        return False
-
-    def _check_split(self, record: Recorded, request: Request) -> None:
-        bearing, split = record.labels["bearing_id"], record.labels["split"]
-        if bearing != UNKNOWN and self.splits.setdefault(bearing, split) != split:
-            problem = f"the records of bearing {bearing} would be in the splits {self.splits[bearing]} and {split}"
-            raise BadInput(problem, request.place, "split", split, "one split for each bearing")
-
-    @cached_property
-    def shards(self) -> list[list[_Planned]]:
-        """The records by shard: of one kind, in order, up to 64 MB together."""
-        shards: list[list[_Planned]] = []
-        growing: dict[Key, list[_Planned]] = {}
-        for planned in self.records:
-            shard = growing.get(planned.key)
-            if shard is None or sum(one.bytes for one in shard) + planned.bytes > SHARD_BYTES:
-                shard = growing[planned.key] = []
-                shards.append(shard)
-            shard.append(planned)
-        return shards
-
-
-def _dataset(shard: list[_Planned], manifest: Manifest) -> xarray.Dataset:
+def _dataset(shard: list[PlannedRecord], manifest: Manifest) -> xarray.Dataset:
     """The records of a shard, read again."""
     records = list(_read_again(shard))
     spec = manifest.recipe["spec"]
@@ -222,7 +129,7 @@ def _dataset(shard: list[_Planned], manifest: Manifest) -> xarray.Dataset:
     return imported_dataset([planned.index for planned in shard], records, about)
 
 
-def _read_again(shard: list[_Planned]) -> Iterator[Recorded]:
+def _read_again(shard: list[PlannedRecord]) -> Iterator[Recorded]:
     wanted: dict[Request, dict[int, str]] = {}
     for planned in shard:
         wanted.setdefault(planned.request, {})[planned.piece] = planned.content
@@ -249,52 +156,3 @@ def _manifest(spec: Spec, listing: Listing, records: int) -> Manifest:
         made_with=program_versions(),
         origin=IMPORTED,
     )
-
-
-def _sweep(place: Path, beginning: str) -> None:
-    """Delete what imports of the same name left in `place` whose process, on this computer, was killed."""
-    name = re.compile(re.escape(beginning) + r"(\d+)" + re.escape(TEMPORARY_SUFFIX))
-    for path in place.glob(".*") if place.is_dir() else ():
-        found = name.fullmatch(path.name)
-        if found and not _alive(int(found[1])):
-            shutil.rmtree(path, ignore_errors=True)
-
-
-def _alive(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except PermissionError:
-        pass  # somebody else's
-    return True
-
-
-@contextmanager
-def _staged(folder: Path) -> Iterator[Path]:
-    """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong.
-
-    What goes wrong in the block is left as it is: it may be a recording that cannot be read.
-    """
-    beginning = f".{folder.name}.{socket.gethostname()}."
-    staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
-    _sweep(folder.parent, beginning)
-    try:
-        with _writing(folder):
-            (staging / "shards").mkdir(parents=True)
-        yield staging
-        with _writing(folder):
-            if folder.exists():
-                folder.rmdir()
-            staging.rename(folder)
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
-
-
-@contextmanager
-def _writing(folder: Path) -> Iterator[None]:
-    """BadInput that names `folder` in place of an OSError of the block, which does nothing but write."""
-    try:
-        yield
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None

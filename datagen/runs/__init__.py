@@ -3,5 +3,5 @@
 - `generate`: from a recipe to a corpus; `run`: one run over its folder; `earlier`: what runs before left there
 - `requirements`: what can never be made is refused; `plan`: which record goes into which shard;
   `redraws`: how often it drew again
-- `workers`, and the `task` of each; `progress`: told to a person
+- `workers`, and the `task` of each
 """

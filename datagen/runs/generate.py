@@ -12,6 +12,7 @@ from datagen.corpus_files.manifest import add_spans
 from datagen.errors import BadInput
 from datagen.files.atomic import locked
 from datagen.files.netcdf import check_compression
+from datagen.progress import SILENT, Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.earlier import earlier_runs
 from datagen.runs.plan import plan_shards, selection
@@ -19,7 +20,6 @@ from datagen.runs.requirements import require_memory, require_possible_rates, re
 from datagen.runs.run import Run, Summary
 from datagen.runs.task import kernels_loading_in_workers
 from datagen.runs.workers import Engine, engaged, none_woken
-from datagen.telling import NOBODY, Listener
 from datagen.versions import program_hash
 
 
@@ -30,7 +30,7 @@ def generate(
     limit: int | None = None,
     records: Sequence[int] | None = None,
     engine: Engine | None = None,
-    listener: Listener = NOBODY,
+    listener: Listener = SILENT,
 ) -> Summary:
     """Make the recipe's records (all, the first `limit`, or those listed) in `folder`, keeping what is finished there.
 

@@ -12,13 +12,13 @@ import numpy as np
 from datagen.corpus_files.format import ZLIB_SHARE
 from datagen.corpus_files.manifest import Span, add_spans
 from datagen.errors import BadInput
+from datagen.progress import Say, Throttle, ignore
 from datagen.recipes.recipe import Recipe
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
 from datagen.runs.redraws import RedrawCount
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
-from datagen.telling import Say, unheard
 from labels.schema import LAYERS
 from labels.variables import AXES, SIGNALS
 from physics.words import STIFFNESS_COMPONENTS
@@ -26,7 +26,7 @@ from physics.words import STIFFNESS_COMPONENTS
 # What a shard takes beside its signals: labels, tables, scenarios and the library's blocks.
 SHARD_BYTES = 250_000.0
 # A plan that takes longer says in between how far it has got.
-SECONDS_BETWEEN = 10.0
+SECONDS_BETWEEN_REPORTS = 10.0
 
 
 @dataclass(frozen=True)
@@ -45,24 +45,24 @@ class PlannedShard:
     record_seconds: float
 
 
-def plan_shards(recipe: Recipe, stop: int, say: Say = unheard) -> list[PlannedShard]:
+def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedShard]:
     """The shards that hold records 0 … `stop` − 1 of the recipe, the last ones perhaps not yet full.
 
     Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
-    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. Where it takes long, `say`
-    hears how far it has got, and at its end of impossible draws where they are many. Raises BadInput if a record can
-    hardly be drawn.
+    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. `say` is called with how far
+    it has got where that takes long, and at the end with a sentence on impossible draws where they are many. Raises
+    BadInput if a record can hardly be drawn.
     """
     shards: list[PlannedShard] = []
     growing: dict[Hashable, int] = {}
     forces_kept: set[tuple[str, str]] = set()
-    heard, drawn_again = time.monotonic(), RedrawCount(recipe)
+    redraws = RedrawCount(recipe)
+    reports = Throttle(SECONDS_BETWEEN_REPORTS, time.monotonic() + SECONDS_BETWEEN_REPORTS)
     for record in range(stop):
-        if time.monotonic() - heard >= SECONDS_BETWEEN:
-            heard = time.monotonic()
+        if reports.due(time.monotonic()):
             say(f"{record} of {stop} records are drawn; none is made before all are")
         scenario = draw_scenario(recipe, record)
-        drawn_again.add(scenario)
+        redraws.add(scenario)
         stored = stored_signals(recipe, scenario, forces_kept)
         kind = (shard_key(scenario), stored)
         if kind not in growing:
@@ -74,7 +74,7 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = unheard) -> list[PlannedSh
         shards[place] = replace(shards[place], records=(*shards[place].records, record))
         if len(shards[place].records) == recipe.store.records_per_shard:
             del growing[kind]
-    if sentence := drawn_again.sentence():
+    if sentence := redraws.sentence():
         say(sentence)
     return shards
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from datagen.corpus_files.manifest import Span, manifest_path
 from datagen.errors import BadInput
+from datagen.files.byte_counts import bytes_text
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, stored_bytes
-from datagen.runs.progress import for_people
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from datagen.settings.toml_lines import Location, place_in_file
@@ -95,18 +95,18 @@ def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) 
     for shard in kinds.values():
         if shard.record_bytes > free:
             raise BadInput(
-                f"one record needs about {for_people(shard.record_bytes)} of disk space; {for_people(free)} are free",
+                f"one record needs about {bytes_text(shard.record_bytes)} of disk space; {bytes_text(free)} are free",
                 field="--out", value=str(folder), allowed="a folder on a larger disk, or shorter records",
             )  # fmt: skip
         scenario = draw_scenario(recipe, shard.records[0])
         require_record_memory(recipe, scenario, shard.stored)
         left = memory - record_memory(scenario, shard.stored)
         if len(shard.records) * COPIES * shard.raw_bytes > left:
-            need = for_people(len(shard.records) * COPIES * shard.raw_bytes)
+            need = bytes_text(len(shard.records) * COPIES * shard.raw_bytes)
             raise _refusal(
                 recipe, ("store", "records_per_shard"),
                 f"a shard of {len(shard.records)} records needs about {need} of memory, and this machine has "
-                f"{for_people(memory)}",
+                f"{bytes_text(memory)}",
                 recipe.store.records_per_shard, f"at most {max(int(left / (COPIES * shard.raw_bytes)), 1)}",
             )  # fmt: skip
 
@@ -116,8 +116,8 @@ def _require_record(recipe: Recipe, rate: float, duration: float, need: float) -
     if need > memory:
         raise _refusal(
             recipe, ("signal", "duration_s"),
-            f"a record of {rate * duration:.3g} samples needs about {for_people(need)} of memory, and this machine has "
-            f"{for_people(memory)}",
+            f"a record of {rate * duration:.3g} samples needs about {bytes_text(need)} of memory, and this machine has "
+            f"{bytes_text(memory)}",
             duration, f"at most about {duration * memory / need:.2g} s at {rate:g} Hz",
         )  # fmt: skip
 

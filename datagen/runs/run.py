@@ -16,12 +16,12 @@ from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, Span, write_manifest
 from datagen.corpus_files.shard import Failure, Sidecar, finished_shards, sweep_unfinished
 from datagen.files.atomic import NO_SPACE, write_atomically
+from datagen.files.byte_counts import bytes_text
+from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
-from datagen.runs.progress import for_people
 from datagen.runs.task import make_shard, warm_kernels
 from datagen.runs.workers import WorkerLost, run_tasks
-from datagen.telling import Listener
 from datagen.versions import program_versions
 
 ATTEMPTS_TOGETHER = 2
@@ -178,8 +178,8 @@ class Run:
         count = sum(len(shard.records) for shard in todo)
         warning = "" if needed < free else ": the disk will be full before the end"
         self.listener.say(
-            f"{count} records in {len(todo)} shards to make; they will need about {for_people(needed)} of disk space, "
-            f"{for_people(free)} are free{warning}"
+            f"{count} records in {len(todo)} shards to make; they will need about {bytes_text(needed)} of disk space, "
+            f"{bytes_text(free)} are free{warning}"
         )
 
     def _make_persistently(self, todo: list[PlannedShard]) -> None:
@@ -233,9 +233,9 @@ class Run:
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
         largest = max((needed_bytes([shard]) for shard in todo), default=0.0)
         cause, needed = {
-            errno.EFBIG: ("files may not be as large as a shard here (ulimit -f)", f"files of {for_people(largest)}"),
-            errno.EDQUOT: ("the quota of this disk is used up", for_people(needed_bytes(todo))),
-        }.get(problem.errno or 0, ("the disk is full", f"{for_people(missing)} more"))
+            errno.EFBIG: ("files may not be as large as a shard here (ulimit -f)", f"files of {bytes_text(largest)}"),
+            errno.EDQUOT: ("the quota of this disk is used up", bytes_text(needed_bytes(todo))),
+        }.get(problem.errno or 0, ("the disk is full", f"{bytes_text(missing)} more"))
         return (
             f"{cause}: {sum(len(shard.records) for shard in todo)} records have not been made, and about {needed} are "
             "needed; finished shards are kept; the same command continues from there"

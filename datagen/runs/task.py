@@ -12,6 +12,7 @@ from pathlib import Path
 from datagen.corpus_files.format import Identity, to_dataset
 from datagen.corpus_files.shard import Failure, write_shard
 from datagen.files.atomic import NO_SPACE
+from datagen.progress import Say
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
@@ -19,7 +20,6 @@ from datagen.runs.redraws import own_redraws
 from datagen.runs.workers import none_woken, woken_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
-from datagen.telling import Say
 from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
 

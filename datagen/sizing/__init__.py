@@ -1,7 +1,7 @@
 """Spall sizes of whole corpora: estimated, scored, drawn, and the estimator's calibration fitted.
 
 - `sized_records`: records as an estimator sees them, from `stored_record` and `stated_situation`
-- `estimators`: ours, and an `own_estimator` of a user
+- `estimators`: ours, and a `user_estimator`
 - `corpus_run`: a corpus scored `in_blocks`; `comparison` with the truth makes a `scored_record` of each
 - `aggregation`: all of them together, as a `size_summary`, made of `figures` and `error_tables` from `record_errors`,
   with `bearing_intervals`

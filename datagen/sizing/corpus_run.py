@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
+from datagen.progress import Count, ignore
 from datagen.scored_runs import write_line
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.comparison import score_record, unsized_row
@@ -21,7 +22,6 @@ from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary, StatedSizes
 from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
-from datagen.telling import Count, unheard
 from datagen.versions import program_versions
 from labels.schema import SPLITS
 
@@ -53,13 +53,13 @@ def score_sizes(
     split: str | None,
     workers: int = 1,
     sizes: Mapping[int, float] = NONE_KNOWN,
-    count: Count = unheard,
+    count: Count = ignore,
 ) -> SizeScores:
     """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for).
 
     A record that cannot be sized has a row that says why; BadInput if that holds of all. Known `sizes` (mm) of records
-    correct those of the other records of their machines; `count` hears how many records are done. A run on recordings
-    of stated extents or health is logged beside them, before and after.
+    correct those of the other records of their machines; `count` is called with how many records are done. A run
+    on recordings of stated extents or health is logged beside them, before and after.
     """
     own = find_estimator(estimator)
     chosen = _split(folder, split)

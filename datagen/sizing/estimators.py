@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.own_code import FIELD, load_own
-from datagen.sizing.own_estimator import OwnEstimator
+from datagen.sizing.user_estimator import UserEstimator
+from datagen.user_code import FIELD, load_user_code
 from labels.spall_size.calibration import Calibration
 from labels.spall_size.estimator import SizeEstimator
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate
 
 CALIBRATION_FILE = Path(__file__).with_name("calibration.npz")
-SPOKEN = (
+ESTIMATOR_FORMS = (
     "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate, "
     "or module:function that does the same"
 )
@@ -49,7 +49,8 @@ def find_estimator(name: str | None) -> AnyEstimator:
     """
     if name is None:
         return default_estimator()
-    made = load_own(name, SPOKEN)
+    made = load_user_code(name, ESTIMATOR_FORMS)
     if not callable(getattr(made, "estimate", made)):
-        raise BadInput("it has no method estimate, and cannot be called", field=FIELD, value=name, allowed=SPOKEN)
-    return OwnEstimator(name, made, SPOKEN)
+        problem = "it has no method estimate, and cannot be called"
+        raise BadInput(problem, field=FIELD, value=name, allowed=ESTIMATOR_FORMS)
+    return UserEstimator(name, made, ESTIMATOR_FORMS)

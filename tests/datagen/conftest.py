@@ -114,7 +114,7 @@ def small_chart() -> Chart:
     named = [one for one in contestants(subject.scene, quick=True) if one.name in ("exponential_rk4", "impulse train")]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("datagen.charts.measure.contestants", lambda scene, quick: named)
-        return measure(subject, quick=True, rounds=1, say=lambda what: None)
+        return measure(subject, quick=True, rounds=1, step=lambda what: None)
 
 
 @pytest.fixture(scope="session")

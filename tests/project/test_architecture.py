@@ -37,9 +37,9 @@ FLOORS = (
     (
         "errors",
         "exits",
-        "own_code",
+        "progress",
         "scored_runs",
-        "telling",
+        "user_code",
         "versions",
     ),
     ("files",),

@@ -237,7 +237,7 @@ def test_the_learning_curve_is_that_of_ones_own_estimator(classify, tmp_path, in
 
 @pytest.mark.parametrize("inputs", ["features", "windows"])
 def test_how_far_it_has_got_is_told_on_standard_error(classify, other_corpus, inputs, monkeypatch):
-    monkeypatch.setattr("datagen.runs.progress.SECONDS_BETWEEN_LINES", 0.0)
+    monkeypatch.setattr("datagen.commands.progress_display.SECONDS_BETWEEN_LINES", 0.0)
     done, _ = classify("--estimator", "own_estimators:Guesser", "--input", inputs)
     records = len(Corpus(other_corpus).labels)
     steps = done.stderr.splitlines()

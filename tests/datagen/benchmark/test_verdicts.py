@@ -15,7 +15,7 @@ from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
 from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
-from datagen.commands.classify import score_line, tell_results
+from datagen.commands.classify import print_results, score_line
 from datagen.commands.tables import verdict_table
 from labels.classifier.alarm import CLEARNESS, Alarm
 from labels.classifier.log_odds import logit, probability_of
@@ -302,7 +302,7 @@ def test_what_is_said_of_a_record_of_unknown_health_is_no_false_alarm():
 def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(capsys):
     outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]
     tested = judged(["none", "unknown", "ball"], [healthy, outer, healthy])
-    tell_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
+    print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
     lines = [line for line in capsys.readouterr().out.splitlines() if "│" in line]
     assert len(lines) == 2
     assert "unknown" in lines[0]

@@ -427,7 +427,7 @@ def test_a_full_disk_is_told_of_the_folder_that_is_written(
     assert not (tmp_path / "corpus").exists()
 
 
-def test_a_recording_that_cannot_be_read_again_is_not_told_of_the_folder_that_is_written(
+def test_a_recording_that_cannot_be_read_again_is_named_and_not_the_folder_that_is_written(
     bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[Request] = []
@@ -439,7 +439,8 @@ def test_a_recording_that_cannot_be_read_again_is_not_told_of_the_folder_that_is
         return read_recording(request)
 
     mat("a.mat")
-    monkeypatch.setattr("datagen.recordings.importing.read_recording", read_once)
+    for module in ("import_plan", "importing"):
+        monkeypatch.setattr(f"datagen.recordings.{module}.read_recording", read_once)
     with pytest.raises(OSError, match=r"Input/output error: 'a\.mat'"):
         bring(SPEC)
     assert len(asked) == 2

@@ -50,8 +50,8 @@ def test_an_import_that_takes_long_tells_how_far_it_has_got(
     bring(SPEC + 'files = "*.mat"\n', "first")
     said: list[str] = []
     for seconds, folder in ((2.0, "second"), (0.0, "third")):
-        monkeypatch.setattr(importing, "SECONDS_UNTOLD", seconds)
-        importing.import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / folder, tell=said.append)
+        monkeypatch.setattr(importing, "SECONDS_BETWEEN_STEPS", seconds)
+        importing.import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / folder, step=said.append)
         if seconds:
             assert not said
     assert said == ["checking a.mat, 1 of 2", "checking b.mat, 2 of 2", "writing shard 1 of 1"]

@@ -19,18 +19,18 @@ import datagen.corpus_files.index
 import datagen.corpus_files.manifest
 import datagen.corpus_files.shard
 import datagen.runs.run
+from datagen.commands.progress_display import Lines
 from datagen.corpus_files.index import read_index
 from datagen.corpus_files.manifest import read_manifest
 from datagen.corpus_files.shard import finished_shards, shard_path, sidecar_path
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
+from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.generate import generate
 from datagen.runs.plan import plan_shards
-from datagen.runs.progress import Lines
 from datagen.runs.task import ShardRow, make_shard
 from datagen.runs.workers import Engine, engaged
-from datagen.telling import Listener
 
 ALONE = Engine(workers=1)
 Contents = Callable[[Path], dict[int, str]]

@@ -73,6 +73,6 @@ def test_a_plan_that_takes_long_tells_how_far_it_has_got(tiny: Recipe, monkeypat
     said: list[str] = []
     plan_shards(tiny, 3, said.append)
     assert said == []
-    monkeypatch.setattr("datagen.runs.plan.SECONDS_BETWEEN", 0.0)
+    monkeypatch.setattr("datagen.runs.plan.SECONDS_BETWEEN_REPORTS", 0.0)
     plan_shards(tiny, 3, said.append)
     assert said == [f"{record} of 3 records are drawn; none is made before all are" for record in range(3)]

@@ -14,7 +14,7 @@ from datagen.errors import BadInput
 FIELD = "--estimator"
 
 
-def load_own(name: str, allowed: str) -> Any:
+def load_user_code(name: str, allowed: str) -> Any:
     """What "module:name" is, looked for in the working folder too; a class is made without arguments.
 
     Raises BadInput, which says what is `allowed`, whatever goes wrong on the way.
@@ -24,13 +24,13 @@ def load_own(name: str, allowed: str) -> Any:
         raise BadInput(field=FIELD, value=name, allowed=allowed)
     if "" not in sys.path:
         sys.path.insert(0, "")
-    with own_code(name, "it cannot be loaded", allowed):
+    with user_code(name, "it cannot be loaded", allowed):
         found = getattr(importlib.import_module(module), attribute)
         return found() if isinstance(found, type) else found
 
 
 @contextmanager
-def own_code(name: str, problem: str, allowed: str = "") -> Iterator[None]:
+def user_code(name: str, problem: str, allowed: str = "") -> Iterator[None]:
     """Turns any exception of the user's code `name` into BadInput with its line; the user's code may raise anything."""
     try:
         yield

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.own_code import FIELD, own_code
+from datagen.user_code import FIELD, user_code
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -20,7 +20,7 @@ INTERVALS = ("lag_interval", "extent_interval", "extent_mm_interval")
 
 
 @dataclass(frozen=True)
-class OwnEstimator:
+class UserEstimator:
     """The user's `made` of "module:Class" or "module:function" `name`: its method `estimate`, or calling it, returns
     what is `allowed`."""
 
@@ -35,7 +35,7 @@ class OwnEstimator:
         """
         method = getattr(self.made, "estimate", None)
         subject = "it" if method is None else "its method estimate"
-        with own_code(self.name, f"{subject} fails"):
+        with user_code(self.name, f"{subject} fails"):
             estimate: SizeEstimate = (method or self.made)(acceleration, rate, situation)
         problem = _against(estimate)
         if problem:

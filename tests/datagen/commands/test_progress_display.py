@@ -1,11 +1,11 @@
 """How progress is shown."""
 
-from datagen.runs.progress import CLEARED, steps_told
+from datagen.commands.progress_display import CLEARED, show_steps
 
 
 def test_progress_is_plain_lines_where_it_is_piped(capsys):
     clock = iter([0.0, 1.0, 2.5])
-    with steps_told(lambda: next(clock)) as listener:
+    with show_steps(lambda: next(clock)) as listener:
         for step in ("1 of 3: a", "2 of 3: b", "3 of 3: c"):
             listener.step(step)
     assert capsys.readouterr().err == "1 of 3: a\n3 of 3: c\n"
@@ -13,7 +13,7 @@ def test_progress_is_plain_lines_where_it_is_piped(capsys):
 
 def test_on_a_terminal_a_sentence_that_stays_takes_the_changing_line_away_first(capfd, monkeypatch):
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
-    with steps_told() as listener:
+    with show_steps() as listener:
         listener.step("1 of 2")
         listener.say("half of it")
         assert capfd.readouterr() == ("half of it\n", f"{CLEARED}1 of 2{CLEARED}")

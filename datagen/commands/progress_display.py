@@ -1,15 +1,14 @@
-"""Telling a person how far a run has got: a bar on a terminal, plain lines with rate and remaining time when piped."""
+"""Progress shown to a person: a bar or one changing line on a terminal, plain lines every few seconds elsewhere."""
 
 from __future__ import annotations
 
-import math
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from datagen.telling import Listener
+from datagen.progress import Listener, Throttle
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -25,7 +24,7 @@ class Lines:
         self._clock = clock
         self._began: float | None = None
         self._first = 0
-        self._last_line = -SECONDS_BETWEEN_LINES
+        self._throttle = Throttle(SECONDS_BETWEEN_LINES)
 
     def say(self, sentence: str) -> None:
         """Print the sentence."""
@@ -36,9 +35,8 @@ class Lines:
         now = self._clock()
         if self._began is None:
             self._began, self._first = now, done
-        if done < total and now - self._last_line < SECONDS_BETWEEN_LINES:
+        if not self._throttle.due(now) and done < total:
             return
-        self._last_line = now
         rate = (done - self._first) / (now - self._began) if now > self._began else 0.0
         pace = f", {rate:.2f} records/s, {(total - done) / rate:.0f} s left" if rate > 0.0 else ""
         self.say(f"{done} of {total} records{pace}")
@@ -66,8 +64,8 @@ class Bar:
 
 
 @contextmanager
-def records_told() -> Iterator[Listener]:
-    """Who hears how many records of the block are done: a bar shows it on a terminal, plain lines elsewhere."""
+def show_records() -> Iterator[Listener]:
+    """A listener of the block that shows how many records are done: a bar on a terminal, plain lines elsewhere."""
     if not sys.stderr.isatty():
         lines = Lines()
         yield Listener(say=lines.say, advance=lines.advance)
@@ -94,15 +92,13 @@ class Steps:
     def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
         self._on_terminal = sys.stderr.isatty()
-        self._last_line = -math.inf
+        self._throttle = Throttle(SECONDS_BETWEEN_LINES)
 
     def step(self, step: str) -> None:
-        """Tell the step."""
-        now = self._clock()
+        """Show the step."""
         if self._on_terminal:
             print(f"{CLEARED}{step}", end="", file=sys.stderr, flush=True)
-        elif now - self._last_line >= SECONDS_BETWEEN_LINES:
-            self._last_line = now
+        elif self._throttle.due(self._clock()):
             print(step, file=sys.stderr, flush=True)
 
     def say(self, sentence: str) -> None:
@@ -117,15 +113,10 @@ class Steps:
 
 
 @contextmanager
-def steps_told(clock: Callable[[], float] = time.monotonic) -> Iterator[Listener]:
-    """Who hears of the block's steps and tells them; the changing line is gone afterwards."""
+def show_steps(clock: Callable[[], float] = time.monotonic) -> Iterator[Listener]:
+    """A listener of the block that shows the step under way; the changing line is gone afterwards."""
     steps = Steps(clock)
     try:
         yield Listener(say=steps.say, step=steps.step)
     finally:
         steps.clear()
-
-
-def for_people(count: float) -> str:
-    """A number of bytes in MB or GB."""
-    return f"{count / 1e9:.1f} GB" if count >= 1e9 else f"{count / 1e6:.1f} MB"

@@ -20,8 +20,8 @@ from datagen.errors import BadInput
 from datagen.sizing.comparison import score_record
 from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import find_estimator
-from datagen.sizing.own_estimator import OwnEstimator
 from datagen.sizing.sized_records import SizedRecord, sized_records
+from datagen.sizing.user_estimator import UserEstimator
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -56,7 +56,7 @@ class Saying:
 
 
 def asked(answer: Any) -> SizeEstimate:
-    estimator = OwnEstimator("mine:Sizer", Saying(answer), "a method that returns a SizeEstimate")
+    estimator = UserEstimator("mine:Sizer", Saying(answer), "a method that returns a SizeEstimate")
     return estimator.estimate(np.zeros((4, 2)), 1000.0, None)  # type: ignore[arg-type]
 
 
@@ -84,7 +84,7 @@ def test_an_estimate_of_the_least_that_is_required_is_scored_where_the_load_is_k
     }  # fmt: skip
     loaded = replace(MACHINE, load=500.0, load_deflection=1e10)
     record = SizedRecord(3, 1000.0, np.zeros((400, 2)), None, labels, loaded, None)
-    row = score_record(record, OwnEstimator("mine:Sizer", Saying(least), ""))
+    row = score_record(record, UserEstimator("mine:Sizer", Saying(least), ""))
     assert (row.answer.extent, row.answer.race) == (0.1, "")
     assert math.isnan(row.static_arc)
 

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from datagen.cli import app
 from datagen.errors import BadInput
-from datagen.own_code import load_own
+from datagen.user_code import load_user_code
 
 BROKEN = {
     "h_syntax": "def broken(:\n",
@@ -30,8 +30,8 @@ def here(tmp_path, monkeypatch):
 
 
 def test_a_class_is_made_and_a_function_is_taken_from_the_working_folder(here):
-    assert load_own("h_good:Thing", "").size == 3
-    assert load_own("h_good:function", "")(4) == 4
+    assert load_user_code("h_good:Thing", "").size == 3
+    assert load_user_code("h_good:function", "")(4) == 4
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def test_a_class_is_made_and_a_function_is_taken_from_the_working_folder(here):
 )
 def test_what_cannot_be_loaded_is_refused_with_what_can(here, name):
     with pytest.raises(BadInput, match=r"--estimator.*module:Class"):
-        load_own(name, "module:Class")
+        load_user_code(name, "module:Class")
 
 
 @pytest.mark.parametrize("command", [["classify", "--train", "a", "--test", "b"], ["size", "a"]])

@@ -1,0 +1,107 @@
+"""Which records an import will write, and into which shards; each has been read and checked against all before it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from datagen.errors import BadInput
+from datagen.recordings.doubts import turns_doubt
+from datagen.recordings.listing import Request
+from datagen.recordings.recorded import Key, Recorded, read_recording
+from datagen.recordings.spec import Spec
+from labels.schema import UNKNOWN
+
+SHARD_BYTES = 64e6
+
+
+@dataclass(frozen=True)
+class PlannedRecord:
+    """A record whose samples have been checked and dropped again: `piece` of `request`, with its index.
+
+    `content` is the hash by which its samples are known again.
+    """
+
+    index: int
+    request: Request
+    piece: int
+    key: Key
+    bytes: int
+    content: str
+
+
+class ImportPlan:
+    """The records found so far, none of them twice, and the shards they go into."""
+
+    def __init__(self, spec: Spec) -> None:
+        self.spec = spec
+        self.records: list[PlannedRecord] = []
+        self.skipped: list[str] = []
+        self.dead: list[str] = []
+        self.doubts: dict[str, list[str]] = {}
+        self.fewest_turns, self.few_turns = math.inf, ""
+        self.names: dict[str, str] = {}
+        self.contents: dict[str, str] = {}
+        self.splits: dict[str, str] = {}
+
+    def add(self, request: Request) -> None:
+        """Read the records of a request, check them against all before, and keep what is needed to read them again."""
+        for piece, record in enumerate(read_recording(request)):
+            if self._is_new(record, request):
+                self._check_split(record, request)
+                self._doubt(record, request)
+                self.records.append(
+                    PlannedRecord(len(self.records), request, piece, record.key, record.bytes, record.content)
+                )
+
+    def _doubt(self, record: Recorded, request: Request) -> None:
+        """Keep what is odd about a record."""
+        name = record.labels["recording"]
+        if record.dead:
+            self.dead.append(f"{name} ({', '.join(record.dead)})")
+        for doubt, figures in record.doubts.items():
+            self.doubts.setdefault(doubt, []).append(f"{name} ({figures})" if figures else name)
+        if record.turns < self.fewest_turns:
+            self.fewest_turns = record.turns
+            self.few_turns = turns_doubt(record.turns, record.labels, request.settings)
+
+    def _is_new(self, record: Recorded, request: Request) -> bool:
+        name, where = record.labels["recording"], f"{request.name} ({request.place})"
+        if name in self.names:
+            raise BadInput(
+                f"this name is already taken by {self.names[name]}", request.place, "recording", name,
+                'a different name for each record, as in recording = "{path} {channel}"',
+            )  # fmt: skip
+        self.names[name] = where
+        if record.dead == record.axes:
+            return True  # all that is dead looks alike, and need be no repeat
+        twin = self.contents.setdefault(record.content, name)
+        if twin == name or self.spec.same_samples == "keep":
+            return True
+        if self.spec.same_samples == "refuse":
+            raise BadInput(
+                f'record "{name}" has exactly the samples of "{twin}", {self.names[twin]}', str(request.path),
+                "same_samples", "refuse", '"skip", which leaves such repeats out, or "keep"',
+            )  # fmt: skip
+        self.skipped.append(name)
+        return False
+
+    def _check_split(self, record: Recorded, request: Request) -> None:
+        bearing, split = record.labels["bearing_id"], record.labels["split"]
+        if bearing != UNKNOWN and self.splits.setdefault(bearing, split) != split:
+            problem = f"the records of bearing {bearing} would be in the splits {self.splits[bearing]} and {split}"
+            raise BadInput(problem, request.place, "split", split, "one split for each bearing")
+
+    @cached_property
+    def shards(self) -> list[list[PlannedRecord]]:
+        """The records by shard: of one kind, in order, up to 64 MB together."""
+        shards: list[list[PlannedRecord]] = []
+        growing: dict[Key, list[PlannedRecord]] = {}
+        for planned in self.records:
+            shard = growing.get(planned.key)
+            if shard is None or sum(one.bytes for one in shard) + planned.bytes > SHARD_BYTES:
+                shard = growing[planned.key] = []
+                shards.append(shard)
+            shard.append(planned)
+        return shards

@@ -1,0 +1,63 @@
+"""A new folder that appears whole: filled beside its place, moved there at the end, gone if anything goes wrong."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from datagen.errors import BadInput
+from datagen.files.atomic import TEMPORARY_SUFFIX
+
+
+@contextmanager
+def staged(folder: Path) -> Iterator[Path]:
+    """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong.
+
+    What goes wrong in the block is left as it is: it may be a recording that cannot be read.
+    """
+    beginning = f".{folder.name}.{socket.gethostname()}."
+    staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
+    _sweep(folder.parent, beginning)
+    try:
+        with writing(folder):
+            (staging / "shards").mkdir(parents=True)
+        yield staging
+        with writing(folder):
+            if folder.exists():
+                folder.rmdir()
+            staging.rename(folder)
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[None]:
+    """BadInput that names `folder` in place of an OSError of the block, which does nothing but write."""
+    try:
+        yield
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
+
+
+def _sweep(place: Path, beginning: str) -> None:
+    """Delete what imports of the same name left in `place` whose process, on this computer, was killed."""
+    name = re.compile(re.escape(beginning) + r"(\d+)" + re.escape(TEMPORARY_SUFFIX))
+    for path in place.glob(".*") if place.is_dir() else ():
+        found = name.fullmatch(path.name)
+        if found and not _alive(int(found[1])):
+            shutil.rmtree(path, ignore_errors=True)
+
+
+def _alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:
+        pass  # somebody else's
+    return True

@@ -137,12 +137,12 @@ class Corpus:
             _require_at_its_place(file, record, position, shard)
             opened = xarray.open_dataset(NetCDF4DataStore(file))
             tables = {"ball_pass": "pass_record", "defect": "defect_record"}
-            own = {
+            rows_of_record = {
                 table: np.flatnonzero(opened[column].values == record)
                 for table, column in tables.items()
                 if column in opened
             }
-            found = opened.isel(own | {"record": position}).load()
+            found = opened.isel(rows_of_record | {"record": position}).load()
         found.set_close(None)  # the file is not the caller's to close
         return found
 

@@ -109,7 +109,7 @@ def accuracies(charts: dict[str, Facts]) -> list[str]:
 
 def missed(chart: Facts) -> str:
     """The runs of the modal method whose error is above what was asked for."""
-    late = [run for one in (MARCHED, REPEATED) for run in runs_of(chart, one) if error(run) > asked(run)]
+    late = [run for name in (MARCHED, REPEATED) for run in runs_of(chart, name) if error(run) > asked(run)]
     return ", ".join(f"{run['name']}: {asked(run):g} asked, {error(run):.1e} got" for run in late) or "none"
 
 

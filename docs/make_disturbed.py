@@ -142,13 +142,13 @@ def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, CorpusRows]:
 
 def scores(tested: list[Tested]) -> list[tuple[str, str, str, str]]:
     """By model: its name, balanced accuracy without odd records, share of right races, and false alarms."""
-    truth = np.concatenate([one.truth for one in tested])
-    names = np.concatenate([one.labels["recording"].astype(str).to_numpy() for one in tested])
+    truth = np.concatenate([draw.truth for draw in tested])
+    names = np.concatenate([draw.labels["recording"].astype(str).to_numpy() for draw in tested])
     faulty, healthy = np.isin(truth, RACES) & ~np.isin(names, ODD), truth == "none"
     found = []
-    for place, model in enumerate(one.name for one in tested[0].verdicts):
-        said = np.concatenate([one.verdicts[place].location for one in tested])
-        race = np.concatenate([one.verdicts[place].race for one in tested])
+    for place, model in enumerate(verdicts.name for verdicts in tested[0].verdicts):
+        said = np.concatenate([draw.verdicts[place].location for draw in tested])
+        race = np.concatenate([draw.verdicts[place].race for draw in tested])
         alarms = int(np.isin(said[healthy], RACES).sum())
         balance = race_balance(truth[faulty], said[faulty])
         right = float(np.mean(race[faulty] == truth[faulty]))

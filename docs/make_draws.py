@@ -54,8 +54,8 @@ def main(train: Path, out: Path, tests: list[Path]) -> None:
     learned = learned_machines(Corpus(train), labels["record"].to_numpy(np.int64))
     chosen = {folder: unseen_records(Corpus(folder), learned) for folder in tests}
     rows = {
-        folder: read_rows(folder, own["record"].to_numpy(np.int64), benchmark.reading(), 1)
-        for folder, own in chosen.items()
+        folder: read_rows(folder, labels["record"].to_numpy(np.int64), benchmark.reading(), 1)
+        for folder, labels in chosen.items()
     }
     found: dict[str, Any] = {folder.name: [] for folder in tests}
     for draw in range(DRAWS):
@@ -63,10 +63,10 @@ def main(train: Path, out: Path, tests: list[Path]) -> None:
         rule, models = train_rule(part), train_models(part, "all")
         for folder in tests:
             imported = bool(Corpus(folder).manifest.imported)
-            own = scores(judge(folder, chosen[folder], rows[folder], rule, models, 0.0, imported))
-            found[folder.name].append(own)
+            by_model = scores(judge(folder, chosen[folder], rows[folder], rule, models, 0.0, imported))
+            found[folder.name].append(by_model)
             if imported:
-                write_line(folder, {"draw": draw, "train": str(train), "scores": own})
+                write_line(folder, {"draw": draw, "train": str(train), "scores": by_model})
         out.write_text(json.dumps(found, indent=1))
 
 

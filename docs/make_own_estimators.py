@@ -47,7 +47,7 @@ OF_ESTIMATE = {
 
 def tables() -> dict[str, str]:
     """Text of each table of the page, by the name in its marks; KeyError for a field without a meaning above."""
-    outcomes = "\n".join(f"| `SizeOutcome.{one.name}` | {one.value} |" for one in SizeOutcome)
+    outcomes = "\n".join(f"| `SizeOutcome.{outcome.name}` | {outcome.value} |" for outcome in SizeOutcome)
     return {
         "situation": _table(Situation, OF_SITUATION),
         "size estimate": _table(SizeEstimate, OF_ESTIMATE),
@@ -56,23 +56,25 @@ def tables() -> dict[str, str]:
 
 
 def _table(kind: Any, meanings: Mapping[str, str]) -> str:
-    rows = [f"| `{one.name}` | `{_type(one)}` | {_default(one)} | {meanings[one.name]} |" for one in fields(kind)]
+    rows = [
+        f"| `{field.name}` | `{_type(field)}` | {_default(field)} | {meanings[field.name]} |" for field in fields(kind)
+    ]
     return "\n".join(["| field | type | if left out | meaning |", "|---|---|---|---|", *rows])
 
 
-def _type(one: Any) -> str:
-    return str(one.type).replace("|", "or")
+def _type(field: Any) -> str:
+    return str(field.type).replace("|", "or")
 
 
-def _default(one: Any) -> str:
-    if one.default is MISSING and one.default_factory is MISSING:
+def _default(field: Any) -> str:
+    if field.default is MISSING and field.default_factory is MISSING:
         return "**required**"
-    if one.default is MISSING:
+    if field.default is MISSING:
         return "no rows"
-    values = one.default if isinstance(one.default, tuple) else (one.default,)
+    values = field.default if isinstance(field.default, tuple) else (field.default,)
     if all(isinstance(value, float) and math.isnan(value) for value in values) and values:
         return "unknown"
-    return f"`{one.default!r}`"
+    return f"`{field.default!r}`"
 
 
 if __name__ == "__main__":

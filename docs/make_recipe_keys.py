@@ -39,7 +39,7 @@ def _places() -> dict[type[BaseModel], list[str]]:
     """Every table of a recipe, with the headings under which it may stand."""
     found: dict[type[BaseModel], list[str]] = {}
     for table, path in _walk(Recipe, "", False):
-        owners = [one for one in table.__mro__ if issubclass(one, Table) and one is not Table]
+        owners = [base for base in table.__mro__ if issubclass(base, Table) and base is not Table]
         for owner in owners:
             found.setdefault(owner, []).append(path)
     return found
@@ -60,8 +60,10 @@ def _fields(table: type[BaseModel]) -> dict[str, FieldInfo]:
 
 
 def _section(table: type[BaseModel], paths: list[str]) -> str:
-    own = {name: field for name, field in _fields(table).items() if name in table.__annotations__}
-    rows = [f"| `{name}` | {_kind(table, name)} | {_default(field)} | {_text(field)} |" for name, field in own.items()]
+    stated = {name: field for name, field in _fields(table).items() if name in table.__annotations__}
+    rows = [
+        f"| `{name}` | {_kind(table, name)} | {_default(field)} | {_text(field)} |" for name, field in stated.items()
+    ]
     said = " ".join((table.__doc__ or "").split())
     heading = "\n".join(["", f"## {', '.join(paths)}", "", said, "", "| key | takes | default | meaning |"])
     return "\n".join([heading, "|---|---|---|---|", *rows, ""])

@@ -47,10 +47,10 @@ def with_recording(recipe: dict[str, Any], file: Path, rate: float, channels: li
     """One part a channel, its background nothing but stretches of that channel."""
     [part] = recipe["part"]
     recipe["part"] = [deepcopy(part) for _ in channels]
-    for number, (own, channel) in enumerate(zip(recipe["part"], channels, strict=True)):
+    for number, (part, channel) in enumerate(zip(recipe["part"], channels, strict=True)):
         recording = {"file": str(file), "rate_hz": rate, "channels": [channel]}
-        own |= {"name": f"machines-{number}", "records": records // len(channels)}
-        own["background"] = {"recording": recording, "snr_db": RATIO_DB}
+        part |= {"name": f"machines-{number}", "records": records // len(channels)}
+        part["background"] = {"recording": recording, "snr_db": RATIO_DB}
 
 
 def main(out: Path, records: int, file: Path, rate: float, channels: list[str], tests: list[str]) -> None:

@@ -58,10 +58,10 @@ def targets(summaries: list[dict[str, Any]]) -> list[str]:
     for name, figure in test.items():
         if figure["target"]:
             verdicts = [
-                f"{cell(own[name])}, n = {own[name]['count']}: {'met' if own[name]['met'] else '**missed**'}"
-                for own in (test, fresh)
+                f"{cell(run[name])}, n = {run[name]['count']}: {'met' if run[name]['met'] else '**missed**'}"
+                for run in (test, fresh)
             ]
-            blind = [cell(own[name]) for own in (test_blind, fresh_blind)]
+            blind = [cell(run[name]) for run in (test_blind, fresh_blind)]
             lines.append(f"| {name} | {in_per_cent(figure['target'])} | {' | '.join(verdicts)} | {' | '.join(blind)} |")
     return lines
 

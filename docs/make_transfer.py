@@ -52,9 +52,9 @@ def without_odd(test: dict[str, Any], model: str) -> str:
     """Balanced accuracy over outer and inner without the odd records, whose envelopes disagree with their label."""
     shares = []
     for race in RACES:
-        own = [entry for entry in test["predictions"] if entry["truth"] == race and entry["recording"] not in ODD]
-        if own:
-            shares.append(sum(entry[model]["location"] == race for entry in own) / len(own))
+        entries = [entry for entry in test["predictions"] if entry["truth"] == race and entry["recording"] not in ODD]
+        if entries:
+            shares.append(sum(entry[model]["location"] == race for entry in entries) / len(entries))
     return f"{sum(shares) / len(shares):.3f}" if shares else "–"
 
 
@@ -157,9 +157,9 @@ def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
             continue
         cells = []
         for imported in (True, False):
-            truth, own, bearing = called(report, learners, imported)
-            _, whole, _ = called(full, learners, imported)
-            lost = paired_difference(balanced_accuracy, truth, own, whole, strata=truth, groups=bearing)
+            truth, answer, bearing = called(report, learners, imported)
+            _, full_answer, _ = called(full, learners, imported)
+            lost = paired_difference(balanced_accuracy, truth, answer, full_answer, strata=truth, groups=bearing)
             cells.append(f"{lost.value:+.3f} [{lost.low:+.3f}, {lost.high:+.3f}]")
         cells += [learners_alarms(report, learners, imported) for imported in (True, False)]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
@@ -178,8 +178,8 @@ def called(
         if entry["truth"] in RACES and entry["recording"] not in ODD
         for model in models
     ]
-    truth, own, bearing = zip(*rows, strict=True)
-    return np.array(truth), np.array(own), np.array(bearing)
+    truth, answer, bearing = zip(*rows, strict=True)
+    return np.array(truth), np.array(answer), np.array(bearing)
 
 
 def learners_alarms(report: dict[str, Any], models: list[str], imported: bool) -> str:
@@ -196,8 +196,9 @@ def _has_faults(test: dict[str, Any]) -> bool:
 
 def alarms(report: dict[str, Any], model: str) -> str:
     """False alarms over healthy recordings of all imported corpora."""
-    own = [test["models"][model] for test in report["tests"] if test["imported"]]
-    return f"{sum(scores['false_alarms'] for scores in own)} of {sum(scores['healthy'] for scores in own)}"
+    on_recordings = [test["models"][model] for test in report["tests"] if test["imported"]]
+    false, healthy = (sum(scores[name] for scores in on_recordings) for name in ("false_alarms", "healthy"))
+    return f"{false} of {healthy}"
 
 
 def in_noise(report: dict[str, Any], model: str, score: str) -> str:
@@ -214,8 +215,8 @@ def in_noise(report: dict[str, Any], model: str, score: str) -> str:
 
 def simulated(report: dict[str, Any], model: str) -> str:
     """Balanced accuracy over outer and inner of simulated records, with its interval."""
-    own = [test["models"][model] for test in report["tests"] if not test["imported"]]
-    return interval(own[0][FAULTS]) if own else "–"
+    on_machines = [test["models"][model] for test in report["tests"] if not test["imported"]]
+    return interval(on_machines[0][FAULTS]) if on_machines else "–"
 
 
 def main(paths: list[Path]) -> None:

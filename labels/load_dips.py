@@ -27,7 +27,8 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     if entry.size == 0:
         return fall, rise
     time = entry[:, None] + (leave - entry)[:, None] * np.linspace(0.0, 1.0, 1 + SAMPLES_PER_PASS)
-    pressed, due = (_loads(one, time, row, ball) for one in (scene, replace(scene, spalls=())))
+    pressed = _loads(scene, time, row, ball)
+    due = _loads(replace(scene, spalls=()), time, row, ball)
     for k in range(entry.size):
         fall[k], rise[k] = first_and_last_crossing(time[k], pressed[k] - SHARE * due[k])
     return fall, rise

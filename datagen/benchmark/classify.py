@@ -31,8 +31,8 @@ from datagen.benchmark.training import (
     TrainingSet,
     labelled,
     train_models,
-    train_own,
     train_rule,
+    train_user_estimator,
     training_records,
     training_set,
 )
@@ -52,14 +52,15 @@ if TYPE_CHECKING:
 class Benchmark:
     """What is learned from, what is tested on, and how.
 
-    `train` is a corpus, or a file of what was learned from one; what is learned is kept at `save`, if given. `own` is
-    the user's estimator that the options name, None for ours. With `learning_curve` it is also learned from shares.
+    `train` is a corpus, or a file of what was learned from one; what is learned is kept at `save`, if given.
+    `estimator` is the user's that the options name, None for our learners. With `learning_curve` it is also learned
+    from shares.
     """
 
     train: Path
     tests: tuple[Path, ...]
     options: Options = field(default_factory=Options)
-    own: Any | None = None
+    estimator: Any | None = None
     learning_curve: bool = False
     workers: int = 2
     save: Path | None = None
@@ -123,10 +124,10 @@ def _learn(
     """What is learned from the records with these labels, of the machines `learned`; from impulse trains if None."""
     training = _learned_from(benchmark, labels, listener)
     rule = train_rule(training)
-    own_input = _own_input(benchmark, training, labels, listener)
+    model_input = _model_input(benchmark, training, labels, listener)
     # The curve comes first: it needs copies of the user's estimator from before it has learned.
-    curve = _curve(benchmark, own_input, listener)
-    models = _models(benchmark, own_input, listener)
+    curve = _curve(benchmark, model_input, listener)
+    models = _models(benchmark, model_input, listener)
     listener.step("importances of the features")
     facts: dict[str, Any] = {
         "training_records": int(np.unique(training.rows.record).size) if labels is None else len(labels),
@@ -147,8 +148,8 @@ def _training_labels(benchmark: Benchmark) -> pandas.DataFrame | None:
     """Labels of the records to learn from; None for plain impulse trains."""
     if ingredients_of(benchmark.train) is not None:
         return None
-    own = Corpus(benchmark.train)
-    also_tested = any(share_machines(own, Corpus(folder)) for folder in benchmark.tests)
+    corpus = Corpus(benchmark.train)
+    also_tested = any(share_machines(corpus, Corpus(folder)) for folder in benchmark.tests)
     return training_records(benchmark.train, also_tested, benchmark.learning.first)
 
 
@@ -165,7 +166,7 @@ def _learned_from(benchmark: Benchmark, labels: pandas.DataFrame | None, listene
     )
 
 
-def _own_input(
+def _model_input(
     benchmark: Benchmark, training: TrainingSet, labels: pandas.DataFrame | None, listener: Listener
 ) -> TrainingSet:
     """What the models learn from: the same records as raw windows where the user's estimator takes those."""
@@ -180,17 +181,17 @@ def _curve(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> d
         return {}
     options = benchmark.learning
     found = learning_curve(
-        training, options.learner, benchmark.own, options.takes_windows, options.estimator or "", listener.step
+        training, options.learner, benchmark.estimator, options.takes_windows, options.estimator or "", listener.step
     )
     return {"learning_curve": found}
 
 
 def _models(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> list[Model]:
     options = benchmark.learning
-    if benchmark.own is None:
+    if benchmark.estimator is None:
         return train_models(training, options.learner, listener.step)
     listener.step(f"learning: {options.estimator}")
-    return [train_own(training, benchmark.own, options.takes_windows, options.estimator or "")]
+    return [train_user_estimator(training, benchmark.estimator, options.takes_windows, options.estimator or "")]
 
 
 def _tested_records(folder: Path, learned: LearnedMachines | None) -> pandas.DataFrame:

@@ -32,5 +32,5 @@ def importances(model: Model, training: TrainingSet) -> dict[str, float]:
 
 def _loss(model: Model, table: np.ndarray, classes: np.ndarray) -> float:
     probability = model.probability(table)
-    own = probability[np.arange(len(classes)), [CLASSES.index(name) for name in classes]]
-    return float(-np.log(np.maximum(own, SMALLEST)).mean())
+    of_true_class = probability[np.arange(len(classes)), [CLASSES.index(name) for name in classes]]
+    return float(-np.log(np.maximum(of_true_class, SMALLEST)).mean())

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_own
+from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_user_estimator
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
 from datagen.progress import Say, ignore
@@ -25,7 +25,7 @@ SEED = 31
 def learning_curve(
     training: TrainingSet,
     learner: str,
-    own: Any | None = None,
+    estimator: Any | None = None,
     takes_windows: bool = False,
     given: str = "",
     step: Say = ignore,
@@ -33,7 +33,7 @@ def learning_curve(
     """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
     from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out.
 
-    The models are our `learner`, or with the user's `own` estimator copies of that, which must not be fitted yet;
+    The models are our `learner`, or with the user's `estimator` copies of that, which must not be fitted yet;
     `given` is its name in messages. `step` is called with how far it has got.
     """
     generator = np.random.default_rng(SEED)
@@ -46,9 +46,13 @@ def learning_curve(
     for count in sorted(counts):
         step(f"learning curve: {count} of {others.size} bearings")
         part = training.subset(np.isin(training.bearings, others[:count]))
-        fresh = None if own is None else copy_of(own, given)
+        fresh = None if estimator is None else copy_of(estimator, given)
         try:
-            models = train_models(part, learner) if fresh is None else [train_own(part, fresh, takes_windows, given)]
+            models = (
+                train_models(part, learner)
+                if fresh is None
+                else [train_user_estimator(part, fresh, takes_windows, given)]
+            )
         except BadInput:
             continue
         for model in models:

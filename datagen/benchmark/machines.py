@@ -54,9 +54,9 @@ def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame
 
     Those of other machines of the same corpus count if their split is "test". Raises BadInput if none is left.
     """
-    labels, own = tested.labels, machines(tested)
-    kept = ~np.isin(own, learned.seen) & (~np.isin(own, learned.known) | (labels["split"] == TEST))
-    chosen = labels[kept | (own == "")]
+    labels, of_records = tested.labels, machines(tested)
+    kept = ~np.isin(of_records, learned.seen) & (~np.isin(of_records, learned.known) | (labels["split"] == TEST))
+    chosen = labels[kept | (of_records == "")]
     if chosen.empty:
         problem = "all its virtual bearings, or all outside its split test, are those of --train"
         allowed = "a corpus of a recipe with another seed, or one with a split test"

@@ -79,11 +79,11 @@ def _answer(said: Verdicts, place: int) -> ModelAnswer:
     numbers = str(said.location[place]), float(said.score[place]), float(said.alarm[place])
     if not len(said.probability):
         return ModelAnswer(*numbers)
-    own = said.probability[place : place + 1]
+    probability = said.probability[place : place + 1]
     return ModelAnswer(
         *numbers,
-        location_probability=dict(zip(LOCATIONS, location_probability(own)[0].tolist(), strict=True)),
-        condition_probability=dict(zip(CONDITIONS, condition_probability(own)[0].tolist(), strict=True)),
+        location_probability=dict(zip(LOCATIONS, location_probability(probability)[0].tolist(), strict=True)),
+        condition_probability=dict(zip(CONDITIONS, condition_probability(probability)[0].tolist(), strict=True)),
     )
 
 
@@ -96,8 +96,8 @@ def prediction_table(models: Sequence[str], corpora: Iterable[tuple[str, Sequenc
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["corpus", *FACTS, *(f"{model}_{what}" for model in models for what in SAID)])
     for corpus, predictions in corpora:
-        for one in predictions:
-            said = [getattr(one.models[model], what) for model in models for what in SAID]
+        for prediction in predictions:
+            said = [getattr(prediction.models[model], what) for model in models for what in SAID]
             numbers = [f"{value:.6g}" if isinstance(value, float) else value for value in said]
-            writer.writerow([corpus, *one.facts.values(), *numbers])
+            writer.writerow([corpus, *prediction.facts.values(), *numbers])
     return text.getvalue()

@@ -42,17 +42,17 @@ def benchmark_of(
     _require_learning(learning)
     _require_scoring(scoring)
     _require_use(train, tests, learning, learning_curve, save)
-    own = load_user_code(learning.estimator, ESTIMATOR_FORMS) if learning.estimator is not None else None
+    estimator = load_user_code(learning.estimator, ESTIMATOR_FORMS) if learning.estimator is not None else None
     if scoring.levels and learning.takes_windows:
         problem = "noise is added where features are computed"
         raise BadInput(problem, "", "--noise-db", scoring.noise_db, "--input features")
-    if learning_curve and own is not None and not hasattr(own, "fit"):
+    if learning_curve and estimator is not None and not hasattr(estimator, "fit"):
         problem = f"{learning.estimator} does not learn"
         raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")
     _require_folders(train, tests, learning.takes_windows)
     if out is not None:
         require_results_folder(out)
-    return Benchmark(train, tests, options, own, learning_curve, workers, save)
+    return Benchmark(train, tests, options, estimator, learning_curve, workers, save)
 
 
 def _require_learning(learning: Learning) -> None:

@@ -113,12 +113,12 @@ def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> MinusRule:
     truth = tested.truth
     ranked = (truth != UNKNOWN) & np.isfinite(said.score) & np.isfinite(rule.score)
     faulty = np.isin(truth, RACES)
-    own, owner = truth[faulty], tested.owner[faulty]
+    race, owner = truth[faulty], tested.owner[faulty]
     return MinusRule(
         faults_balanced_accuracy=paired_difference(
-            race_balance, own, said.location[faulty], rule.location[faulty], strata=own, groups=owner
+            race_balance, race, said.location[faulty], rule.location[faulty], strata=race, groups=owner
         ),
-        race_accuracy=paired_difference(accuracy, own, said.race[faulty], rule.race[faulty], groups=owner),
+        race_accuracy=paired_difference(accuracy, race, said.race[faulty], rule.race[faulty], groups=owner),
         detection_auc=area_interval(
             faulty[ranked], said.score[ranked], rule.score[ranked], groups=tested.owner[ranked]
         ),

@@ -163,24 +163,24 @@ def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
     )
 
 
-def copy_of(own: Any, given: str = "") -> Any:
+def copy_of(estimator: Any, given: str = "") -> Any:
     """An unfitted copy of the user's estimator; raises BadInput, which names it as `given`, if it cannot be copied."""
     from sklearn.base import clone
 
-    with user_code(given or estimator_name(own), "it cannot be copied"):
-        return clone(own, safe=False)
+    with user_code(given or estimator_name(estimator), "it cannot be copied"):
+        return clone(estimator, safe=False)
 
 
-def train_own(training: TrainingSet, own: Any, takes_windows: bool, given: str = "") -> Model:
+def train_user_estimator(training: TrainingSet, estimator: Any, takes_windows: bool, given: str = "") -> Model:
     """The user's estimator, fitted if it can be; its spalls are called at even odds. `given` is its name in messages.
 
     Raises BadInput if it cannot be fitted, or answers anything but our classes to the first rows.
     """
-    name = estimator_name(own)
-    if hasattr(own, "fit"):
+    name = estimator_name(estimator)
+    if hasattr(estimator, "fit"):
         with user_code(given or name, "it failed to learn"):
-            own.fit(training.rows.table, training.classes)
-    model = Model(name, own, EVEN, takes_windows, given)
+            estimator.fit(training.rows.table, training.classes)
+    model = Model(name, estimator, EVEN, takes_windows, given)
     if len(training.rows):
         model.probability(training.rows.table[:ROWS_TO_TRY])
     return model

@@ -140,11 +140,11 @@ def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> Vote:
 
     A record without rows is called healthy, with NaN for probabilities and alarm.
     """
-    own = model.probability(rows.table) if len(rows) else np.empty((0, 5))
+    of_rows = model.probability(rows.table) if len(rows) else np.empty((0, 5))
     alarms = logit(model.alarms(rows))
-    margins = logit(1.0 - own[:, 0]) - alarms
+    margins = logit(1.0 - of_rows[:, 0]) - alarms
     shares = model.shares(margins, rows)
-    probability = joined(own, rows.record, records, shares)
+    probability = joined(of_rows, rows.record, records, shares)
     margin = averaged(margins, rows.record, records, shares)
     alarm = averaged(alarms, rows.record, records, shares)
     by_lines = model.by_lines_alone(rows, records)
@@ -172,10 +172,10 @@ def pooled_draws(draws: list[Tested]) -> Tested:
 def _pooled(said: list[Verdicts]) -> Verdicts:
     return Verdicts(
         said[0].name,
-        np.concatenate([own.location for own in said]),
-        np.concatenate([own.condition for own in said]),
-        np.concatenate([own.race for own in said]),
-        np.concatenate([own.score for own in said]),
-        np.concatenate([own.alarm for own in said]),
-        np.concatenate([own.probability for own in said]),
+        np.concatenate([draw.location for draw in said]),
+        np.concatenate([draw.condition for draw in said]),
+        np.concatenate([draw.race for draw in said]),
+        np.concatenate([draw.score for draw in said]),
+        np.concatenate([draw.alarm for draw in said]),
+        np.concatenate([draw.probability for draw in said]),
     )

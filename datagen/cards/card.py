@@ -117,7 +117,7 @@ def _making(facts: Facts, source: str) -> Iterable[str]:
     else:
         yield from _table(
             ("model", "method", "records", "step", "error estimate: median", "95 %", "largest", "not estimated"),
-            [_solved_row(one) for one in facts.solved],
+            [_solved_row(solved) for solved in facts.solved],
         )
         yield f"`error_estimate`: {LABEL['error_estimate'].sentence}\n"
         outside = f"{info.outside_validity} of {info.records} records are outside the model's range"
@@ -135,12 +135,12 @@ def _making(facts: Facts, source: str) -> Iterable[str]:
     yield f"```toml\n{source}```\n"
 
 
-def _solved_row(one: Solved) -> Sequence[object]:
-    steps = sorted({step for step in (one.shortest_step, one.longest_step) if step is not None})
-    errors = (one.median_error, one.error_95_percent, one.largest_error)
+def _solved_row(solved: Solved) -> Sequence[object]:
+    steps = sorted({step for step in (solved.shortest_step, solved.longest_step) if step is not None})
+    errors = (solved.median_error, solved.error_95_percent, solved.largest_error)
     return (
-        one.model, one.method, one.records, " to ".join(f"{step * 1e6:.3g} µs" for step in steps),
-        *("" if error is None else f"{error:.2g}" for error in errors), one.errors_unknown or "",
+        solved.model, solved.method, solved.records, " to ".join(f"{step * 1e6:.3g} µs" for step in steps),
+        *("" if error is None else f"{error:.2g}" for error in errors), solved.errors_unknown or "",
     )  # fmt: skip
 
 

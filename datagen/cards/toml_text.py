@@ -35,7 +35,11 @@ def _table(data: Mapping[str, Any], path: str) -> Iterator[str]:
 def _is_section(value: Any) -> bool:
     if isinstance(value, Mapping):
         return len(value) > MOST_INLINE or any(isinstance(inner, Mapping) for inner in value.values())
-    return isinstance(value, Sequence) and not isinstance(value, str) and all(isinstance(one, Mapping) for one in value)
+    return (
+        isinstance(value, Sequence)
+        and not isinstance(value, str)
+        and all(isinstance(entry, Mapping) for entry in value)
+    )
 
 
 def _key(key: str) -> str:

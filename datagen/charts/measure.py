@@ -111,11 +111,11 @@ def measure(subject: Subject, quick: bool, rounds: int, step: Say) -> Chart:
 
 
 def contracts() -> dict[str, dict[str, object]]:
-    """What each numerical method and each simpler model states of itself, by name."""
+    """The contract of each numerical method and each simpler model (order, stability limit …), by name."""
     stated: Mapping[str, object] = {**METHODS, **SIMPLER_MODELS}
     return {
-        name: {key: value for key, value in vars(one).items() if key not in ("name", "respond")}
-        for name, one in stated.items()
+        name: {key: value for key, value in vars(contract).items() if key not in ("name", "respond")}
+        for name, contract in stated.items()
     }
 
 
@@ -130,8 +130,11 @@ def at_error(runs: Sequence[Run], name: str, error: float) -> float | None:
 
     Where even its coarsest run is better, that run counts.
     """
-    own = [run for run in runs if run.name == name and run.score is not None and math.isfinite(run.score.acceleration)]
-    points = sorted((run.score.acceleration, run.real_time) for run in own if run.score is not None)
+    points = sorted(
+        (run.score.acceleration, run.real_time)
+        for run in runs
+        if run.name == name and run.score is not None and math.isfinite(run.score.acceleration)
+    )
     reached = [point for point in points if point[0] <= error]
     if not reached:
         return None

@@ -134,7 +134,7 @@ def print_results(tests: list[CorpusResults]) -> None:
         for noisy in test.noise:
             for name, scores in noisy.scores.models.items():
                 print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")
-        unscored = [one for one in test.predictions if one.truth not in LOCATIONS]
+        unscored = [prediction for prediction in test.predictions if prediction.truth not in LOCATIONS]
         if unscored:
             show_tables([verdict_table(unscored, list(found.models))])
 

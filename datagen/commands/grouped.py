@@ -34,13 +34,15 @@ def grouped(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Calla
                     yield parameter.replace(annotation=kind, kind=Parameter.KEYWORD_ONLY)
                     continue
                 fields = get_type_hints(kind)
-                for field, own in inspect.signature(kind).parameters.items():
-                    yield own.replace(annotation=Annotated[fields[field], options[field]], kind=Parameter.KEYWORD_ONLY)
+                for field, parameter in inspect.signature(kind).parameters.items():
+                    yield parameter.replace(
+                        annotation=Annotated[fields[field], options[field]], kind=Parameter.KEYWORD_ONLY
+                    )
 
         parameters = list(flat_parameters())
         # The one or the other is read, by typer as by messages on command lines that cannot be read.
         flat.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        flat.__annotations__ = {one.name: one.annotation for one in parameters}
+        flat.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
         return flat
 
     return decorate

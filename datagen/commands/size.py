@@ -74,7 +74,7 @@ def size(
 def _print_result(scores: SizeScores) -> None:
     from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 
-    answered, asked = sum(one.found for one in scores.records), sum(one.asked for one in scores.records)
+    answered, asked = sum(record.found for record in scores.records), sum(record.asked for record in scores.records)
     silent = (
         "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be given to the estimator"
     )
@@ -88,7 +88,7 @@ def _print_result(scores: SizeScores) -> None:
     if scores.summary is None:
         show_tables([estimates_table(scores.records)])
         return
-    for one in scores.records:
-        if not one.asked:
-            print(f"record {one.truth.record}: no estimate, {one.answer.reason}")
+    for record in scores.records:
+        if not record.asked:
+            print(f"record {record.truth.record}: no estimate, {record.answer.reason}")
     show_tables([summary_table(scores.summary)])

@@ -142,9 +142,9 @@ def verdict_table(predictions: list[Prediction], models: list[str]) -> Table:
     )
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")
-    for one in predictions:
-        facts = (str(one.record), escape(one.recording), one.truth)
-        table.add_row(*facts, *(_verdict(one.models[model]) for model in models), escape(one.rejected))
+    for prediction in predictions:
+        facts = (str(prediction.record), escape(prediction.recording), prediction.truth)
+        table.add_row(*facts, *(_verdict(prediction.models[model]) for model in models), escape(prediction.rejected))
     return table
 
 

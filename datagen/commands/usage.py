@@ -114,7 +114,7 @@ def _of_option(problem: Any, command: Any) -> BadInput:
         near = _meant(nearest(problem.option_name, known))
         allowed = ", ".join([*known, "--help"])
         return BadInput(f"there is no such option{near}", field=problem.option_name, allowed=allowed)
-    parameter = next(one for one in command.params if problem.option_name in (*one.opts, *one.secondary_opts))
+    parameter = next(known for known in command.params if problem.option_name in (*known.opts, *known.secondary_opts))
     if parameter.is_flag:
         return BadInput("this option takes no value", field=problem.option_name, allowed=problem.option_name)
     return BadInput(

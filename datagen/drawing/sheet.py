@@ -101,9 +101,9 @@ def heading(portrait: Portrait) -> str:
     """One line: which record, its condition and where."""
     labels = portrait.labels
     count, race = len(portrait.scene.spalls), f"{labels['location']} race"
-    one = f"{labels['condition']} spall, {race}"
+    single = f"{labels['condition']} spall, {race}"
     several = f"{count} spalls, {race} (the largest: {labels['condition']})"
-    state = several if count > 1 else one if count else "healthy"
+    state = several if count > 1 else single if count else "healthy"
     return f"{portrait.corpus}, record {labels['record']}: {state}"
 
 

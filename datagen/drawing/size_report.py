@@ -37,7 +37,7 @@ def draw_size_report(scores: SizeScores, summary: SizeSummary) -> Figure:
     dependences = {name: rows for name, rows in summary.by.items() if name != "size, mm"}
     figure, axes = with_panels(4, 3, figsize=(11.5, 13.0), layout="constrained")
     panels = axes.ravel()
-    answered = [one for one in scores.records if one.truth.known and one.scorable and one.found]
+    answered = [record for record in scores.records if record.truth.known and record.scorable and record.found]
     _against_truth(panels[0], answered, "lag")
     _against_truth(panels[1], answered, "extent")
     _rules(panels[2], answered)
@@ -49,11 +49,16 @@ def draw_size_report(scores: SizeScores, summary: SizeSummary) -> Figure:
 
 def _against_truth(axes: Axes, answered: list[ScoredRecord], what: str) -> None:
     for clean, colour, name in ((True, BLUE, "clean"), (False, ORANGE, "noisy")):
-        own = [one for one in answered if math.isinf(noise_level(one)) == clean]
+        shown = [record for record in answered if math.isinf(noise_level(record)) == clean]
         scale = 1e3 if what == "lag" else math.degrees(1.0)
-        true = np.array([getattr(one.truth, what) for one in own]) * scale
+        true = np.array([getattr(record.truth, what) for record in shown]) * scale
         axes.loglog(
-            true, np.array([getattr(one.answer, what) for one in own]) * scale, ".", color=colour, ms=4, label=name
+            true,
+            np.array([getattr(record.answer, what) for record in shown]) * scale,
+            ".",
+            color=colour,
+            ms=4,
+            label=name,
         )
     if answered:
         low, high = axes.get_xlim()
@@ -70,7 +75,9 @@ def _rules(axes: Axes, answered: list[ScoredRecord]) -> None:
     methods = {"this estimator": extent_error} | RULES
     width = 0.8 / len(methods)
     for k, ((name, error), colour) in enumerate(zip(methods.items(), (BLUE, *RULE_COLOURS), strict=True)):
-        means = [_mean([error(one) for one in answered if noise_level(one) == level]) for level in NOISE_LEVELS]
+        means = [
+            _mean([error(record) for record in answered if noise_level(record) == level]) for level in NOISE_LEVELS
+        ]
         axes.bar(place + (k - (len(methods) - 1) / 2) * width, means, width, color=colour, label=name)
     axes.set_xticks(place, [noise_name(level) for level in NOISE_LEVELS])
     axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
@@ -130,8 +137,16 @@ def _name_bins(axes: Axes, table: list[ErrorRow]) -> None:
 
 def _abstention(axes: Axes, records: list[ScoredRecord]) -> None:
     kinds = (
-        ([one.answer.trust for one in records if one.truth.known and one.without_event], VERMILLION, "no event"),
-        ([one.answer.trust for one in records if one.truth.known and one.scorable], BLUE, "to be given a size"),
+        (
+            [record.answer.trust for record in records if record.truth.known and record.without_event],
+            VERMILLION,
+            "no event",
+        ),
+        (
+            [record.answer.trust for record in records if record.truth.known and record.scorable],
+            BLUE,
+            "to be given a size",
+        ),
     )
     for values, colour, name in (kind for kind in kinds if kind[0]):
         axes.hist(values, bins=[k / 20.0 for k in range(21)], histtype="step", color=colour, label=name, density=True)

@@ -41,12 +41,12 @@ HATCH = "////"
 
 def stability_sheets(maps: Sequence[Map]) -> list[bytes]:
     """The maps as PNG files, four quantities a sheet."""
-    sweeps = list(dict.fromkeys(one.sweep for one in maps))
+    sweeps = list(dict.fromkeys(stability.sweep for stability in maps))
     groups = [sweeps[k : k + COLUMNS_A_SHEET] for k in range(0, len(sweeps), COLUMNS_A_SHEET)]
 
     def draw(number: int) -> Figure:
-        own = [one for one in maps if one.sweep in groups[number]]
-        return draw_sheet(own, f"{number + 1} of {len(groups)}")
+        of_sheet = [stability for stability in maps if stability.sweep in groups[number]]
+        return draw_sheet(of_sheet, f"{number + 1} of {len(groups)}")
 
     settings = {"font.size": LETTERS, "hatch.linewidth": 0.6}
     return [png_of(partial(draw, number), DPI, settings) for number in range(len(groups))]
@@ -54,17 +54,17 @@ def stability_sheets(maps: Sequence[Map]) -> list[bytes]:
 
 def draw_sheet(maps: Sequence[Map], number: str) -> Figure:
     """One sheet of maps, every method below each other; `number` says which it is."""
-    methods = list(dict.fromkeys(one.method for one in maps))
-    sweeps = list(dict.fromkeys(one.sweep for one in maps))
+    methods = list(dict.fromkeys(stability.method for stability in maps))
+    sweeps = list(dict.fromkeys(stability.sweep for stability in maps))
     height = TOP + len(methods) * (PANEL + GAP) - GAP + BOTTOM
     figure, grid = with_panels(len(methods), len(sweeps), figsize=(WIDTH, height), squeeze=False, sharex="col")
     figure.subplots_adjust(
         left=LEFT / WIDTH, right=1.0 - RIGHT / WIDTH, top=1.0 - TOP / height, bottom=BOTTOM / height, wspace=0.08,
         hspace=GAP / PANEL,
     )  # fmt: skip
-    for one in maps:
-        row, column = methods.index(one.method), sweeps.index(one.sweep)
-        _draw(grid[row, column], one, first=column == 0, last=row == len(methods) - 1)
+    for stability in maps:
+        row, column = methods.index(stability.method), sweeps.index(stability.sweep)
+        _draw(grid[row, column], stability, first=column == 0, last=row == len(methods) - 1)
     for axes, sweep in zip(grid[0], sweeps, strict=True):
         axes.annotate(
             sweep, (0.5, 1.0), (0.0, 25.0), xycoords="axes fraction", textcoords="offset points", ha="center",
@@ -103,14 +103,16 @@ def kind(error: float, outcome: str, refused: bool) -> int:
     return int(np.searchsorted(BOUNDS, error)) if outcome == VALUE else ENDED
 
 
-def kinds(one: Map) -> list[list[int]]:
+def kinds(stability: Map) -> list[list[int]]:
     """`kind` of each cell (S, V), a row for each step or accuracy."""
-    cells = [map(kind, *of_value) for of_value in zip(one.error, one.outcomes, one.refused, strict=True)]
+    cells = [
+        map(kind, *of_value) for of_value in zip(stability.error, stability.outcomes, stability.refused, strict=True)
+    ]
     return [list(row) for row in zip(*cells, strict=True)]
 
 
-def _draw(axes: Axes, one: Map, first: bool, last: bool) -> None:
-    cells = np.array(kinds(one))
+def _draw(axes: Axes, stability: Map, first: bool, last: bool) -> None:
+    cells = np.array(kinds(stability))
     axes.imshow(
         cells, cmap=ListedColormap(COLOURS), vmin=-0.5, vmax=len(COLOURS) - 0.5, aspect="auto",
         interpolation="nearest", origin="upper",
@@ -118,19 +120,21 @@ def _draw(axes: Axes, one: Map, first: bool, last: bool) -> None:
     for row, column in np.argwhere(cells == REFUSED):
         hatched = Rectangle((column - 0.5, row - 0.5), 1.0, 1.0, fill=False, hatch=HATCH, edgecolor=GREY, linewidth=0.0)
         axes.add_patch(hatched)
-    limit = np.log2(STEPS[0]) - np.log2(np.clip(one.limit, STEPS[-1] / 4.0, 4.0 * STEPS[0]))
-    if np.isfinite(one.limit).any():
-        axes.plot(np.arange(len(one.values)), limit, color=INK, linewidth=1.6)
-    axes.set(ylim=(len(one.rows) - 0.5, -0.5), xlim=(-0.5, len(one.values) - 0.5))
-    axes.set_xticks(range(len(one.values)), [_short(value) for value in one.values], rotation=90)
-    shown = range(0, len(one.rows), 2)
-    axes.set_yticks(shown, [_row_label(one.scale, one.rows[k]) for k in shown] if first else [""] * len(shown))
+    limit = np.log2(STEPS[0]) - np.log2(np.clip(stability.limit, STEPS[-1] / 4.0, 4.0 * STEPS[0]))
+    if np.isfinite(stability.limit).any():
+        axes.plot(np.arange(len(stability.values)), limit, color=INK, linewidth=1.6)
+    axes.set(ylim=(len(stability.rows) - 0.5, -0.5), xlim=(-0.5, len(stability.values) - 0.5))
+    axes.set_xticks(range(len(stability.values)), [_short(value) for value in stability.values], rotation=90)
+    shown = range(0, len(stability.rows), 2)
+    axes.set_yticks(
+        shown, [_row_label(stability.scale, stability.rows[k]) for k in shown] if first else [""] * len(shown)
+    )
     axes.tick_params(length=2, color=GREY, labelsize=LETTERS)
     axes.tick_params(axis="x", bottom=last, labelbottom=last)
     if first:
-        axes.set_title(f"{one.method}: {one.scale}", fontsize=LETTERS, fontweight="normal", pad=4)
+        axes.set_title(f"{stability.method}: {stability.scale}", fontsize=LETTERS, fontweight="normal", pad=4)
     if last:
-        axes.set_xlabel(one.unit, fontsize=LETTERS)
+        axes.set_xlabel(stability.unit, fontsize=LETTERS)
 
 
 def _short(value: float) -> str:

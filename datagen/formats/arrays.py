@@ -64,7 +64,7 @@ def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
     name = indexed["name"] if indexed else wish
     # Brackets mean themselves: they count the elements of MATLAB's arrays of structures and cells.
     pattern = name.replace("[", "[[]")
-    known = [name] if name in arrays else [one for one in arrays if _is_pattern(name) and fnmatchcase(one, pattern)]
+    known = [name] if name in arrays else [held for held in arrays if _is_pattern(name) and fnmatchcase(held, pattern)]
     if len(known) > 1:
         raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
     return (known[0], indexed["places"] if indexed else None) if known else None

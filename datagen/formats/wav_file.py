@@ -37,7 +37,7 @@ def read_wav(path: Path) -> WaveArrays:
         raise BadInput(
             f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
         ) from None
-    early = next((str(one.message) for one in caught if EARLY_END in str(one.message)), "")
+    early = next((str(warning.message) for warning in caught if EARLY_END in str(warning.message)), "")
     if early:
         raise BadInput(f"the file is cut off: {early}", str(path))
     return WaveArrays(np.asarray(samples), float(rate))

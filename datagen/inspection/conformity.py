@@ -112,7 +112,7 @@ def _wrong_tables(dataset: xarray.Dataset) -> Iterator[str]:
     for sentence, broken in rules.items():
         if broken.any():
             yield f"{sentence} (row {int(np.flatnonzero(broken)[0])} of the pass table)"
-    counts = [(dataset["defect_record"].values == one).sum() for one in record]
+    counts = [(dataset["defect_record"].values == index).sum() for index in record]
     if not np.array_equal(counts, dataset["spalls"].values):
         yield "the defect table and the label spalls disagree"
 

@@ -105,7 +105,7 @@ def corpus_info(folder: Path) -> Info:
         bearings_in_split=_counts(table.drop_duplicates("bearing_id")["split"]),
         asked_by_condition=asked_of(manifest, folder),
         counts={name: _counts(table[name]) for name in COUNTED},
-        crossed={f"{one} x {other}": _crossed(table, one, other) for one, other in CROSSED},
+        crossed={f"{label} x {other}": _crossed(table, label, other) for label, other in CROSSED},
         refused=manifest.refused,
         ranges=_ranges(table),
         identity=manifest.identity.to_dict(),
@@ -133,8 +133,8 @@ def _counts(column: pandas.Series) -> dict[str, int]:
     return {str(value): int(count) for value, count in column.value_counts().items()}
 
 
-def _crossed(table: pandas.DataFrame, one: str, other: str) -> dict[str, dict[str, int]]:
-    return {str(value): _counts(part[other]) for value, part in table.groupby(one)}
+def _crossed(table: pandas.DataFrame, label: str, other: str) -> dict[str, dict[str, int]]:
+    return {str(value): _counts(part[other]) for value, part in table.groupby(label)}
 
 
 def _ranges(table: pandas.DataFrame) -> dict[str, Range]:

@@ -142,7 +142,7 @@ def _line_rows(healthy: Stiffness, line: Stiffness) -> list[Row]:
 
 
 def _mean_rows(found: dict[str, Stiffness]) -> list[Row]:
-    mean = {name: float(one.total[:, YY].mean()) for name, one in found.items()}
+    mean = {name: float(stiffness.total[:, YY].mean()) for name, stiffness in found.items()}
     lowest = mean["extended"] < mean["line"] < mean["healthy"]
     rows = [only_ours(f"mean kyy, {name}", mean[name], "MN/m") for name in ("healthy", "line")]
     rows.append(beside(NAME, "mean_is_lowest", "mean kyy, extended", mean["extended"], agrees=lowest, unit="MN/m"))
@@ -154,10 +154,13 @@ def _mean_rows(found: dict[str, Stiffness]) -> list[Row]:
 
 
 def _coupling_rows(line: Stiffness, extended: Stiffness) -> list[Row]:
-    largest = {name: float(np.abs(one.total[:, XY]).max()) for name, one in (("line", line), ("extended", extended))}
+    largest = {
+        name: float(np.abs(stiffness.total[:, XY]).max())
+        for name, stiffness in (("line", line), ("extended", extended))
+    }
     rows = []
-    for name, one in (("line", line), ("extended", extended)):
-        share = float(one.total[:, XX].mean() / largest[name])
+    for name, stiffness in (("line", line), ("extended", extended)):
+        share = float(stiffness.total[:, XX].mean() / largest[name])
         rows.append(
             beside(
                 NAME,
@@ -179,10 +182,10 @@ def _coupling_rows(line: Stiffness, extended: Stiffness) -> list[Row]:
 
 def _axis_rows(found: dict[str, Stiffness]) -> list[Row]:
     drawn = [found[name] for name in ("healthy", "line", "extended")]
-    lowest = min(float(one.row[:, :, XX].min()) for one in drawn)
-    highest = max(float(one.total[:, XX].max()) for one in drawn)
-    least = min(float(one.row[:, :, YY].min()) for one in drawn)
-    most = max(float(one.total[:, YY].max()) for one in drawn)
+    lowest = min(float(stiffness.row[:, :, XX].min()) for stiffness in drawn)
+    highest = max(float(stiffness.total[:, XX].max()) for stiffness in drawn)
+    least = min(float(stiffness.row[:, :, YY].min()) for stiffness in drawn)
+    most = max(float(stiffness.total[:, YY].max()) for stiffness in drawn)
     return [
         beside(NAME, "across_low", "lowest kxx of a row", lowest, "end of the axis"),
         beside(NAME, "across_high", "highest kxx of both rows", highest, "end of the axis"),
@@ -196,7 +199,7 @@ def draw(found: dict[str, Stiffness]) -> Figure:
     figure, grid = with_panels(3, 2, figsize=(10.0, 8.6), sharex=True, sharey="row")
     healthy = found["healthy"]
     for column, (name, colour) in enumerate((("line", LINE), ("extended", EXTENDED))):
-        one = found[name]
+        stiffness = found[name]
         for component, axes in enumerate(grid[:, column]):
             axes.plot(
                 healthy.cage, healthy.row[0, :, component], color=HEALTHY, linewidth=1.0, label="healthy, one row"
@@ -217,10 +220,18 @@ def draw(found: dict[str, Stiffness]) -> Figure:
                 alpha=0.5,
                 label="healthy, both rows",
             )
-            axes.plot(one.cage, one.row[1, :, component], color=PURPLE, linewidth=1.0, label="row 2, without spall")
+            axes.plot(
+                stiffness.cage,
+                stiffness.row[1, :, component],
+                color=PURPLE,
+                linewidth=1.0,
+                label="row 2, without spall",
+            )
             label = f"row 1, {name} spall"
-            axes.plot(one.cage, one.row[0, :, component], color=colour, linewidth=1.0, label=label)
-            axes.plot(one.cage, one.total[:, component], color=INK, linewidth=1.1, label="both rows, spalled")
+            axes.plot(stiffness.cage, stiffness.row[0, :, component], color=colour, linewidth=1.0, label=label)
+            axes.plot(
+                stiffness.cage, stiffness.total[:, component], color=INK, linewidth=1.1, label="both rows, spalled"
+            )
             letter(axes, "abcdef"[2 * component + column], f"{COMPONENTS[component]}, {name} spall")
             faint_grid(axes)
         grid[2, column].set(xlabel="cage angle (°)", xlim=(0.0, SHOWN), xticks=np.arange(0.0, SHOWN + 1.0, 10.0))

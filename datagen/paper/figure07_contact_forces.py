@@ -163,12 +163,12 @@ def rows(found: dict[str, Forces], others: dict[str, Forces]) -> list[Row]:
         ),
         beside(NAME, "line_unloads", "mean force on ball 6 while released", unloaded, agrees=unloaded < 1.0, unit="N"),
         *(
-            beside(NAME, "force_axis", f"largest force on a ball, {name}", float(one.dynamic[one.settled].max()))
-            for name, one in found.items()
+            beside(NAME, "force_axis", f"largest force on a ball, {name}", float(forces.dynamic[forces.settled].max()))
+            for name, forces in found.items()
         ),
         *(
-            beside(NAME, "net_axis", f"largest net force along the load, {name}", one.peak, "end of the axis")
-            for name, one in (found | others).items()
+            beside(NAME, "net_axis", f"largest net force along the load, {name}", forces.peak, "end of the axis")
+            for name, forces in (found | others).items()
         ),
         *_comparison("extended", line, extended),
         *_comparison("extended G2r", line, others["extended G2r, reference profile"]),
@@ -204,13 +204,13 @@ def _comparison(name: str, line: Forces, extended: Forces) -> list[Row]:
 def draw(found: dict[str, Forces], gap: Forces) -> Figure:
     """Forces on the balls of row 1 and 2 and the net force from above; line spall left, extended spall right."""
     figure, grid = with_panels(3, 2, figsize=(10.0, 8.6), sharex="col")
-    for column, (name, one) in enumerate(found.items()):
+    for column, (name, forces) in enumerate(found.items()):
         start, stop = WINDOWS[name]
         part = slice(math.floor(start * RATE), math.ceil(stop * RATE) + 1)
         for row in (0, 1):
-            _draw_balls(grid[row, column], one, part, row)
+            _draw_balls(grid[row, column], forces, part, row)
             letter(grid[row, column], "abcd"[2 * row + column], f"Force on balls of row {row + 1}, {name} spall")
-        _draw_net(grid[2, column], one, part)
+        _draw_net(grid[2, column], forces, part)
         letter(grid[2, column], "ef"[column], f"Net force, {name} spall")
         if name == "line":
             axes, label = grid[2, column], "net, along the load, path of the ball's centre (G1p)"
@@ -231,19 +231,23 @@ def draw(found: dict[str, Forces], gap: Forces) -> Figure:
     return figure
 
 
-def _draw_balls(axes: Axes, one: Forces, part: slice, row: int) -> None:
+def _draw_balls(axes: Axes, forces: Forces, part: slice, row: int) -> None:
     for ball in BALLS:
         colour = COLOURS[ball]
-        axes.plot(one.time[part], one.static[part, row, ball - 1], color=colour, linewidth=2.6, alpha=0.3)
-        axes.plot(one.time[part], one.dynamic[part, row, ball - 1], color=colour, linewidth=0.8, label=f"ball {ball}")
-    axes.axvspan(one.entry[BALL], one.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
+        axes.plot(forces.time[part], forces.static[part, row, ball - 1], color=colour, linewidth=2.6, alpha=0.3)
+        axes.plot(
+            forces.time[part], forces.dynamic[part, row, ball - 1], color=colour, linewidth=0.8, label=f"ball {ball}"
+        )
+    axes.axvspan(forces.entry[BALL], forces.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
     faint_grid(axes)
 
 
-def _draw_net(axes: Axes, one: Forces, part: slice) -> None:
-    axes.plot(one.time[part], one.net[part, 1], color=ALONG, linewidth=0.9, label="net, along the load, less 346 N")
-    axes.plot(one.time[part], one.net[part, 0], color=ACROSS, linewidth=0.9, label="net, across the load")
-    axes.axvspan(one.entry[BALL], one.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
+def _draw_net(axes: Axes, forces: Forces, part: slice) -> None:
+    axes.plot(
+        forces.time[part], forces.net[part, 1], color=ALONG, linewidth=0.9, label="net, along the load, less 346 N"
+    )
+    axes.plot(forces.time[part], forces.net[part, 0], color=ACROSS, linewidth=0.9, label="net, across the load")
+    axes.axvspan(forces.entry[BALL], forces.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
     faint_grid(axes)
 
 

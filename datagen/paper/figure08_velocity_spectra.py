@@ -39,7 +39,7 @@ def harmonics(acceleration: Array) -> Array:
 
 def chapter(count: int = len(SEEDS)) -> Chapter:
     """Figure 8 with its table."""
-    levels = {name: np.array([harmonics(one) for one in simulated(name, count)]) for name in CONDITIONS}
+    levels = {name: np.array([harmonics(trace) for trace in simulated(name, count)]) for name in CONDITIONS}
     return Chapter(
         NAME,
         "Figure 8: velocity spectra, gearbox rig",

@@ -42,8 +42,10 @@ def pole_band() -> Band:
 def chapter(count: int = len(SEEDS)) -> Chapter:
     """Figure 9 with its table."""
     names = (*CONDITIONS, "gap")
-    lines = {name: np.array([envelope_line(one) for one in simulated(name, count)]) for name in names}
-    pole = {name: np.array([envelope_line(one, pole_band()) for one in simulated(name, count)]) for name in CONDITIONS}
+    lines = {name: np.array([envelope_line(trace) for trace in simulated(name, count)]) for name in names}
+    pole = {
+        name: np.array([envelope_line(trace, pole_band()) for trace in simulated(name, count)]) for name in CONDITIONS
+    }
     low, high = pole_band()
     return Chapter(
         NAME,

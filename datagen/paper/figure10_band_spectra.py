@@ -55,8 +55,8 @@ def line_prominence(acceleration: Array) -> float:
 
 def chapter(count: int = len(SEEDS)) -> Chapter:
     """Figure 10 with its table."""
-    levels = {name: [band_level(one)[1] for one in simulated(name, count)] for name in TITLES}
-    slipping = np.array([line_prominence(one) for one in simulated("line", count)])
+    levels = {name: [band_level(trace)[1] for trace in simulated(name, count)] for name in TITLES}
+    slipping = np.array([line_prominence(trace) for trace in simulated("line", count)])
     steady = line_prominence(signal(scene("gearbox", line_spall("gearbox"))))
     return Chapter(
         NAME,

@@ -173,12 +173,12 @@ def _share_rows(gradual: Recording, equal: Recording, gap: Recording) -> list[Ro
             NAME,
             "half_size",
             f"release to regain over the length, {name}",
-            one.released_share(),
+            recording.released_share(),
             "depends on load and profile; half is one case",
-            agrees=abs(one.released_share() - 0.5) < 0.1,
+            agrees=abs(recording.released_share() - 0.5) < 0.1,
             unit="1",
         )
-        for name, one in named.items()
+        for name, recording in named.items()
     ]
 
 

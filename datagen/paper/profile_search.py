@@ -103,9 +103,9 @@ REFERENCE, SMOOTH = "reference profile G2r", smooth_title(4.0, 1.0)
 
 def titled(found: Sequence[Outcome], title: str) -> Outcome:
     """The outcome of the profile of this title; ValueError if it was not searched."""
-    for one in found:
-        if one.profile.title == title:
-            return one
+    for outcome in found:
+        if outcome.profile.title == title:
+            return outcome
     raise ValueError(f'no profile "{title}" among the {len(found)} searched')
 
 

@@ -52,13 +52,14 @@ def chapter() -> Chapter:
 
 def answer(found: Sequence[Outcome]) -> str:
     """One paragraph that names what the search found."""
-    yes = [one.profile.title for one in found if one.lifts and one.keeps_envelope]
+    yes = [result.profile.title for result in found if result.lifts and result.keeps_envelope]
     wave = math.degrees(machine("gearbox").bearing.spacing) / SIXTH
     length = math.radians(wave) * machine("gearbox").bearing.raceway_radius("outer") * 1e3
+    lifting = sum(result.lifts for result in found)
     only = f"Yes: {'; '.join(yes)}." if yes else "None does."
     return (
-        f"{only} Of {len(found)} profiles {sum(one.lifts for one in found)} lift the lines and {len(yes)} do so with "
-        f"the envelope's order kept. The sixth harmonic reads waves of {wave:.0f}°, {length:.1f} mm along the race: "
+        f"{only} Of {len(found)} profiles {lifting} lift the lines and {len(yes)} do so with the "
+        f"envelope's order kept. The sixth harmonic reads waves of {wave:.0f}°, {length:.1f} mm along the race: "
         "waves cut off above that leave it to the edges, waves down to the contact's width take the envelope with "
         "them."
     )
@@ -72,39 +73,54 @@ def rows(found: Sequence[Outcome]) -> list[Row]:
     table = _chosen_rows(titled(found, CHOSEN))
     table.append(
         only_ours(
-            "profiles that answer yes", float(sum(o.lifts and o.keeps_envelope for o in found)), f"of {len(found)}"
+            "profiles that answer yes",
+            float(sum(result.lifts and result.keeps_envelope for result in found)),
+            f"of {len(found)}",
         )
     )
-    for one in found:
-        verdict = ("lifts the lines" if one.lifts else "does not") + (
-            ", keeps the envelope's order" if one.keeps_envelope else ", reverses the envelope's order in a draw"
+    for result in found:
+        verdict = ("lifts the lines" if result.lifts else "does not") + (
+            ", keeps the envelope's order" if result.keeps_envelope else ", reverses the envelope's order in a draw"
         )
+        ratio = result.envelope_ratio
         comment = (
-            f"sixth {one.sixth:+.1f} dB, strongest in {np.mean(one.strongest == SIXTH):.0%}, envelope line over "
-            f"extended {np.median(one.envelope_ratio):.3g} ({one.envelope_ratio.min():.2g} at least); {verdict}"
+            f"sixth {result.sixth:+.1f} dB, strongest in {np.mean(result.strongest == SIXTH):.0%}, envelope line over "
+            f"extended {np.median(ratio):.3g} ({ratio.min():.2g} at least); {verdict}"
         )
         table.append(
             only_ours(
-                f"harmonics 3 to 13 over the line spall's: {one.profile.title}", one.median_lift_db, "dB", comment
+                f"harmonics 3 to 13 over the line spall's: {result.profile.title}",
+                result.median_lift_db,
+                "dB",
+                comment,
             )
         )
     return table
 
 
-def _chosen_rows(one: Outcome) -> list[Row]:
-    title = one.profile.title
-    share, ratio = float(np.mean(one.strongest == SIXTH)), float(np.median(one.envelope_ratio))
+def _chosen_rows(result: Outcome) -> list[Row]:
+    title = result.profile.title
+    share, ratio = float(np.mean(result.strongest == SIXTH)), float(np.median(result.envelope_ratio))
     return [
-        beside(NAME, "roughness", "standard deviation of the chosen profile's waves", one.profile.deviation_um, title),
+        beside(
+            NAME, "roughness", "standard deviation of the chosen profile's waves", result.profile.deviation_um, title
+        ),
         beside(
             NAME,
             "extended_is_higher",
             "harmonics 3 to 13 over the line spall's",
-            one.median_lift_db,
-            agrees=one.median_lift_db > 0,
+            result.median_lift_db,
+            agrees=result.median_lift_db > 0,
             unit="dB",
         ),
-        beside(NAME, "extended_is_higher", "sixth over the line spall's", one.sixth, agrees=one.sixth > 0, unit="dB"),
+        beside(
+            NAME,
+            "extended_is_higher",
+            "sixth over the line spall's",
+            result.sixth,
+            agrees=result.sixth > 0,
+            unit="dB",
+        ),
         beside(
             NAME,
             "sixth_stands_out",
@@ -113,7 +129,9 @@ def _chosen_rows(one: Outcome) -> list[Row]:
             agrees=share >= MOST_RECORDS,
             unit="share",
         ),
-        beside(NAME, "line_is_higher", "envelope line, line over extended", ratio, agrees=one.keeps_envelope, unit="1"),
+        beside(
+            NAME, "line_is_higher", "envelope line, line over extended", ratio, agrees=result.keeps_envelope, unit="1"
+        ),
     ]
 
 
@@ -127,11 +145,11 @@ def draw(found: Sequence[Outcome]) -> Figure:
     lower = figure.add_gridspec(
         1, 2, left=0.065, right=0.985, top=0.435, bottom=0.125, wspace=0.17, width_ratios=(1, 1.05)
     )
-    rough = [one for one in found if math.isfinite(one.profile.shortest_wave_mm)]
+    rough = [result for result in found if math.isfinite(result.profile.shortest_wave_mm)]
     maps = (
-        ("(a)  Harmonics 3 to 13 over line (dB)", [one.median_lift_db for one in rough], (-8.0, 8.0)),
-        ("(b)  Sixth harmonic over line (dB)", [one.sixth for one in rough], (-8.0, 8.0)),
-        ("(c)  Envelope, line over extended (dB)", [_ratio_db(one) for one in rough], (-60.0, 60.0)),
+        ("(a)  Harmonics 3 to 13 over line (dB)", [result.median_lift_db for result in rough], (-8.0, 8.0)),
+        ("(b)  Sixth harmonic over line (dB)", [result.sixth for result in rough], (-8.0, 8.0)),
+        ("(c)  Envelope, line over extended (dB)", [_ratio_db(result) for result in rough], (-60.0, 60.0)),
     )
     for place, (title, values, limits) in enumerate(maps):
         axes = figure.add_subplot(upper[place])
@@ -154,22 +172,22 @@ def draw(found: Sequence[Outcome]) -> Figure:
     return figure
 
 
-def _ratio_db(one: Outcome) -> float:
-    return float(20.0 * np.log10(np.median(one.envelope_ratio)))
+def _ratio_db(result: Outcome) -> float:
+    return float(20.0 * np.log10(np.median(result.envelope_ratio)))
 
 
 def _draw_map(
     axes: Axes, rough: Sequence[Outcome], values: Sequence[float], limits: tuple[float, float], *, first: bool
 ) -> None:
-    columns = sorted({one.profile.shortest_wave_mm for one in rough})
-    lines = sorted({(one.profile.depth_um, one.profile.deviation_um) for one in rough})
+    columns = sorted({result.profile.shortest_wave_mm for result in rough})
+    lines = sorted({(result.profile.depth_um, result.profile.deviation_um) for result in rough})
     grid = np.full((len(lines), len(columns)), np.nan)
-    for one, value in zip(rough, values, strict=True):
-        row = lines.index((one.profile.depth_um, one.profile.deviation_um))
-        column = columns.index(one.profile.shortest_wave_mm)
+    for result, value in zip(rough, values, strict=True):
+        row = lines.index((result.profile.depth_um, result.profile.deviation_um))
+        column = columns.index(result.profile.shortest_wave_mm)
         grid[row, column] = value
         axes.text(column, row, f"{value:+.0f}", ha="center", va="center", fontsize=8, color=INK)
-        if one.lifts and one.keeps_envelope:
+        if result.lifts and result.keeps_envelope:
             axes.add_patch(Rectangle((column - 0.46, row - 0.44), 0.92, 0.88, fill=False, edgecolor=INK, linewidth=1.8))
     axes.imshow(grid, cmap="PuOr_r", vmin=limits[0], vmax=limits[1], aspect="auto", alpha=0.75)
     axes.set_xticks(range(len(columns)), [f"{wave:g}" for wave in columns])
@@ -184,10 +202,10 @@ def _draw_map(
 def _draw_plane(axes: Axes, found: Sequence[Outcome]) -> None:
     for family, (colour, name) in FAMILIES.items():
         for keeps in (True, False):
-            own = [one for one in found if one.profile.family == family and one.keeps_envelope == keeps]
+            of_kind = [result for result in found if result.profile.family == family and result.keeps_envelope == keeps]
             axes.plot(
-                [max(one.median_lift_db, PLANE[0]) for one in own],
-                [max(one.sixth, PLANE[0]) for one in own],
+                [max(result.median_lift_db, PLANE[0]) for result in of_kind],
+                [max(result.sixth, PLANE[0]) for result in of_kind],
                 "o",
                 color=colour,
                 markersize=5,
@@ -210,10 +228,10 @@ def _draw_levels(axes: Axes, found: Sequence[Outcome]) -> None:
         (REFERENCE, INK, REFERENCE),
         (SMOOTH, GREY, "smooth, 4 µm, tapers 1° (G2)"),
     ):
-        one = titled(found, title)
-        axes.plot(number, np.median(one.above, axis=0), "o-", color=colour, markersize=3.5, label=name)
+        result = titled(found, title)
+        axes.plot(number, np.median(result.above, axis=0), "o-", color=colour, markersize=3.5, label=name)
         if title == CHOSEN:
-            axes.fill_between(number, one.above.min(axis=0), one.above.max(axis=0), color=colour, alpha=0.15)
+            axes.fill_between(number, result.above.min(axis=0), result.above.max(axis=0), color=colour, alpha=0.15)
     axes.axhline(0.0, color=LINE, linewidth=1.2, label="line spall G1")
     axes.set(xlabel="harmonic of the BPFO", ylabel="dB", xticks=number, ylim=(-30.0, 27.0))
     axes.legend(loc="upper right")

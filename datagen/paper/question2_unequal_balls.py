@@ -113,7 +113,7 @@ def chapter() -> Chapter:
 
 def answer(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> str:
     """What came out, in words."""
-    needed = {name: deviation_for(one, VISIBLE[0]) for name, one in found.items()}
+    needed = {name: deviation_for(sidebands, VISIBLE[0]) for name, sidebands in found.items()}
     hidden = float(np.median(floor["extended"].sixth(slipping=True)))
     small = float(np.median(found["extended"].sixth()[DEVIATIONS_UM.index(SMALL_DEVIATION)]))
     return (
@@ -136,13 +136,13 @@ def deviation_for(found: Sidebands, level: float) -> float:
 def rows(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> list[Row]:
     """The table of question 2."""
     table = []
-    for condition, one in found.items():
+    for condition, sidebands in found.items():
         equal, slipping = (float(np.median(floor[condition].sixth(slip))) for slip in (False, True))
         table.append(only_ours(f"equal balls, steady cage, {condition}", equal, "dB", "leakage of the window"))
         for k, deviation in enumerate(DEVIATIONS_UM):
-            level = one.sixth()[k]
+            level = sidebands.sixth()[k]
             title = f"sideband of the sixth harmonic, {deviation:g} µm, {condition}"
-            each = np.median(one.steady[k], axis=0)
+            each = np.median(sidebands.steady[k], axis=0)
             comment = f"{spread(level)}; all 13 harmonics {each.min():.0f} to {each.max():.0f}"
             seen = bool(np.median(level) > equal + 6.0)
             table.append(beside(NAME, "sidebands", title, float(np.median(level)), comment, agrees=seen, unit="dB"))
@@ -151,10 +151,12 @@ def rows(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> list[Row]:
         table.append(only_ours(title, float(np.median(every)), "dB", spread(every)))
         for level in VISIBLE:
             title = f"deviation for {level:.0f} dB, {condition}"
-            table.append(only_ours(title, deviation_for(one, level), "µm", "line through the five smallest deviations"))
+            table.append(
+                only_ours(title, deviation_for(sidebands, level), "µm", "line through the five smallest deviations")
+            )
         table.append(only_ours(f"equal balls, 1 % slip, {condition}", slipping, "dB", "flank of the smeared harmonic"))
         for k in (4, 6, 7):
-            level = one.sixth(slipping=True)[k]
+            level = sidebands.sixth(slipping=True)[k]
             title = f"{DEVIATIONS_UM[k]:g} µm and 1 % slip, {condition}"
             table.append(only_ours(title, float(np.median(level)), "dB", spread(level)))
     return table
@@ -187,14 +189,14 @@ def draw(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> Figure:
 
 
 def _draw_growth(axes: Axes, found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> None:
-    for condition, one in found.items():
+    for condition, answer in found.items():
         colour = COLOURS[condition]
-        level = one.sixth()
+        level = answer.sixth()
         axes.semilogx(
             DEVIATIONS_UM, np.median(level, axis=1), "o-", color=colour, markersize=4, label=f"{condition}, no slip"
         )
         axes.fill_between(DEVIATIONS_UM, level.min(axis=1), level.max(axis=1), color=colour, alpha=0.13, linewidth=0)
-        slipping = np.median(one.sixth(slipping=True), axis=1)
+        slipping = np.median(answer.sixth(slipping=True), axis=1)
         axes.semilogx(
             DEVIATIONS_UM, slipping, "s--", color=colour, markersize=3.5, linewidth=0.9, label=f"{condition}, 1 % slip"
         )

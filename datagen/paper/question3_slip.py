@@ -115,7 +115,7 @@ def chapter() -> Chapter:
 
 def answer(found: list[Smearing]) -> str:
     """What came out, in words."""
-    first = {(one.rig, slip): faded(one.drop(slip)) for one in found for slip in SLIPS[1:]}
+    first = {(smearing.rig, slip): faded(smearing.drop(slip)) for smearing in found for slip in SLIPS[1:]}
     lines = "; ".join(
         f"{rig} rig: " + ", ".join(f"{slip:.1%} from harmonic {_shown(first[rig, slip])}" for slip in SLIPS[1:])
         for rig in RIGS
@@ -136,29 +136,29 @@ def faded(drop: Array) -> float:
 def rows(found: list[Smearing]) -> list[Row]:
     """The table of question 3."""
     table = []
-    for one in found:
+    for smearing in found:
         for slip in SLIPS[1:]:
-            drop, predicted = one.drop(slip), predicted_drop(one.rig, slip)
+            drop, predicted = smearing.drop(slip), predicted_drop(smearing.rig, slip)
             for k in TABLED:
-                title = f"{one.rig} rig, slip {slip:.1%}, harmonic {k} over that without slip"
+                title = f"{smearing.rig} rig, slip {slip:.1%}, harmonic {k} over that without slip"
                 height, comment = float(drop[k - 1]), f"predicted {predicted[k - 1]:.1f} dB"
                 if k < FIRST_JUDGED:
                     table.append(only_ours(title, height, "dB", comment))
                 else:
                     table.append(beside(NAME, "smearing", title, height, comment, agrees=height < 0.0, unit="dB"))
             away = rms(drop - predicted)
-            table.append(only_ours(f"{one.rig} rig, slip {slip:.1%}, RMS of measured less predicted", away, "dB"))
+            table.append(only_ours(f"{smearing.rig} rig, slip {slip:.1%}, RMS of measured less predicted", away, "dB"))
     return table
 
 
 def draw(found: list[Smearing]) -> Figure:
     """Drop against harmonic above, spectra with and without slip below; gearbox rig left, fan rig right."""
     figure, grid = with_panels(2, 2, figsize=(11.0, 7.4))
-    for column, one in enumerate(found):
-        _draw_drop(grid[0, column], one)
-        letter(grid[0, column], "ab"[column], f"Lines over those without slip, {one.rig} rig")
-        _draw_spectra(grid[1, column], one.rig)
-        letter(grid[1, column], "cd"[column], f"One record each, {one.rig} rig")
+    for column, smearing in enumerate(found):
+        _draw_drop(grid[0, column], smearing)
+        letter(grid[0, column], "ab"[column], f"Lines over those without slip, {smearing.rig} rig")
+        _draw_spectra(grid[1, column], smearing.rig)
+        letter(grid[1, column], "cd"[column], f"One record each, {smearing.rig} rig")
     grid[0, 0].set_ylabel("dB")
     grid[1, 0].set_ylabel("squared envelope ((m/s²)²)")
     grid[0, 0].legend(loc="lower left")
@@ -173,12 +173,12 @@ def draw(found: list[Smearing]) -> Figure:
     return figure
 
 
-def _draw_drop(axes: Axes, one: Smearing) -> None:
+def _draw_drop(axes: Axes, smearing: Smearing) -> None:
     number = np.arange(1, HARMONICS + 1)
     for slip in SLIPS[1:]:
         colour = COLOURS[slip]
-        axes.plot(number, predicted_drop(one.rig, slip), color=colour, linewidth=1.1)
-        axes.plot(number, one.drop(slip), "o", color=colour, markersize=4, label=f"slip {slip:.1%}")
+        axes.plot(number, predicted_drop(smearing.rig, slip), color=colour, linewidth=1.1)
+        axes.plot(number, smearing.drop(slip), "o", color=colour, markersize=4, label=f"slip {slip:.1%}")
     axes.axhline(FADED, color=GREEN, linewidth=0.8, linestyle=(0, (4, 3)))
     axes.set(xlim=(0.0, HARMONICS + 0.5), xticks=np.arange(2, HARMONICS + 1, 2), xlabel="harmonic of the BPFO")
     axes.set_ylim(-20.0, 2.0)

@@ -46,7 +46,7 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
 
 def _named(arrays: Arrays, channels: tuple[str, ...], path: Path) -> NDArray[np.generic]:
     found = [choose(arrays, wish, path, "channels") for wish in channels]
-    if len({one.shape for one in found}) > 1 or any(one.ndim != 1 for one in found if len(found) > 1):
+    if len({axis.shape for axis in found}) > 1 or any(axis.ndim != 1 for axis in found if len(found) > 1):
         raise BadInput("the two channels are not equally long", str(path), "channels", list(channels))
     return np.stack(found, axis=1) if found[0].ndim == 1 else found[0]
 

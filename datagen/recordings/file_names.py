@@ -17,8 +17,8 @@ class FileNames:
         self.names = names
         self.known: dict[str, list[Path]] = {}
         for path, name in names.items():
-            for one in {normcase(name), normcase(path.name)}:
-                self.known.setdefault(one, []).append(path)
+            for spelling in {normcase(name), normcase(path.name)}:
+                self.known.setdefault(spelling, []).append(path)
 
     def fitting(self, name: str) -> list[Path]:
         """The files that are called `name`, or fit it as a pattern, by their own name or from the root; in order."""

@@ -100,7 +100,7 @@ class ImportPlan:
         growing: dict[Key, list[PlannedRecord]] = {}
         for planned in self.records:
             shard = growing.get(planned.key)
-            if shard is None or sum(one.bytes for one in shard) + planned.bytes > SHARD_BYTES:
+            if shard is None or sum(held.bytes for held in shard) + planned.bytes > SHARD_BYTES:
                 shard = growing[planned.key] = []
                 shards.append(shard)
             shard.append(planned)

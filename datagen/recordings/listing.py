@@ -59,7 +59,7 @@ class _Finder:
             files = list(self._files(recording, place))
             if recording.absent_files == "refuse":
                 self._refuse_idle_overrides(recording, place, [path for path, _ in files])
-            requests += [one for file in files for one in self._requests(recording, place, *file)]
+            requests += [request for file in files for request in self._requests(recording, place, *file)]
         if not requests:
             raise BadInput(f"none of its files is below {self.root}", str(self.spec.source), "root", str(self.root))
         return Listing(tuple(requests), tuple(self.tables), tuple(self.absent))
@@ -177,8 +177,8 @@ class _Finder:
                     )  # fmt: skip
 
     def _requests(self, recording: Recording, place: str, path: Path, row: TableRow | None) -> Iterator[Request]:
-        own = {name: value for name, value in recording.given().items() if name not in _NOT_SETTINGS}
-        settings = merged(self.spec.defaults.given(), own)
+        of_recording = {name: value for name, value in recording.given().items() if name not in _NOT_SETTINGS}
+        settings = merged(self.spec.defaults.given(), of_recording)
         where = row.place if row else place
         if row:
             _refuse_two_speeds(settings, row)

@@ -84,7 +84,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
-        own = {
+        of_piece = {
             "recording": _name(source) + (f"#{piece}" if request.settings.get("cut_s") else ""),
             "speed_rpm": speed.rpm,
             "speed_basis": speed.basis,
@@ -96,7 +96,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             acceleration=acceleration,
             axes=axes,
             rate=rate,
-            labels=labels | own,
+            labels=labels | of_piece,
             provenance=_provenance(source, factor, start, stop, {"pulses": speed.mended, "samples": filled}, dead),
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,

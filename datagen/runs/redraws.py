@@ -27,10 +27,10 @@ class RedrawCount:
     def add(self, scenario: Scenario) -> None:
         """Count those of one more scenario."""
         self._records += 1
-        own = own_redraws(self._recipe, scenario)
-        if own:
+        redraws = own_redraws(self._recipe, scenario)
+        if redraws:
             self._redrawn += 1
-            self._refused = add_refused([self._refused, count_refused(own)])
+            self._refused = add_refused([self._refused, count_refused(redraws)])
 
     def sentence(self) -> str:
         """What was drawn again and what follows, if it happened to a tenth of the records or more; else empty."""

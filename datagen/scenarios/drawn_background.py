@@ -34,11 +34,11 @@ def draw_background(settings: BackgroundSettings, rate: float, draw: Draw) -> Ba
     pick = draw.picker
     return Background(
         white_rms=pick("background").number(settings.white_rms_m_s2),
-        pink=if_given(settings.pink, lambda one: _draw_pink(one, rate, pick("pink_noise"))),
-        shaft_harmonics=if_given(settings.shaft_harmonics, lambda one: _draw_shaft(one, pick("shaft_harmonics"))),
-        gear_mesh=if_given(settings.gear_mesh, lambda one: _draw_gears(one, pick("gear_mesh"))),
-        mains_hum=if_given(settings.mains_hum, lambda one: _draw_hum(one, pick("mains_hum"))),
-        impulses=if_given(settings.impulses, lambda one: _draw_impulses(one, rate, pick("impulses"))),
+        pink=if_given(settings.pink, lambda layer: _draw_pink(layer, rate, pick("pink_noise"))),
+        shaft_harmonics=if_given(settings.shaft_harmonics, lambda layer: _draw_shaft(layer, pick("shaft_harmonics"))),
+        gear_mesh=if_given(settings.gear_mesh, lambda layer: _draw_gears(layer, pick("gear_mesh"))),
+        mains_hum=if_given(settings.mains_hum, lambda layer: _draw_hum(layer, pick("mains_hum"))),
+        impulses=if_given(settings.impulses, lambda layer: _draw_impulses(layer, rate, pick("impulses"))),
         recording_gain=pick("recording").number(settings.recording.gain_m_s2) if settings.recording else 0.0,
     )
 

@@ -77,7 +77,7 @@ def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...
         slip_correlation_time=slip.correlation_time,
         chain=machine.chain,
         background=machine.background,
-        stretch=if_given(background.recording, lambda one: draw_stretch(one, machine.samples, draw)),
+        stretch=if_given(background.recording, lambda recording: draw_stretch(recording, machine.samples, draw)),
         noise_target=draw_noise_target(background, draw.picker("noise_target")),
         snr_band=background.snr_band_hz or machine.envelope_band,
         redraws=redraws,

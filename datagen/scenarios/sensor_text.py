@@ -65,8 +65,8 @@ def chain_data(chain: SensorChain) -> Data:
     return {
         "resonator_gain": chain.resonator_gain,
         "modes": modes,
-        "mounting": if_given(mounting, lambda one: {"cutoff_hz": one.cutoff, "order": one.order}),
-        "recorder": if_given(recorder, lambda one: {"range_m_s2": one.full_scale, "bits": one.bits}),
+        "mounting": if_given(mounting, lambda given: {"cutoff_hz": given.cutoff, "order": given.order}),
+        "recorder": if_given(recorder, lambda given: {"range_m_s2": given.full_scale, "bits": given.bits}),
         "rules": CHAIN_RULES,
     }
 
@@ -77,8 +77,8 @@ def chain_of(data: Data) -> SensorChain:
     return SensorChain(
         modes=tuple(SensorMode(mode["frequency_hz"], mode["damping"], mode["gain"]) for mode in data["modes"]),
         resonator_gain=data["resonator_gain"],
-        mounting=if_given(mounting, lambda one: Mounting(one["cutoff_hz"], one["order"])),
-        recorder=if_given(recorder, lambda one: Recorder(one["range_m_s2"], one["bits"])),
+        mounting=if_given(mounting, lambda given: Mounting(given["cutoff_hz"], given["order"])),
+        recorder=if_given(recorder, lambda given: Recorder(given["range_m_s2"], given["bits"])),
     )
 
 
@@ -141,7 +141,7 @@ def _hum(layer: MainsHum) -> Data:
 
 
 def _impulses(layer: Impulses) -> Data:
-    resonances = [{"frequency_hz": one.frequency, "damping": one.damping} for one in layer.resonances]
+    resonances = [{"frequency_hz": resonance.frequency, "damping": resonance.damping} for resonance in layer.resonances]
     return {
         "per_second": layer.per_second,
         "amplitude_m_s2": layer.amplitude,
@@ -186,7 +186,7 @@ def _gears_of(data: Data) -> GearMesh:
 
 
 def _impulses_of(data: Data) -> Impulses:
-    resonances = tuple(Resonance(one["frequency_hz"], one["damping"]) for one in data["resonances"])
+    resonances = tuple(Resonance(resonance["frequency_hz"], resonance["damping"]) for resonance in data["resonances"])
     return Impulses(data["per_second"], data["amplitude_m_s2"], data["spread"], resonances)
 
 

@@ -36,11 +36,11 @@ EXPECTED = {
 }
 
 
-def bad_settings(error: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
+def bad_settings(invalid: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
-    errors: list[dict[str, Any]] = [dict(one) for one in error.errors()]
-    own = [one for one in errors if not _follows(one, errors)]
-    first = min(own, key=lambda one: (one["type"] != "extra_forbidden", _is_other_kind(one)))
+    errors: list[dict[str, Any]] = [dict(error) for error in invalid.errors()]
+    causes = [error for error in errors if not _follows(error, errors)]
+    first = min(causes, key=lambda error: (error["type"] != "extra_forbidden", _is_other_kind(error)))
     context = first.get("ctx", {})
     field = tuple(context.get("field", "").split(".")) if context.get("field") else ()
     location = _place(first) + field
@@ -50,34 +50,34 @@ def bad_settings(error: ValidationError, model: type[BaseModel], path: Path | st
         f"{path}, line {line}" if line else str(path),
         dotted(location),
         _value(first, location, field),
-        _allowed(first, [one for one in errors if _place(one) == _place(first)]),
+        _allowed(first, [error for error in errors if _place(error) == _place(first)]),
     )
 
 
-def _place(one: dict[str, Any]) -> Location:
+def _place(error: dict[str, Any]) -> Location:
     """Where the setting is, without the names of the kinds of value that pydantic tried there."""
-    return tuple(step for step in one["loc"] if isinstance(step, int) or not _is_kind(step))
+    return tuple(step for step in error["loc"] if isinstance(step, int) or not _is_kind(step))
 
 
 def _is_kind(step: str | int) -> bool:
     return isinstance(step, str) and (step in SCALARS or step[:1].isupper())
 
 
-def _is_other_kind(one: dict[str, Any]) -> bool:
+def _is_other_kind(error: dict[str, Any]) -> bool:
     """True if a table was tried as a single value, which says less than what is wrong in the table."""
-    return isinstance(one["input"], dict) and any(step in SCALARS for step in one["loc"][-1:])
+    return isinstance(error["input"], dict) and any(step in SCALARS for step in error["loc"][-1:])
 
 
-def _follows(one: dict[str, Any], errors: list[dict[str, Any]]) -> bool:
+def _follows(error: dict[str, Any], errors: list[dict[str, Any]]) -> bool:
     """True of a list that counts as too short because what stands in it is wrong."""
-    size = len(one["loc"])
-    return one["type"] == "too_short" and any(more["loc"][:size] == one["loc"] != more["loc"] for more in errors)
+    size = len(error["loc"])
+    return error["type"] == "too_short" and any(more["loc"][:size] == error["loc"] != more["loc"] for more in errors)
 
 
 def _allowed(first: dict[str, Any], alike: list[dict[str, Any]]) -> str:
     """What is allowed; where several kinds of value were tried at the place, all of them."""
     kinds = alike if any(map(_is_kind, first["loc"][-1:])) else [first]
-    contexts = [(one["type"], one.get("ctx", {})) for one in kinds]
+    contexts = [(error["type"], error.get("ctx", {})) for error in kinds]
     words = [context.get("allowed") or EXPECTED.get(kind, "").format(**context) for kind, context in contexts]
     return " or ".join(dict.fromkeys(word for word in words if word))
 

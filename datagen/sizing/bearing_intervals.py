@@ -17,7 +17,7 @@ RESAMPLES = 2000
 
 def bearing_numbers(records: list[ScoredRecord]) -> NDArray[np.int64]:
     """A number (N,) of the bearing of each record; a record of an unknown bearing has one of its own."""
-    groups = [one.bearing_group for one in records]
+    groups = [record.bearing_group for record in records]
     number = {group: place for place, group in enumerate(sorted(set(groups)))}
     return np.array([number[group] for group in groups], dtype=np.int64)
 

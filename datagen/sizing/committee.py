@@ -48,20 +48,22 @@ class Committee:
 
 def mean_of(members: list[Trees]) -> Trees:
     """Trees whose sum is the mean of the sums of all `members`."""
-    sizes = np.array([one.feature.size for one in members])
+    sizes = np.array([member.feature.size for member in members])
     first = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32)
     together = {
-        name: np.concatenate([getattr(one, name) + np.int32(start) for one, start in zip(members, first, strict=True)])
+        name: np.concatenate(
+            [getattr(member, name) + np.int32(start) for member, start in zip(members, first, strict=True)]
+        )
         for name in ("left", "right", "root")
     }
     return Trees(
-        np.concatenate([one.feature for one in members]),
-        np.concatenate([one.threshold for one in members]),
+        np.concatenate([member.feature for member in members]),
+        np.concatenate([member.threshold for member in members]),
         together["left"],
         together["right"],
-        np.concatenate([one.value / len(members) for one in members]).astype(np.float32),
+        np.concatenate([member.value / len(members) for member in members]).astype(np.float32),
         together["root"],
-        float(np.mean([one.base for one in members])),
+        float(np.mean([member.base for member in members])),
     )
 
 

@@ -61,32 +61,50 @@ def score_sizes(
     correct those of the other records of their machines; `count` is called with how many records are done. A run
     on recordings of stated extents or health is logged beside them, before and after.
     """
-    own = find_estimator(estimator)
+    sizer = find_estimator(estimator)
     chosen = _split(folder, split)
     splits = None if chosen == ALL else (chosen,)
-    unsized = [unsized_row(one) for one in unsized_records(folder, splits)]
-    sizer, logged = estimator or "spallgen", states_sizes(folder)
+    unsized = [unsized_row(record) for record in unsized_records(folder, splits)]
+    name, logged = estimator or "spallgen", states_sizes(folder)
     if logged:
         options = {"split": chosen, "load_known": load_known, "known_sizes": dict(sizes)}
-        write_line(folder, {"began": options, "sizes_by": sizer})
-    known = known_sizes(folder, sizes, own, load_known)
+        write_line(folder, {"began": options, "sizes_by": name})
+    known = known_sizes(folder, sizes, sizer, load_known)
     records = sized_records(folder, load_known=load_known, splits=splits)
     total = count_records(folder, splits) - len(unsized)
-    made = []
-    for done, one in enumerate(_scored(records, estimator, known, workers), start=1):
-        made.append(one)
-        count(done, total)
-    scored = sorted([*made, *unsized], key=lambda one: one.truth.record)
-    true = [one for one in scored if one.truth.known]
-    summary = summarise(true, load_known) if true else None
+    made = _counted(_scored(records, estimator, known, workers), total, count)
+    scored = sorted([*made, *unsized], key=lambda record: record.truth.record)
+    true = [record for record in scored if record.truth.known]
     stated = summarise_stated(scored)
     if logged:
-        time = datetime.now(UTC).isoformat(timespec="seconds")
-        scores = None if stated is None else flat_summary(stated)
-        write_line(folder, {"time": time, "sizes_by": sizer, "versions": program_versions(), "scores": scores})
-    load_given = sum(one.answer.load_known for one in scored)
-    effect = with_effect(known, scored)
-    return SizeScores(str(folder), sizer, chosen, load_known, scored, summary, effect, stated, load_given)
+        _log_scores(folder, name, stated)
+    return SizeScores(
+        folder=str(folder),
+        estimator=name,
+        split=chosen,
+        load_known=load_known,
+        records=scored,
+        summary=summarise(true, load_known) if true else None,
+        known_sizes=with_effect(known, scored),
+        stated=stated,
+        load_given=sum(record.answer.load_known for record in scored),
+    )
+
+
+def _counted(scored: Iterator[ScoredRecord], total: int, count: Count) -> list[ScoredRecord]:
+    """All of the `total` rows, each counted as it comes."""
+    rows = []
+    for row in scored:
+        rows.append(row)
+        count(len(rows), total)
+    return rows
+
+
+def _log_scores(folder: Path, name: str, stated: StatedSizes | None) -> None:
+    """Append to the log beside recordings when and with what the estimator of that name was scored on them, and how."""
+    time = datetime.now(UTC).isoformat(timespec="seconds")
+    scores = None if stated is None else flat_summary(stated)
+    write_line(folder, {"time": time, "sizes_by": name, "versions": program_versions(), "scores": scores})
 
 
 def _scored(
@@ -95,7 +113,7 @@ def _scored(
     """Rows of the records, made by several processes."""
     from joblib import delayed
 
-    return in_blocks((delayed(_score)(one, estimator, _factor(one, known)) for one in records), workers)
+    return in_blocks((delayed(_score)(record, estimator, _factor(record, known)) for record in records), workers)
 
 
 def _score(sized: SizedRecord, estimator: str | None, factor: float) -> ScoredRecord:

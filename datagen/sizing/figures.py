@@ -24,22 +24,24 @@ COVERAGE_TARGET = (0.85, 0.95)
 
 def figures_of(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     """Every figure of the scored records, with its target where it has one."""
-    scorable = [one for one in records if one.scorable]
-    answered = [one for one in scorable if one.found]
+    scorable = [record for record in records if record.scorable]
+    answered = [record for record in scorable if record.found]
     figures: list[Figure] = []
     for level in NOISE_LEVELS:
         name = noise_name(level) + ("" if level == math.inf else " dB")
-        own = [one for one in answered if noise_level(one) == level]
-        asked = [one for one in scorable if noise_level(one) == level]
-        figures.append(_figure(f"lag error, {name}", own, lag_error, LAG_TARGETS.get(level)))
+        sized = [record for record in answered if noise_level(record) == level]
+        asked = [record for record in scorable if noise_level(record) == level]
+        figures.append(_figure(f"lag error, {name}", sized, lag_error, LAG_TARGETS.get(level)))
         arc_target = ARC_TARGETS.get(level) if load_known else None
-        figures.append(_figure(f"arc error, {name}", own, extent_error, arc_target))
-        figures += [_figure(f"arc error by rule: {rule}, {name}", own, error) for rule, error in RULES.items()]
+        figures.append(_figure(f"arc error, {name}", sized, extent_error, arc_target))
+        figures += [_figure(f"arc error by rule: {rule}, {name}", sized, error) for rule, error in RULES.items()]
         figures.append(_figure(f"no estimate, {name}", asked, silent, NO_ESTIMATE_TARGETS.get(level)))
-    eventless = [one for one in records if one.without_event]
+    eventless = [record for record in records if record.without_event]
     figures.append(_figure("abstention where there is no event", eventless, silent, ABSTENTION_TARGET, at_least=True))
-    figures.append(_coverage("lag", answered, lambda one: _holds(one.answer.lag_interval, one.truth.lag)))
-    figures.append(_coverage("arc", answered, lambda one: _holds(one.answer.extent_interval, one.truth.extent)))
+    figures.append(_coverage("lag", answered, lambda record: _holds(record.answer.lag_interval, record.truth.lag)))
+    figures.append(
+        _coverage("arc", answered, lambda record: _holds(record.answer.extent_interval, record.truth.extent))
+    )
     return figures
 
 
@@ -56,7 +58,7 @@ def _figure(
     *,
     at_least: bool = False,
 ) -> Figure:
-    values = np.array([value(one) for one in records])
+    values = np.array([value(record) for record in records])
     kept = np.isfinite(values)
     if not kept.any():
         return Figure(name, mean_with_interval([], []), 0)

@@ -66,7 +66,7 @@ def fit(corpora: Sequence[Path], out: Path, workers: int) -> None:
     for corpus in corpora:
         _require_training(corpus)
     by_corpus = [trials(corpus, SPLITS, workers) for corpus in corpora]
-    made = [trial for own in by_corpus for trial in own]
+    made = [trial for trials_of_corpus in by_corpus for trial in trials_of_corpus]
     columns = TrialColumns.of(made, np.arange(len(made)) < len(by_corpus[0]))
     _require_enough(columns)
     print(f"{len(made)} trials of {len({(trial.bearing_id, trial.record) for trial in made})} records")
@@ -102,7 +102,7 @@ def _require_enough(columns: TrialColumns) -> None:
 def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:
     """In words, what was fitted to: corpora and the hashes of their recipes, records, sampling rates, programs."""
     manifests = [read_manifest(corpus) for corpus in corpora]
-    names = ", ".join(f"{one.name} (recipe {one.identity.recipe_hash})" for one in manifests)
+    names = ", ".join(f"{manifest.name} (recipe {manifest.identity.recipe_hash})" for manifest in manifests)
     rates = ", ".join(f"{rate:g}" for rate in sorted({trial.evidence.rate for trial in made}))
     programs = measured_on(*LEARNED_WITH)
     versions = ", ".join(f"{name} {programs[name]}" for name in ("python", *LEARNED_WITH))
@@ -120,8 +120,8 @@ def fit_calibration(made: list[Trial], columns: TrialColumns) -> Calibration:
     for name, load_known in (("blind", False), ("with load and Hertz factor", True)):
         judgement, cross_fits = _judgement(made, columns, score.scores, load_known=load_known)
         print(name)
-        for noise, one in cross_fits.items():
-            print(noise, *one.lines(), sep="; ")
+        for noise, cross_fit in cross_fits.items():
+            print(noise, *cross_fit.lines(), sep="; ")
         judgements.append(judgement)
     blind, with_load = judgements
     return Calibration(score.trees, blind, with_load)
@@ -140,9 +140,9 @@ def _judgement(
     true_arc = np.where(columns.arc > 0.0, columns.arc, np.nan)
     arc = fit_guess(rank.rows, np.log(true_arc / rank.lag_arc), columns.bearing)
     usual = columns.as_stored & (expected <= most)
-    lag_guess, arc_guess = (replace(one.guess, reach=reach(one.missed, usual)) for one in (lag, arc))
+    lag_guess, arc_guess = (replace(fitted.guess, reach=reach(fitted.missed, usual)) for fitted in (lag, arc))
     scored = {"clean": columns.asked_clean, "as stored": columns.asked_as_stored}
-    cross_fits = {noise: CrossFit(error[own], expected[own], most) for noise, own in scored.items()}
+    cross_fits = {noise: CrossFit(error[chosen], expected[chosen], most) for noise, chosen in scored.items()}
     return Judgement(rank.trees, lag_guess, arc_guess, doubt.trees, most), cross_fits
 
 

@@ -85,18 +85,18 @@ class FittedRank:
 def fit_rank(made: list[Trial], scores: list[Array], bearing: Bearings, *, load_known: bool) -> FittedRank:
     """The rank of the pairs that lead by `scores`, (P,) of each of the trials `made` (N,) of these bearings (N,)."""
     leading = [_leading(trial, score, load_known) for trial, score in zip(made, scores, strict=True)]
-    rows = np.concatenate([one.rows for one in leading])
-    sizes = [one.lag.size for one in leading]
+    rows = np.concatenate([pairs.rows for pairs in leading])
+    sizes = [pairs.lag.size for pairs in leading]
     order = [leading_order(trial.evidence.pairs, score) for trial, score in zip(made, scores, strict=True)]
-    quality = np.concatenate([trial.quality[own] for trial, own in zip(made, order, strict=True)])
+    quality = np.concatenate([trial.quality[leaders] for trial, leaders in zip(made, order, strict=True)])
     everywhere = np.ones(quality.size, dtype=np.bool_)
     ranks = np.split(RANK.out_of_fold(rows, quality, everywhere, np.repeat(bearing, sizes)), np.cumsum(sizes)[:-1])
-    first = [measure(one, rank) for one, rank in zip(leading, ranks, strict=True)]
+    first = [measure(pairs, rank) for pairs, rank in zip(leading, ranks, strict=True)]
     return FittedRank(
         RANK.fit(rows, quality),
-        np.array([one.lag for one in first]),
-        np.array([one.lag_arc for one in first]),
-        np.array([one.row for one in first], dtype=np.float32).astype(np.float64),  # trees compare in single
+        np.array([pair.lag for pair in first]),
+        np.array([pair.lag_arc for pair in first]),
+        np.array([pair.row for pair in first], dtype=np.float32).astype(np.float64),  # trees compare in single
     )
 
 

@@ -17,7 +17,7 @@ def flat_scores(scores: SizeScores) -> dict[str, Any]:
     """The scores by the names of the JSON report, their records as flat rows and the ends of intervals beside means."""
     by_name = {field.name: getattr(scores, field.name) for field in fields(scores)}
     return by_name | {
-        "records": [flat_row(one) for one in scores.records],
+        "records": [flat_row(record) for record in scores.records],
         "summary": flat_summary(scores.summary),
         "stated": flat_summary(scores.stated),
     }
@@ -41,10 +41,10 @@ def flat_summary(part: Any) -> Any:
     return found
 
 
-def flat_row(one: ScoredRecord) -> dict[str, Any]:
+def flat_row(record: ScoredRecord) -> dict[str, Any]:
     """A record by the names of the table, in its order: truth and estimate side by side, the bounds of 90 % intervals
     as `_low` and `_high`."""
-    truth, answer = one.truth, one.answer
+    truth, answer = record.truth, record.answer
     return {
         "record": truth.record,
         "recording": truth.recording,
@@ -76,13 +76,13 @@ def flat_row(one: ScoredRecord) -> dict[str, Any]:
         "candidates": answer.candidates,
         "candidates_deg": answer.candidates_deg,
         "candidates_mm": answer.candidates_mm,
-        "static_arc": one.static_arc,
-        "envelope_arc": one.envelope_arc,
+        "static_arc": record.static_arc,
+        "envelope_arc": record.envelope_arc,
         "known_size_factor": answer.known_size_factor,
         "seconds": answer.seconds,
         "event_times": answer.event_times,
-        "events_in_time": one.events_in_time,
-        "events_in_arc": one.events_in_arc,
+        "events_in_time": record.events_in_time,
+        "events_in_arc": record.events_in_arc,
         "known_truth": truth.known,
     }
 

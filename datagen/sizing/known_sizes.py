@@ -44,16 +44,16 @@ def parse_known_sizes(texts: Iterable[str]) -> dict[int, float]:
     """Lengths (mm) by record from texts like "3=1.5"; BadInput if one is no such text or a record has two."""
     sizes: dict[int, float] = {}
     for text in texts:
-        record, _, length = text.partition("=")
+        index, _, length = text.partition("=")
         try:
-            own, millimetres = int(record), float(length)
+            record, millimetres = int(index), float(length)
         except ValueError:
-            own, millimetres = -1, math.nan
-        if own < 0 or not (math.isfinite(millimetres) and millimetres > 0.0):
+            record, millimetres = -1, math.nan
+        if record < 0 or not (math.isfinite(millimetres) and millimetres > 0.0):
             raise BadInput(field=FIELD, value=text, allowed=ALLOWED)
-        if own in sizes:
+        if record in sizes:
             raise BadInput("this record has a size already", field=FIELD, value=text, allowed="one size a record")
-        sizes[own] = millimetres
+        sizes[record] = millimetres
     return sizes
 
 
@@ -69,7 +69,7 @@ def known_sizes(folder: Path, sizes: Mapping[int, float], estimator: AnyEstimato
     """
     _check(folder, sizes)
     records = sized_records(folder, load_known=load_known, only=sizes)
-    return shared_factors([_known_size(folder, one, sizes[one.record], estimator) for one in records])
+    return shared_factors([_known_size(folder, sized, sizes[sized.record], estimator) for sized in records])
 
 
 def _check(folder: Path, sizes: Mapping[int, float]) -> None:
@@ -88,44 +88,52 @@ def _check(folder: Path, sizes: Mapping[int, float]) -> None:
             raise BadInput("its machine is not known", str(folder), f"{FIELD}: record", record, allowed)
 
 
-def _known_size(folder: Path, one: SizedRecord, known_mm: float, estimator: AnyEstimator) -> KnownSize:
-    estimate = estimator.estimate(one.acceleration, one.rate, one.situation)
+def _known_size(folder: Path, sized: SizedRecord, known_mm: float, estimator: AnyEstimator) -> KnownSize:
+    estimate = estimator.estimate(sized.acceleration, sized.rate, sized.situation)
     if not estimate.found:
-        raise BadInput(f"it gets no estimate: {estimate.reason}", str(folder), f"{FIELD}: record", one.record)
-    machine = machine_of(str(one.labels["bearing_id"]), str(one.labels["rig"]))
-    return KnownSize(one.record, machine, known_mm, estimate.extent_mm, known_size_factor(estimate.extent_mm, known_mm))
+        raise BadInput(f"it gets no estimate: {estimate.reason}", str(folder), f"{FIELD}: record", sized.record)
+    machine = machine_of(str(sized.labels["bearing_id"]), str(sized.labels["rig"]))
+    return KnownSize(
+        sized.record, machine, known_mm, estimate.extent_mm, known_size_factor(estimate.extent_mm, known_mm)
+    )
 
 
 def shared_factors(known: list[KnownSize]) -> list[KnownSize]:
     """The same with one factor a machine: the geometric mean of what its known sizes say."""
-    logarithms = {
-        one.machine: [math.log(each.factor) for each in known if each.machine == one.machine] for one in known
-    }
-    return [replace(one, factor=math.exp(float(np.mean(logarithms[one.machine])))) for one in known]
+    logarithms: dict[str, list[float]] = {}
+    for size in known:
+        logarithms.setdefault(size.machine, []).append(math.log(size.factor))
+    return [replace(size, factor=math.exp(float(np.mean(logarithms[size.machine])))) for size in known]
 
 
 def factor_for(known: list[KnownSize], record: int, machine: str) -> float:
     """What known sizes multiply the size of a record by: 1 if it has one itself, or no other of its machine has."""
-    if any(one.record == record for one in known):
+    if any(size.record == record for size in known):
         return 1.0
-    return next((one.factor for one in known if one.machine == machine), 1.0)
+    return next((size.factor for size in known if size.machine == machine), 1.0)
 
 
 def with_effect(known: list[KnownSize], records: list[ScoredRecord]) -> list[KnownSize]:
     """The known sizes with how many of the scored `records` they corrected, and what that did to their errors."""
-    return [_with_effect(one, [each for each in records if _is_corrected(each, one, known)]) for one in known]
+    of_known_size = {size.record for size in known}
+    others = [record for record in records if record.found and record.truth.record not in of_known_size]
+    return [_with_effect(size, [record for record in others if _is_of(record, size.machine)]) for size in known]
 
 
-def _is_corrected(record: ScoredRecord, one: KnownSize, known: list[KnownSize]) -> bool:
-    own = machine_of(record.truth.bearing_id, record.truth.rig) == one.machine
-    return own and record.found and record.truth.record not in {each.record for each in known}
+def _is_of(record: ScoredRecord, machine: str) -> bool:
+    return machine_of(record.truth.bearing_id, record.truth.rig) == machine
 
 
-def _with_effect(one: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
-    scored = [each for each in corrected if each.truth.known and each.scorable]
-    without = [abs(each.answer.extent / each.answer.known_size_factor / each.truth.extent - 1.0) for each in scored]
-    given = [abs(each.answer.extent / each.truth.extent - 1.0) for each in scored]
+def _with_effect(size: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
+    scored = [record for record in corrected if record.truth.known and record.scorable]
     if not scored:
-        return replace(one, corrected=len(corrected))
+        return replace(size, corrected=len(corrected))
+    without = [_error(record, record.answer.extent / record.answer.known_size_factor) for record in scored]
+    given = [_error(record, record.answer.extent) for record in scored]
     means = float(np.mean(without)), float(np.mean(given))
-    return replace(one, corrected=len(corrected), arc_error_without=means[0], arc_error_with=means[1])
+    return replace(size, corrected=len(corrected), arc_error_without=means[0], arc_error_with=means[1])
+
+
+def _error(record: ScoredRecord, extent: float) -> float:
+    """|error| of an `extent` (rad) over the record's true one."""
+    return abs(extent / record.truth.extent - 1.0)

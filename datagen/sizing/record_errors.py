@@ -12,11 +12,11 @@ from datagen.sizing.scored_record import CLEAN_DB, ScoredRecord
 NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
 
 
-def noise_level(one: ScoredRecord) -> float:
+def noise_level(record: ScoredRecord) -> float:
     """The nominal noise level of a record, dB; infinite if it is clean, which is what 60 dB and more count as."""
-    if not one.truth.snr_db < CLEAN_DB:
+    if not record.truth.snr_db < CLEAN_DB:
         return math.inf
-    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - one.truth.snr_db))
+    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - record.truth.snr_db))
 
 
 def noise_name(level: float) -> str:
@@ -24,31 +24,31 @@ def noise_name(level: float) -> str:
     return "clean" if level == math.inf else f"{level:g}"
 
 
-def lag_error(one: ScoredRecord) -> float:
+def lag_error(record: ScoredRecord) -> float:
     """|error| of the lag over its true value."""
-    return abs(one.answer.lag - one.truth.lag) / one.truth.lag
+    return abs(record.answer.lag - record.truth.lag) / record.truth.lag
 
 
-def extent_error(one: ScoredRecord) -> float:
+def extent_error(record: ScoredRecord) -> float:
     """|error| of the extent over its true value."""
-    return abs(one.answer.extent - one.truth.extent) / one.truth.extent
+    return abs(record.answer.extent - record.truth.extent) / record.truth.extent
 
 
 def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], float]:
-    return lambda one: abs(arc(one) - one.truth.extent) / one.truth.extent
+    return lambda record: abs(arc(record) - record.truth.extent) / record.truth.extent
 
 
 RULES: dict[str, Callable[[ScoredRecord], float]] = {
-    "full size, own lag": _rule(lambda one: one.answer.lag_arc),
-    "half size, own lag": _rule(lambda one: 2.0 * one.answer.lag_arc),
-    "plain envelope lag": _rule(lambda one: one.envelope_arc),
-    "own lag and static release": _rule(lambda one: one.static_arc),
+    "full size, own lag": _rule(lambda record: record.answer.lag_arc),
+    "half size, own lag": _rule(lambda record: 2.0 * record.answer.lag_arc),
+    "plain envelope lag": _rule(lambda record: record.envelope_arc),
+    "own lag and static release": _rule(lambda record: record.static_arc),
 }
 
 
-def silent(one: ScoredRecord) -> float:
+def silent(record: ScoredRecord) -> float:
     """1 if the record was given no size, else 0."""
-    return float(not one.found)
+    return float(not record.found)
 
 
 def mean_of(values: list[float]) -> float:

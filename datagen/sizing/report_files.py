@@ -30,7 +30,7 @@ def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> Non
 
 def estimates_csv(scores: SizeScores) -> str:
     """The table of all records as CSV; `passes_heard` counts the passes whose event times the JSON has."""
-    rows = [flat_row(one) for one in scores.records]
+    rows = [flat_row(record) for record in scores.records]
     for row in rows:
         row |= {name: " ".join(format(value, ".6g") for value in row[name]) for name in LISTS}
         row["passes_heard"] = len(row.pop("event_times"))

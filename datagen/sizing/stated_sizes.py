@@ -19,20 +19,20 @@ def summarise_stated(records: list[ScoredRecord]) -> StatedSizes | None:
 
     Records of unknown bearings count as bearings of their own.
     """
-    asked = [one for one in records if one.asked and not one.truth.known]
-    spalled = [one for one in asked if math.isfinite(one.truth.extent) and one.truth.extent > 0.0]
-    healthy = [one for one in asked if one.truth.race == "none"]
+    asked = [record for record in records if record.asked and not record.truth.known]
+    spalled = [record for record in asked if math.isfinite(record.truth.extent) and record.truth.extent > 0.0]
+    healthy = [record for record in asked if record.truth.race == "none"]
     if not spalled and not healthy:
         return None
-    answered = [one for one in spalled if one.found]
-    errors = [extent_error(one) for one in answered]
+    answered = [record for record in spalled if record.found]
+    errors = [extent_error(record) for record in answered]
     return StatedSizes(
         records=len(spalled),
         answered=len(answered),
-        answered_on_the_stated_race=sum(one.answer.race == one.truth.race for one in answered),
+        answered_on_the_stated_race=sum(record.answer.race == record.truth.race for record in answered),
         arc_error=mean_with_interval(errors, answered),
         healthy=len(healthy),
-        healthy_answered=sum(one.found for one in healthy),
+        healthy_answered=sum(record.found for record in healthy),
     )
 
 

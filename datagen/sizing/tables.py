@@ -53,21 +53,27 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
     )
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")
-    for one in records:
-        trust = f"{one.answer.trust:.2f}" if one.asked else ""
-        table.add_row(str(one.truth.record), escape(_source(one.truth)), *_spall(one), trust, escape(one.answer.reason))
+    for record in records:
+        trust = f"{record.answer.trust:.2f}" if record.asked else ""
+        table.add_row(
+            str(record.truth.record),
+            escape(_source(record.truth)),
+            *_spall(record),
+            trust,
+            escape(record.answer.reason),
+        )
     return table
 
 
-def _source(one: Truth) -> str:
-    repeated = f" {one.channel}" in one.recording
-    return one.recording if repeated else " ".join(part for part in (one.recording, one.channel) if part)
+def _source(truth: Truth) -> str:
+    repeated = f" {truth.channel}" in truth.recording
+    return truth.recording if repeated else " ".join(part for part in (truth.recording, truth.channel) if part)
 
 
-def _spall(one: ScoredRecord) -> tuple[str, str, str]:
-    if not one.found:
+def _spall(record: ScoredRecord) -> tuple[str, str, str]:
+    if not record.found:
         return "", "", ""
-    answer = one.answer
+    answer = record.answer
     return (
         answer.race,
         _with_interval(answer.extent_deg, *answer.extent_deg_interval),

@@ -69,7 +69,7 @@ def _is_number(value: object) -> bool:
 
 def _are_numbers(value: Any, count: int | None = None) -> bool:
     listed = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)
-    return listed and count in (None, len(value)) and all(_is_number(one) for one in value)
+    return listed and count in (None, len(value)) and all(_is_number(number) for number in value)
 
 
 def _kind(value: object) -> str:

@@ -97,14 +97,14 @@ def fit_alarm(
     low = float(np.quantile(hidden, 1.0 - SHARE_IN_NOISE * share))
     level, clear, table = level[~noisy], clear[~noisy], table[~noisy]
     records, axes = records[~noisy], axes[~noisy]
-    own = np.unique(records)
-    above, weight = averaged(np.column_stack([level - low * (1.0 - clear), clear]), records, own).T
+    distinct = np.unique(records)
+    above, weight = averaged(np.column_stack([level - low * (1.0 - clear), clear]), records, distinct).T
     # A record alarms where its mean level passes low (1 − clear) + high clear, that is where high lies below this:
     needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
-    high = np.sort(needed)[::-1][min(int(share * own.size), own.size - 1)]
+    high = np.sort(needed)[::-1][min(int(share * distinct.size), distinct.size - 1)]
     in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
     lines = np.log(strengths(table))
-    heights = averaged(lines, records, own).max(axis=1)
+    heights = averaged(lines, records, distinct).max(axis=1)
     alarm = Alarm(float(in_noise), float(in_clear), float(np.exp(np.quantile(heights, LINES_QUANTILE))))
     margin = level - logit(alarm.at(table))
     return replace(

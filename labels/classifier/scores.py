@@ -72,7 +72,7 @@ def bootstrap(
     drawn = _drawn(score, columns, members, draws)
     value = score(*columns)
     if np.isfinite(drawn).any() and np.ptp(drawn[np.isfinite(drawn)]) < SAME:
-        slack = unseen_share([len(own) for own in members]) * _reach(score, columns, members, limits)
+        slack = unseen_share([len(stratum) for stratum in members]) * _reach(score, columns, members, limits)
         return Interval(value, max(value - slack, limits[0]), min(value + slack, limits[1]))
     return _interval(value, drawn)
 
@@ -88,8 +88,8 @@ def paired_difference(
 ) -> Interval:
     """`score`(truth, said) minus `score`(truth, rival), with the interval over records drawn anew for both at once."""
 
-    def difference(drawn: Names, own: Names, other: Names) -> float:
-        return score(drawn, own) - score(drawn, other)
+    def difference(truth: Names, said: Names, rival: Names) -> float:
+        return score(truth, said) - score(truth, rival)
 
     return bootstrap(difference, truth, said, rival, strata=strata, groups=groups, draws=draws, limits=(-1.0, 1.0))
 
@@ -108,7 +108,7 @@ def area_interval(
     """
     positive = np.asarray(positive, dtype=bool)
     value = area_under_roc(positive, score) - (0.0 if rival is None else area_under_roc(positive, rival))
-    sides = [len(own) for own in _units(positive.size, positive, groups)] if positive.size else []
+    sides = [len(stratum) for stratum in _units(positive.size, positive, groups)] if positive.size else []
     if len(sides) < 2 or min(sides) < FEWEST_A_SIDE:
         return Interval(value, float("nan"), float("nan"))
     if rival is None:
@@ -125,9 +125,9 @@ def unseen_share(counts: Sequence[int]) -> float:
     numbers = np.sort(np.asarray(counts, dtype=np.float64))
     found = 0.0
     for some in range(1, numbers.size + 1):
-        own = numbers[:some]
+        smallest = numbers[:some]
         # The seen shares p with the least sum and the product of p^n at 0.025 are proportional to n.
-        seen = own * np.exp((np.log((1.0 - LEVEL) / 2.0) - np.sum(own * np.log(own))) / own.sum())
+        seen = smallest * np.exp((np.log((1.0 - LEVEL) / 2.0) - np.sum(smallest * np.log(smallest))) / smallest.sum())
         if seen.max() <= 1.0:
             found = max(found, float(np.sum(1.0 - seen)) / numbers.size)
     return found
@@ -150,7 +150,7 @@ def _reach(score: Score, columns: tuple[Names, ...], members: list[Stratum], lim
     def room(value: float) -> float:
         return max(value - limits[0], limits[1] - value)
 
-    alone = [score(*(column[np.concatenate(own)] for column in columns)) for own in members]
+    alone = [score(*(column[np.concatenate(stratum)] for column in columns)) for stratum in members]
     # A score that needs all strata at once, such as an area under the ROC, may be moved by any of them to its limits.
     return max(room(value) if np.isfinite(value) else len(members) * room(score(*columns)) for value in alone)
 
@@ -161,7 +161,7 @@ def _units(size: int, strata: Names | None, groups: Names | None) -> list[Stratu
     owners = np.arange(size) if groups is None else np.unique(groups, return_inverse=True)[1]
     order = np.argsort(owners, kind="stable")
     rows = np.split(order, np.flatnonzero(np.diff(owners[order])) + 1)
-    found = [[own for own in rows if labels[own[0]] == label] for label in np.unique(labels)]
+    found = [[unit for unit in rows if labels[unit[0]] == label] for label in np.unique(labels)]
     return [stratum for stratum in found if stratum]
 
 
@@ -169,7 +169,7 @@ def _drawn(score: Score, columns: tuple[Names, ...], members: list[Stratum], dra
     generator = np.random.default_rng(SEED)
     found = np.empty(draws)
     for draw in range(draws):
-        chosen = [own[place] for own in members for place in generator.choice(len(own), len(own))]
+        chosen = [stratum[place] for stratum in members for place in generator.choice(len(stratum), len(stratum))]
         rows = np.concatenate(chosen)
         found[draw] = score(*(column[rows] for column in columns))
     return found
@@ -206,7 +206,7 @@ def accuracy_against(
     table = []
     for bin_ in np.unique(place):
         rows = place == bin_
-        found = bootstrap(lambda own: float(np.mean(own)), right[rows], groups=owners[rows], draws=500)
+        found = bootstrap(lambda hits: float(np.mean(hits)), right[rows], groups=owners[rows], draws=500)
         middle = float(np.median(quantity[rows]))
         table.append(
             {"at": middle, "records": int(rows.sum()), "accuracy": found.value, "low": found.low, "high": found.high}

@@ -47,9 +47,9 @@ class Stage:
             raise ValueError("each answer must be given by records without added noise too")
         level = [logit(self._held_out(table, answer, groups, folds, self.seed + r)) for r in range(self.repeats)]
         raw = probability_of(np.mean(level, axis=0))
-        own, share = answer[plain], answer[plain].mean()
-        weight = np.where(own, 1.0 / share, 1.0 / (1.0 - share))
-        self.calibration = LogisticRegression(C=10.0).fit(logit(raw[plain])[:, None], own, sample_weight=weight)
+        of_plain, share = answer[plain], answer[plain].mean()
+        weight = np.where(of_plain, 1.0 / share, 1.0 / (1.0 - share))
+        self.calibration = LogisticRegression(C=10.0).fit(logit(raw[plain])[:, None], of_plain, sample_weight=weight)
         self.held_out = self._calibrated(raw)
         self.estimator = clone(self.estimator).fit(table, answer)
         return self

@@ -36,13 +36,13 @@ def averaged(values: Array, owner: NDArray[np.int64], records: NDArray[np.int64]
     The `shares` (N,) of rows in them are even if None. A record may be asked for more than once; rows of others are
     left out.
     """
-    own, place = np.unique(records, return_inverse=True)
-    nearest = np.minimum(np.searchsorted(own, owner), max(own.size - 1, 0))
-    asked = own[nearest] == owner if own.size else np.zeros(owner.size, dtype=bool)
+    distinct, place = np.unique(records, return_inverse=True)
+    nearest = np.minimum(np.searchsorted(distinct, owner), max(distinct.size - 1, 0))
+    asked = distinct[nearest] == owner if distinct.size else np.zeros(owner.size, dtype=bool)
     weight = np.ones(owner.size) if shares is None else shares
-    total = np.zeros((own.size, *values.shape[1:]))
+    total = np.zeros((distinct.size, *values.shape[1:]))
     np.add.at(total, nearest[asked], (values.T * weight).T[asked])
-    count = np.bincount(nearest[asked], weight[asked], minlength=own.size).astype(np.float64)
+    count = np.bincount(nearest[asked], weight[asked], minlength=distinct.size).astype(np.float64)
     count[count == 0.0] = np.nan
     return np.asarray((total.T / count).T[place])
 

@@ -158,8 +158,8 @@ class Analysis:
     @cached_property
     def decoys(self) -> Array:
         """Evidence (D,) of families at fundamentals that belong to no part of the bearing, best band each."""
-        own = np.array([self.given.bpfo, self.given.bpfi, 2.0 * self.given.ball_spin])
-        near = [np.abs(order / np.outer(own, RATIOS) - 1.0).min() < 2.0 * SLIP_TOLERANCE for order in DECOYS]
+        of_bearing = np.array([self.given.bpfo, self.given.bpfi, 2.0 * self.given.ball_spin])
+        near = [np.abs(order / np.outer(of_bearing, RATIOS) - 1.0).min() < 2.0 * SLIP_TOLERANCE for order in DECOYS]
         chosen = [order for order, taken in zip(DECOYS, near, strict=True) if not taken][:8]
         return np.array([self.envelope_family(order).evidence.max() for order in chosen])
 

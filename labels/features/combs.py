@@ -109,8 +109,8 @@ def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:
             continue
         carrier = family.fundamental[band]
         carriers = int(place[-1] / carrier)
-        own = Lines(lines.cumulated[band : band + 1], lines.step)
-        shown = harmonic_evidence(own, np.array([carrier]), shaft, 0.0, carriers)[:, 0, 0] >= STANDS_OUT
+        best = Lines(lines.cumulated[band : band + 1], lines.step)
+        shown = harmonic_evidence(best, np.array([carrier]), shaft, 0.0, carriers)[:, 0, 0] >= STANDS_OUT
         for k in 1 + np.flatnonzero(shown):
             width = max(1.01 * lines.step, SIDEBAND_WIDTH * shaft + SIDEBAND_SPREAD * k * carrier)
             for beside in range(-cages, cages + 1):

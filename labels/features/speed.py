@@ -106,7 +106,7 @@ def sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float,
         harmonics = int((lines.cumulated.shape[-1] - 3) * lines.step / (known.shaft_hz * (factor + between)))
         steps = int(np.ceil(between * known.shaft_hz * harmonics / (BINS_BETWEEN * lines.step)))
         found.append((lines, max(harmonics, 1), steps))
-    steps = max(1, *(own for *_, own in found))
+    steps = max(1, *(needed for *_, needed in found))
     factors = factor + between * np.arange(-steps, steps + 1) / steps
     standing, height = np.zeros(factors.size), np.zeros(factors.size)
     for lines, harmonics, _ in found:

@@ -53,9 +53,9 @@ def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> Lea
 def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:
     """Which `pairs` of different lags lead by `score` (P,), the best first."""
     lag, chosen = np.log(pairs.lag), list[int]()
-    for own in np.argsort(-score, kind="stable"):
-        if np.all(np.abs(lag[own] - lag[chosen]) > DISTINCT):
-            chosen.append(int(own))
+    for pair in np.argsort(-score, kind="stable"):
+        if np.all(np.abs(lag[pair] - lag[chosen]) > DISTINCT):
+            chosen.append(int(pair))
         if len(chosen) == LEADING:
             break
     return np.array(chosen)

@@ -41,8 +41,8 @@ def measure(view: PairView) -> dict[str, Array]:
     """Columns (P,) by NAMES: the shapes of the candidates that are either event of a pair."""
     shapes = event_shapes(view.mean, view.places, view.summed)
     return {
-        f"{event}_{shape}": column[own]
-        for event, own in zip(EVENTS, (view.first, view.last), strict=True)
+        f"{event}_{shape}": column[candidate]
+        for event, candidate in zip(EVENTS, (view.first, view.last), strict=True)
         for shape, column in shapes.items()
     }
 

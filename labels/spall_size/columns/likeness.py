@@ -64,12 +64,12 @@ def _waves(mean: MeanPass, place: Array, reach: int) -> Array:
 
 def _alike(mean: MeanPass, entry: Array, leave: Array) -> Array:
     """Largest signed correlation (P,) of the mean waveforms round both places, shifted by at most WAVE_SHIFT."""
-    one, other = _waves(mean, entry, WAVE_REACH), _waves(mean, leave, WAVE_REACH + WAVE_SHIFT)
+    first, second = _waves(mean, entry, WAVE_REACH), _waves(mean, leave, WAVE_REACH + WAVE_SHIFT)
     best = np.zeros(entry.size)
     for shift in range(2 * WAVE_SHIFT + 1):
-        part = other[:, shift : shift + 2 * WAVE_REACH + 1]
-        size = np.sqrt((one**2).sum(axis=1) * (part**2).sum(axis=1)) + 1e-12
-        value = (one * part).sum(axis=1) / size
+        part = second[:, shift : shift + 2 * WAVE_REACH + 1]
+        size = np.sqrt((first**2).sum(axis=1) * (part**2).sum(axis=1)) + 1e-12
+        value = (first * part).sum(axis=1) / size
         best = np.where(np.abs(value) > np.abs(best), value, best)
     return best
 

@@ -61,13 +61,13 @@ def measure(view: LeadingView, features: dict[str, Array]) -> dict[str, Array]:
         ]
         for event in ("entry", "exit")
     }
-    arcs = [float(own) for own in view.lag_arc]
-    own = {
-        "release": [math.log(max(arc, LEAST_ARC) / lag_arc) for lag_arc in arcs],
-        "released": [math.log1p(arc / lag_arc) for lag_arc in arcs],
+    lag_arcs = view.lag_arc.tolist()
+    releases = {
+        "release": [math.log(max(arc, LEAST_ARC) / lag_arc) for lag_arc in lag_arcs],
+        "released": [math.log1p(arc / lag_arc) for lag_arc in lag_arcs],
     }
     found = {name: np.full(view.order.size, value) for name, value in shared.items()}
-    return found | {name: np.array(values) for name, values in (own | jumps).items()}
+    return found | {name: np.array(values) for name, values in (releases | jumps).items()}
 
 
 def _over_load(size: float, load: float) -> float:

@@ -37,5 +37,5 @@ def measure(view: PairView) -> dict[str, Array]:
         "noise": view.facts.noise,
         "candidates": view.places.size,
     }
-    own = {"lag": np.log(view.lag), "lag_share": view.lag / view.mean.period}
-    return own | {name: value * ones for name, value in shared.items()}
+    of_pair = {"lag": np.log(view.lag), "lag_share": view.lag / view.mean.period}
+    return of_pair | {name: value * ones for name, value in shared.items()}

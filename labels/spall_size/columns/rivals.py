@@ -29,18 +29,18 @@ def measure(view: LeadingView) -> dict[str, Array]:
     from its own, logarithms, zeros where there are none; how far those lie that may mean the same events, on average;
     how far its score lies from that of the first, 0 or below; and its place among the leading, from 0."""
     best = np.argsort(-view.score)
-    against = [_against(view.evidence.pairs, view.score, best, int(own)) for own in view.order]
-    return {name: np.array([one[name] for one in against]) for name in against[0]} | {
+    against = [_against(view.evidence.pairs, view.score, best, int(pair)) for pair in view.order]
+    return {name: np.array([values[name] for values in against]) for name in against[0]} | {
         "behind_first": view.score[view.order] - view.score[view.order[0]],
         "place": np.arange(view.order.size, dtype=np.float64),
     }
 
 
-def _against(pairs: Pairs, score: Array, best: NDArray[np.int64], own: int) -> dict[str, float]:
-    """Values by NAMES of the pair `own` against all others, which are in `best` (P,) in the order of their `score`."""
-    apart = np.log(pairs.lag / pairs.lag[own])
+def _against(pairs: Pairs, score: Array, best: NDArray[np.int64], pair: int) -> dict[str, float]:
+    """Values by NAMES of a `pair` against all others, which are in `best` (P,) in the order of their `score`."""
+    apart = np.log(pairs.lag / pairs.lag[pair])
     rivals = best[np.abs(apart[best]) > SAME][:RIVALS]
-    found = {"own_score": float(score[own])}
+    found = {"own_score": float(score[pair])}
     for k in range(RIVALS):
         there = k < rivals.size
         found[f"rival_{k + 1}_score"] = float(score[rivals[k]]) if there else 0.0

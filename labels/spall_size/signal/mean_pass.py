@@ -87,8 +87,8 @@ def _standardised(curve: Array) -> tuple[Array, float]:
 def _give(sway: Array, offset: NDArray[np.int64], period: float) -> Array:
     """The periodic displacement (S,), in samples² times the unit of `sway` (S,), one period of which accelerates it."""
     phase = np.arange(GIVE_POINTS) / GIVE_POINTS
-    one = np.interp((phase - 0.5) * period, offset, sway)
-    spectrum = np.fft.rfft(one)
+    period_of_sway = np.interp((phase - 0.5) * period, offset, sway)
+    spectrum = np.fft.rfft(period_of_sway)
     turn = 2.0 * math.pi * np.arange(spectrum.size) / period
     spectrum[1:] /= -(turn[1:] ** 2)
     spectrum[0] = 0.0

@@ -5,7 +5,7 @@ import pytest
 
 from datagen.benchmark.answers import class_probability
 from datagen.benchmark.rows import Rows
-from datagen.benchmark.training import TrainingSet, train_own
+from datagen.benchmark.training import TrainingSet, train_user_estimator
 from datagen.errors import BadInput
 from labels.classifier.classes import CLASSES
 
@@ -45,7 +45,7 @@ def training():
 
 
 def test_probabilities_are_sorted_by_the_names_of_the_classes():
-    found = train_own(training(), Guesser(), False).probability(ROWS)
+    found = train_user_estimator(training(), Guesser(), False).probability(ROWS)
     assert found[0, CLASSES.index("line outer")] == pytest.approx(2.0 / 3.0)
     assert found[0, CLASSES.index("extended inner")] == 0.0
 
@@ -80,9 +80,9 @@ def test_what_is_no_answer_is_refused_with_what_would_be(said):
 
 def test_an_estimator_that_fails_or_knows_other_classes_is_refused_before_it_is_scored():
     with pytest.raises(BadInput, match=r"failed to learn: ArithmeticError: too hard \(.*test_answers.py, line \d+\)"):
-        train_own(training(), Unfit(), False)
+        train_user_estimator(training(), Unfit(), False)
     with pytest.raises(BadInput, match="none of ours: none;"):
-        train_own(training(), Named(), False)
+        train_user_estimator(training(), Named(), False)
     with pytest.raises(
         BadInput, match=r"failed to answer: ZeroDivisionError.*--estimator|--estimator.*ZeroDivisionError"
     ):

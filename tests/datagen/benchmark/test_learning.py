@@ -100,7 +100,7 @@ def test_rows_in_noise_are_learned_from_and_not_judged():
     whole.rows.table[:, noise] = whole.rows.noisy
     Listens.learned.clear()
     Listens.asked.clear()
-    learning_curve(whole, "all", own=Listens())
+    learning_curve(whole, "all", estimator=Listens())
     assert [table[:, noise].mean() for table in Listens.learned] == pytest.approx([1 / 3] * 4)
     judged = [table for table in Listens.asked if len(table) > ROWS_TO_TRY]
     assert [len(table) for table in judged] == [15 * 2 * 2] * 4  # a quarter of the bearings

@@ -31,7 +31,7 @@ from labels.truth import PassTable
 from physics.outcome import Outcome, SimulationFailed
 from physics.spall import Spall
 
-sys.path.insert(0, str(Path(__file__).parent))  # so that tests can import command_line
+sys.path.insert(0, str(Path(__file__).parent))  # so that tests can import command_line and imports
 
 RATE, SAMPLES, ROWS, BALLS = 1000.0, 200, 2, 5
 TINY_RECIPE = """

@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
-
-from datagen.cli import app
+from command_line import run
 
 GOOD = """name = "bad"
 seed = 1
@@ -166,7 +164,7 @@ def test_it_ends_with_2_and_one_message_and_nothing_is_written(case: str, tmp_pa
     right, wrong, line, setting, allowed = CASES[case]
     path, out = tmp_path / "recipe.toml", tmp_path / "out"
     path.write_text(GOOD.replace(right, wrong, 1), encoding="utf-8")
-    done = CliRunner().invoke(app, ["generate", str(path), "--out", str(out)], catch_exceptions=False)
+    done = run("generate", path, "--out", out)
     assert done.exit_code == 2
     assert done.stderr.startswith(f"error: {path}, line {line}: ")
     assert done.stderr.count("\n") == 1
@@ -179,7 +177,7 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
     path = tmp_path / "recipe.toml"
     path.write_text(GOOD, encoding="utf-8")
     arguments = ["generate", str(path), "--out", str(tmp_path / "out"), "--workers", "1"]
-    assert CliRunner().invoke(app, arguments, catch_exceptions=False).exit_code == 0
+    assert run(*arguments).exit_code == 0
 
 
 @pytest.mark.parametrize(
@@ -197,13 +195,13 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
 )
 def test_numbers_beyond_all_machines_are_refused(line: str, message: str, tmp_path: Path) -> None:
     (tmp_path / "recipe.toml").write_text(GOOD.replace("machine.rig", f"machine.{line}\nmachine.rig"))
-    done = CliRunner().invoke(app, ["generate", str(tmp_path), "--out", str(tmp_path / "out")], catch_exceptions=False)
+    done = run("generate", tmp_path, "--out", tmp_path / "out")
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
     assert message in done.output
     assert not (tmp_path / "out").exists()
 
 
 def test_a_path_too_long_for_the_system_is_told(tmp_path: Path) -> None:
-    done = CliRunner().invoke(app, ["generate", "x" * 5000, "--out", str(tmp_path / "out")], catch_exceptions=False)
+    done = run("generate", "x" * 5000, "--out", tmp_path / "out")
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
     assert "cannot be read" in done.output

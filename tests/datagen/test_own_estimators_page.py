@@ -9,11 +9,10 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+from command_line import run
 from marked_tables import write_marked
-from typer.testing import CliRunner
 
 from datagen.benchmark.impulse_signal import Ingredients
-from datagen.cli import app
 from labels.classifier.classes import CLASSES
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -46,7 +45,7 @@ def divided(copy):
 @pytest.mark.parametrize("line", LINES)
 def test_every_example_runs_as_it_stands(line, divided, where_the_examples_are):
     command = re.sub(r"out/\w+", str(divided), line).removeprefix("spallgen ")
-    done = CliRunner().invoke(app, [*shlex.split(command), "--json", "result.json"], catch_exceptions=False)
+    done = run(*shlex.split(command), "--json", "result.json")
     assert done.exit_code == 0, done.output
 
 

@@ -3,9 +3,8 @@
 import sys
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.user_code import load_user_code
 
@@ -44,7 +43,7 @@ def test_what_cannot_be_loaded_is_refused_with_what_can(here, name):
 
 @pytest.mark.parametrize("command", [["classify", "--train", "a", "--test", "b"], ["size", "a"]])
 def test_both_commands_refuse_it_alike(here, command):
-    done = CliRunner().invoke(app, [*command, "--estimator", "h_syntax:Thing"])
+    done = run(*command, "--estimator", "h_syntax:Thing")
     assert done.exit_code == 2
     assert "--estimator" in done.output
     assert "h_syntax.py" in done.output

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pandas
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import UNKNOWN_SPEED
@@ -23,7 +23,6 @@ from datagen.benchmark.training import (
     training_records,
 )
 from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
-from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
@@ -33,12 +32,7 @@ from datagen.scored_runs import log_path, write_line
 from labels.classifier.votes import averaged, joined
 from labels.features.table import FEATURE_NAMES
 
-
-@pytest.fixture(autouse=True)
-def _short_records_are_judged(monkeypatch):
-    """The records of the tiny corpus are quick to make, and shorter than any that is judged."""
-    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
-    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
+pytestmark = pytest.mark.usefixtures("short_records_are_judged")
 
 
 @pytest.fixture(scope="session")
@@ -72,7 +66,7 @@ def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
     for module in ("own_estimators", "own_curves"):
         monkeypatch.delitem(sys.modules, module, raising=False)
 
-    def run(*options):
+    def classified(*options):
         file = tmp_path / "results.json"
         command = [
             "classify",
@@ -86,10 +80,10 @@ def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
             file,
             *options,
         ]
-        done = CliRunner().invoke(app, [str(part) for part in command], catch_exceptions=False)
+        done = run(*command)
         return done, json.loads(file.read_text()) if done.exit_code == 0 else None
 
-    return run
+    return classified
 
 
 @pytest.fixture
@@ -144,7 +138,7 @@ def test_a_copy_without_a_split_test_is_refused_before_anything_is_read(tiny_cor
         index = pandas.read_csv(folder / "index.csv", keep_default_na=False)
         assert "test" not in set(index["split"])
     command = ["classify", "--train", str(tiny_corpus), "--test", str(copy), "--workers", "1", "--learner", "logistic"]
-    done = CliRunner().invoke(app, command)
+    done = run(*command)
     assert done.exit_code == 2
     assert "another seed" in done.output
 
@@ -310,7 +304,7 @@ def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, op
 
 def test_impulse_trains_have_no_windows(tiny_corpus):
     command = ["classify", "--train", "impulse-trains", "--test", str(tiny_corpus), "--input", "windows"]
-    done = CliRunner().invoke(app, [*command, "--estimator", "math:sqrt"])
+    done = run(*command, "--estimator", "math:sqrt")
     assert done.exit_code == 2
     assert "features only" in done.output
 

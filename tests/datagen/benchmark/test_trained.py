@@ -11,27 +11,20 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
 from datagen.benchmark.trained import load_trained
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 
+pytestmark = pytest.mark.usefixtures("short_records_are_judged")
 LEFT_OUT = "tiny-00000"
 
 
-@pytest.fixture(autouse=True)
-def _short_records_are_judged(monkeypatch):
-    """The records of the tiny corpus are quick to make, and shorter than any that is judged."""
-    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
-    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
-
-
-def run(*command):
-    return CliRunner().invoke(app, ["classify", "--workers", "1", *map(str, command)], catch_exceptions=False)
+def classify(*command):
+    return run("classify", "--workers", "1", *command)
 
 
 @pytest.fixture(scope="module")
@@ -65,14 +58,14 @@ def learned(divided, tmp_path_factory):
             "--json",
             place / "results.json",
         )
-        done = run("--train", divided, "--test", divided, *options)
+        done = classify("--train", divided, "--test", divided, *options)
     assert done.exit_code == 0, done.output
     return place / "model", json.loads((place / "results.json").read_text())
 
 
 def test_the_same_is_said_by_what_was_kept(learned, divided, tmp_path):
     model, before = learned
-    done = run("--train", model, "--test", divided, "--json", tmp_path / "results.json")
+    done = classify("--train", model, "--test", divided, "--json", tmp_path / "results.json")
     assert done.exit_code == 0
     assert "learning from" not in done.output
     after = json.loads((tmp_path / "results.json").read_text())
@@ -92,7 +85,7 @@ def test_a_run_is_logged_with_the_options_that_it_was_learned_with_and_scored_wi
     shutil.copytree(divided, recorded)
     manifest = json.loads((recorded / "manifest.json").read_text())
     (recorded / "manifest.json").write_text(json.dumps(manifest | {"origin": "imported"}))
-    done = run("--train", learned[0], "--test", recorded, "--reject", 0.25, "--json", tmp_path / "results.json")
+    done = classify("--train", learned[0], "--test", recorded, "--reject", 0.25, "--json", tmp_path / "results.json")
     assert done.exit_code == 0, done.output
     began, ended = (json.loads(line) for line in (recorded / "scored_runs.jsonl").read_text().splitlines())
     used = {"learner": "logistic", "bandwidth": 3000.0, "reject": 0.25}
@@ -117,13 +110,13 @@ def test_what_was_learned_from_is_not_scored(learned, divided, tmp_path):
     shutil.copytree(divided, undivided)
     index = (undivided / "index.csv").read_text()
     (undivided / "index.csv").write_text(index.replace(",test,", ",train,"))
-    done = run("--train", model, "--test", undivided)
+    done = classify("--train", model, "--test", undivided)
     assert done.exit_code == 2
     assert "another seed" in done.output
 
 
 def test_learning_needs_no_test(divided, tmp_path):
-    done = run("--train", divided, "--learner", "logistic", "--save", tmp_path / "model")
+    done = classify("--train", divided, "--learner", "logistic", "--save", tmp_path / "model")
     assert done.exit_code == 0
     assert [model.name for model in load_trained(tmp_path / "model").models] == ["logistic"]
     assert [path.name for path in tmp_path.iterdir()] == ["model"]
@@ -144,14 +137,14 @@ def test_options_of_learning_are_refused_for_what_has_learned(
     learned, divided, options, message, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    done = run("--train", learned[0], "--test", divided, *options)
+    done = classify("--train", learned[0], "--test", divided, *options)
     assert done.exit_code == 2
     assert message.format(model=learned[0]) in done.output
     assert not list(tmp_path.iterdir())
 
 
 def test_there_must_be_something_to_do(divided):
-    done = run("--train", divided)
+    done = classify("--train", divided)
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
     assert "--test: nothing to score on" in done.output
 
@@ -160,13 +153,13 @@ def test_there_must_be_something_to_do(divided):
 def test_a_place_that_cannot_be_written_is_refused_first(divided, place, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("datagen.benchmark.training.read_rows", None)
-    done = run("--train", divided, "--save", place)
+    done = classify("--train", divided, "--save", place)
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
     assert f'--save = "{place}"' in done.output
 
 
 def test_an_estimator_of_ones_own_is_not_kept(divided, tmp_path):
-    done = run("--train", divided, "--estimator", "math:sqrt", "--save", tmp_path / "model")
+    done = classify("--train", divided, "--estimator", "math:sqrt", "--save", tmp_path / "model")
     assert done.exit_code == 2
     assert "yours to keep" in done.output
 

@@ -12,7 +12,7 @@ import pandas
 import pytest
 import scipy.io
 import xarray
-from typer.testing import CliRunner
+from command_line import run
 
 from datagen.cards.corpus_report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.croissant import croissant_text
@@ -20,7 +20,6 @@ from datagen.cards.facts import corpus_facts, solved
 from datagen.cards.origin_text import origin_text
 from datagen.cards.toml_text import toml_text
 from datagen.cards.vocabulary_table import vocabulary_table
-from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.corpus_files.index import LABEL_COLUMNS
 from datagen.errors import BadInput
@@ -135,7 +134,7 @@ def test_what_nobody_stated_for_the_metadata_is_said(measured: Path, tiny_corpus
         (measured, "creator, datePublished"),
         (tiny_corpus, "license, url, creator, datePublished"),
     ):
-        done = CliRunner().invoke(app, ["report", str(corpus), "--out", str(tmp_path / corpus.name)])
+        done = run("report", corpus, "--out", tmp_path / corpus.name)
         assert f"croissant.json lacks: {missing}; add them" in done.stdout
 
 
@@ -229,9 +228,9 @@ def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_cor
 ) -> None:
     results = tmp_path / "facts.json"
     arguments = ["report", str(measured), "--out", str(tmp_path / "card"), "--json", str(results)]
-    assert CliRunner().invoke(app, arguments).exit_code == 0
+    assert run(*arguments).exit_code == 0
     assert json.loads(results.read_text())["facts"]["info"]["records"] == 2
-    done = CliRunner().invoke(app, ["report", str(tmp_path), "--out", str(tmp_path / "none")])
+    done = run("report", tmp_path, "--out", tmp_path / "none")
     assert done.exit_code == 2
     assert "no manifest.json" in done.stderr
     assert not (tmp_path / "none").exists()

@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.drawing.frequency_panels import cursors, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
@@ -314,7 +313,7 @@ def test_a_record_that_cannot_be_simulated_ends_with_1_and_leaves_no_picture(rec
 
     monkeypatch.setattr("datagen.records.record.make_record", fails)
     picture = tmp_path / "x.png"
-    done = CliRunner().invoke(app, ["preview", str(recipe_file), "--record", "1", "--out", str(picture)])
+    done = run("preview", recipe_file, "--record", "1", "--out", picture)
     assert done.exit_code == 1
     assert done.stderr.startswith("record 1 could not be made: the response grows without end; ")
     assert done.stderr.count("\n") == 1

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_folder
 
@@ -60,14 +59,14 @@ def refused(tiny_recipe, tiny_corpus, monkeypatch):
     for name in WORK:
         monkeypatch.setattr(name, worked)
 
-    def run(arguments: tuple[str, ...], place: Path) -> str:
+    def refused(arguments: tuple[str, ...], place: Path) -> str:
         words = {"RECIPE": tiny_recipe, "CORPUS": tiny_corpus, "PLACE": place}
-        done = CliRunner().invoke(app, [str(words.get(part, part)) for part in arguments], catch_exceptions=False)
+        done = run(*(words.get(part, part) for part in arguments))
         assert done.exit_code == 2
         assert done.stderr.count("\n") == 1
         return done.stderr
 
-    return run
+    return refused
 
 
 @pytest.mark.parametrize("command", ["size", "paper", "chart", "classify"])
@@ -128,7 +127,7 @@ def test_a_file_that_is_there_is_a_place_and_stays_as_it_is_until_it_is_written_
 
 
 def test_results_may_go_to_a_terminal_or_to_nowhere():
-    done = CliRunner().invoke(app, ["catalog", "--json", os.devnull], catch_exceptions=False)
+    done = run("catalog", "--json", os.devnull)
     assert done.exit_code == 0
     assert "rig gearbox" in done.stdout
 
@@ -148,7 +147,7 @@ def test_a_place_that_may_not_even_be_looked_at_ends_with_2(tmp_path, monkeypatc
 
     monkeypatch.setattr("datagen.recipes.recipe.find_recipe", forbidden)
     command = ["generate", str(tmp_path / "r.toml"), "--out", str(tmp_path / "out")]
-    done = CliRunner().invoke(app, command, catch_exceptions=False)
+    done = run(*command)
     assert done.exit_code == 2
     assert (
         done.stderr == f"error: {tmp_path / 'r.toml'}: Permission denied; allowed: a path that you may read and write\n"

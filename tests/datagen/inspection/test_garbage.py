@@ -7,9 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.corpus_files.index import index_path, read_index
 from datagen.corpus_files.manifest import manifest_path
 from datagen.corpus_files.shard import sidecar_path
@@ -30,7 +29,7 @@ MANIFESTS = {
 
 
 def told_by(command: str, folder: Path) -> str:
-    done = CliRunner().invoke(app, [command, str(folder)], catch_exceptions=False)
+    done = run(command, folder)
     assert done.exit_code == 2
     assert done.stderr.count("\n") == 1
     assert not PYTHON.search(done.stderr), done.stderr
@@ -137,7 +136,7 @@ def test_an_index_that_is_none_is_told_in_words_with_what_to_do(case: str, copy:
 def test_a_place_beyond_its_shard_is_told_of_the_index_and_not_of_the_shard(copy: Path, tmp_path: Path) -> None:
     text = index_path(copy).read_text()
     index_path(copy).write_text(text.replace(".nc,1", ".nc,99", 1))
-    done = CliRunner().invoke(app, ["preview", str(copy), "--record", "1", "--out", str(tmp_path / "a.png")])
+    done = run("preview", copy, "--record", "1", "--out", tmp_path / "a.png")
     assert done.exit_code == 2
     assert "index.csv places a record beyond the end of this shard" in done.stderr
 
@@ -159,11 +158,11 @@ def test_what_is_no_corpus_is_told_apart(command: str, tmp_path: Path) -> None:
 
 
 def test_a_preview_of_neither_corpus_nor_recipe_says_so(tmp_path: Path) -> None:
-    done = CliRunner().invoke(app, ["preview", str(tmp_path), "--out", str(tmp_path / "a.png")], catch_exceptions=False)
+    done = run("preview", tmp_path, "--out", tmp_path / "a.png")
     assert done.exit_code == 2
     assert "neither a corpus (manifest.json) nor a recipe (recipe.toml) is in this folder" in done.stderr
 
 
 def test_a_record_that_is_not_there_is_told_with_those_that_are(tiny_corpus: Path, tmp_path: Path) -> None:
     command = ["preview", str(tiny_corpus), "--record", "99", "--out", str(tmp_path / "a.png")]
-    assert "record = 99: not in this corpus; allowed: 0 to 13" in CliRunner().invoke(app, command).stderr
+    assert "record = 99: not in this corpus; allowed: 0 to 13" in run(*command).stderr

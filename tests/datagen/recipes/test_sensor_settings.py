@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import run
 from scipy.io import savemat, wavfile
-from typer.testing import CliRunner
 
-from datagen.cli import app
 from datagen.distributions.kinds import Fixed
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
@@ -184,7 +183,7 @@ def test_the_command_ends_with_2_and_writes_nothing(text: str, folder: Path, tmp
     with pytest.raises(BadInput):
         load(folder, text)
     out = tmp_path / "corpus"
-    done = CliRunner().invoke(app, ["generate", str(folder / "recipe.toml"), "--out", str(out)])
+    done = run("generate", folder / "recipe.toml", "--out", out)
     assert done.exit_code == 2
     assert not out.exists()
     assert len(done.stderr.strip().splitlines()) == 1

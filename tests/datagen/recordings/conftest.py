@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.io
+from imports import Bring
 
 from datagen.corpus import Corpus
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 
 HEAD = 'name = "mine"\n'
-Bring = Callable[..., Corpus]
 
 
 def noise(size: int = 400, seed: int = 0) -> np.ndarray:

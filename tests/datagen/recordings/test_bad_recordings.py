@@ -9,31 +9,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import run
+from imports import Bring, Mat, refusal
 
-from datagen.cli import app
-from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
 from datagen.recordings import importing
 from datagen.recordings.source import source_hash
 
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
 
 
 def noise(size: int = 400, seed: int = 0) -> np.ndarray:
     return np.random.default_rng(seed).standard_normal(size)
-
-
-def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
-    """The message of a refused import; nothing may be left of it."""
-    before = {path.name for path in tmp_path.iterdir()} | {"spec.toml"}
-    with pytest.raises(BadInput) as problem:
-        bring(text)
-    assert {path.name for path in tmp_path.iterdir()} == before
-    return str(problem.value)
 
 
 @pytest.mark.parametrize(
@@ -207,7 +195,7 @@ def test_a_folder_that_is_not_empty_is_refused_and_kept(bring: Bring, mat: Mat, 
 def test_the_command_ends_with_2_and_one_line_without_a_traceback(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text('name = "x"\n' + GOOD)
     for spec in (tmp_path / "s.toml", tmp_path / "none.toml", Path("cwru")):
-        done = CliRunner().invoke(app, ["import", str(spec), "--out", str(tmp_path / "c")])
+        done = run("import", spec, "--out", tmp_path / "c")
         assert done.exit_code == 2
         assert done.stderr.startswith("error: ")
         assert done.stderr.count("\n") == 1

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 import xarray
+from imports import Bring
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
 
-Bring = Callable[..., Corpus]
 SAMPLES = np.random.default_rng(8).standard_normal((300, 2)).astype(np.float32)
 SPEC = """
 [[recording]]

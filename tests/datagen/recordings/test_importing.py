@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import wave
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import netCDF4
@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import xarray
 from command_line import run
+from imports import Bring, Mat
 from scipy.io import wavfile
 
 from datagen.corpus import Corpus
@@ -29,8 +30,6 @@ from labels.envelope import band_envelope
 from labels.schema import LABEL
 
 G = 9.80665
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 
 
 def noise(size: int = 400, seed: int = 0) -> np.ndarray:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pytest
+from imports import Bring, Mat
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.recordings import file_names, importing
 from datagen.recordings.file_names import FileNames
 from datagen.recordings.spec import load_spec
 
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 SPEC = '[[recording]]\nname = "all"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
 
 

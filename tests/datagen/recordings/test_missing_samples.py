@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imports import Bring, Mat
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 GAPS = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
 
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imports import Bring, Mat, refusal
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.recordings.spec import load_spec
 
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 GOOD = """[[recording]]
 name = "all"
 files = "*.mat"
@@ -49,15 +46,6 @@ HELD = {
     "scale = 1e12": "scale = 1000000000000.0: the largest sample would be",
     'tach = {variable = "saw", pulses_per_rev = 0.002}': "tach.pulses_per_rev = 0.002: its pulses give 6e+06",
 }
-
-
-def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
-    """The message of a refused import; nothing may be left of it."""
-    before = {path.name for path in tmp_path.iterdir()} | {"spec.toml"}
-    with pytest.raises(BadInput) as problem:
-        bring(text)
-    assert {path.name for path in tmp_path.iterdir()} == before
-    return str(problem.value)
 
 
 def with_setting(setting: str) -> str:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imports import Bring
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 
-Bring = Callable[..., Corpus]
 SPEC = '[[recording]]\nname = "all"\nunit = "g"\nrate_hz = 1000\n'
 NOISE = np.random.default_rng(3).standard_normal((2, 400))
 

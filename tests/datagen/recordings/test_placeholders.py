@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imports import Bring
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.formats.placeholders import filled
 
-Bring = Callable[..., Corpus]
 FOLDERS = ("35Hz/Bearing1_1", "35Hz/Bearing1_2", "40Hz/Bearing3_1")
 SPEC = '[[recording]]\nname = "all"\nfiles = "*/*/*.csv"\nunit = "g"\nrate_hz = 25600\ny = "V"\n'
 

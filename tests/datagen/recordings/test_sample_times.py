@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imports import Bring, Mat
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.recordings.sample_times import rate_of
 
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 SPEC = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\ny = "sig"\n'
 
 

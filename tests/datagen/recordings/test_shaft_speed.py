@@ -1,22 +1,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from imports import Bring, Mat
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.shaft_speed import is_steady, shaft_angle, tach_speed
-
-Bring = Callable[..., Corpus]
-Mat = Callable[..., np.ndarray]
 
 
 def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:

@@ -9,9 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.io
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.corpus import Corpus
 from datagen.inspection.check import check_corpus
 from datagen.recordings.label_table import read_label_table
@@ -25,7 +24,7 @@ def column(seed: int, size: int = 2400) -> np.ndarray:
 
 
 def imported(name: str, root: Path, out: Path) -> tuple[Corpus, str]:
-    done = CliRunner().invoke(app, ["import", name, "--root", str(root), "--out", str(out)], catch_exceptions=False)
+    done = run("import", name, "--root", root, "--out", out)
     assert done.exit_code == 0, done.stderr
     assert check_corpus(out).problems == ()
     return Corpus(out), done.stderr

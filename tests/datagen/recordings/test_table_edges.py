@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imports import Bring
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
 
-Bring = Callable[..., Corpus]
 SPEC = '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "m/s2"\nrate_hz = 1000\ny = "acc Y"\n'
 CELLS = np.random.default_rng(5).standard_normal((120, 2)).round(4)
 ROWS = [f"{first};{second}" for first, second in CELLS]

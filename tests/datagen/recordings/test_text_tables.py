@@ -9,14 +9,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from imports import Bring
 
-from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.files.csv_rows import Row, read_csv_rows
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
 
-Bring = Callable[..., Corpus]
 SPEC = '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\nrate_hz = 1000\ny = "a"\n'
 CELLS = np.random.default_rng(5).standard_normal((50, 2)).tolist()
 ROWS = [f"{first!r},{second!r}" for first, second in CELLS]

@@ -8,9 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.drawing.preview import recipe_portrait
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe
@@ -47,16 +46,16 @@ def refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Refused:
 
     monkeypatch.setattr("datagen.runs.run.Run.make", worked)
 
-    def run(text: str) -> str:
+    def refused(text: str) -> str:
         (tmp_path / "recipe.toml").write_text(text)
         command = ["generate", str(tmp_path / "recipe.toml"), "--out", str(tmp_path / "out")]
-        done = CliRunner().invoke(app, command, catch_exceptions=False)
+        done = run(*command)
         assert done.exit_code == 2
         assert done.stderr.count("\n") == 1
         assert [path.name for path in tmp_path.iterdir()] == ["recipe.toml"]
         return done.stderr
 
-    return run
+    return refused
 
 
 def test_a_rate_that_no_record_can_have_is_refused_with_the_lowest_that_it_can(

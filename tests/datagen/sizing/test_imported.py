@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
@@ -51,7 +50,7 @@ def noise(seed: int) -> np.ndarray:
 
 
 def size(*arguments: object) -> tuple[int, str, str]:
-    done = CliRunner().invoke(app, ["size", *map(str, arguments)], catch_exceptions=False)
+    done = run("size", *arguments)
     return done.exit_code, " ".join(done.stdout.split()), done.stderr
 
 

@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import run
 
-from datagen.cli import app
 from datagen.errors import BadInput
 from datagen.sizing.comparison import score_record
 from datagen.sizing.corpus_run import score_sizes
@@ -119,7 +118,7 @@ def test_the_command_ends_with_2_and_writes_nothing(
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")  # for the worker processes
     out = tmp_path / "out"
     command = ["size", tiny_corpus, "--split", "all", "--estimator", "seven:Sizer", "--out", out, "--workers", workers]
-    done = CliRunner().invoke(app, [str(part) for part in command], catch_exceptions=False)
+    done = run(*command)
     assert done.exit_code == 2
     assert done.stderr.startswith('error: --estimator = "seven:Sizer": its method estimate gave int 7')
     assert not out.exists()

@@ -1,0 +1,24 @@
+"""What tests of imports share: the kinds of the fixtures that they ask for, and how a refusal is read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+
+Bring = Callable[..., Corpus]
+Mat = Callable[..., np.ndarray]
+
+
+def refusal(bring: Bring, text: str, tmp_path: Path) -> str:
+    """The message of a refused import; nothing may be left of it."""
+    before = {path.name for path in tmp_path.iterdir()} | {"spec.toml"}
+    with pytest.raises(BadInput) as problem:
+        bring(text)
+    assert {path.name for path in tmp_path.iterdir()} == before
+    return str(problem.value)

@@ -2,7 +2,7 @@
 
 - `format`: records as one dataset; `shard`: that as a file; `reading`, `open_shards`: read again
 - `index`: all labels, one row a record; `manifest`: what a corpus was made from
-- `stated`: values of JSON files that anybody may have edited
+- `json_values`: values of JSON files, which anybody may have edited, checked
 
 Whether they are sound is checked in datagen/inspection.
 """

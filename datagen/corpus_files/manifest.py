@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from datagen.corpus_files.format import FORMAT, IMPORTED, SIMULATED, Identity
+from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whole
 from datagen.corpus_files.shard import Failure, Sidecar, has_finished_shards, shard_path
-from datagen.corpus_files.stated import UNREADABLE, amount, row, text, whole
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.scenarios.redraw import Refused, add_refused

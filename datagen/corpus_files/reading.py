@@ -13,7 +13,7 @@ AGAIN = "generate again into the same folder (a corpus of recordings: import it 
 READ_ERRORS = (OSError, RuntimeError, ValueError, KeyError, IndexError, AttributeError)
 
 
-def unspeakable(path: Path) -> BadInput:
+def unencodable(path: Path) -> BadInput:
     """The error of a path that cannot be passed to the netCDF library in this locale's encoding."""
     problem = f"the encoding of this locale, {sys.getfilesystemencoding()}, lacks letters of this path"
     return BadInput(problem, str(path), allowed="a locale with UTF-8 (LC_ALL=C.UTF-8), or a path in ASCII")
@@ -25,7 +25,7 @@ def reading(folder: Path, shard: str) -> Iterator[None]:
     try:
         yield
     except UnicodeEncodeError:
-        raise unspeakable(folder / shard) from None
+        raise unencodable(folder / shard) from None
     except PermissionError:
         raise BadInput(
             "this shard cannot be read for lack of permission; change its permissions", str(folder / shard)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from datagen.corpus_files.format import Identity, content_hash
-from datagen.corpus_files.stated import UNREADABLE, amount, row, text, whole
+from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whole
 from datagen.files.atomic import sweep_temporaries, write_atomically
 from datagen.files.netcdf import netcdf_bytes
 from datagen.scenarios.redraw import Refused

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from datagen.corpus_files.format import FORMAT, content_hash, format_hash
 from datagen.corpus_files.index import LABEL_COLUMNS, read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
-from datagen.corpus_files.reading import READ_ERRORS, unspeakable
+from datagen.corpus_files.reading import READ_ERRORS, unencodable
 from datagen.corpus_files.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
 from datagen.files.netcdf import ONE_AT_A_TIME
@@ -188,8 +188,8 @@ class _Check:
             return "to mend it, delete this folder and import the recordings again"
         there = [name for name in self.damaged if (self.folder / name).exists()]
         first = f"delete {', '.join(there)} and " if there else ""
-        own = self.manifest.identity.program_hash == program_hash()
-        version = "" if own else ", by the version of spallgen that made this corpus"
+        same_program = self.manifest.identity.program_hash == program_hash()
+        version = "" if same_program else ", by the version of spallgen that made this corpus"
         return f"to mend it, {first}run `spallgen generate` again with the same recipe and --out {self.folder}{version}"
 
     def whole(self) -> None:
@@ -245,7 +245,7 @@ def _opened(path: Path, sidecar: Sidecar) -> tuple[xarray.Dataset | None, list[s
         if content_hash(dataset) != sidecar.content:
             found.append("its arrays are not those originally written")
     except UnicodeEncodeError:
-        raise unspeakable(path) from None
+        raise unencodable(path) from None
     except PermissionError:
         return None, [FORBIDDEN]
     except READ_ERRORS as problem:

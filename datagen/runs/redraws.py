@@ -10,8 +10,8 @@ from datagen.scenarios.scenario import Scenario
 OFTEN = 0.1
 
 
-def own_redraws(recipe: Recipe, scenario: Scenario) -> list[Redraw]:
-    """The record's redraws; those of its machine only if it is the machine's first record, so that each counts once."""
+def counted_redraws(recipe: Recipe, scenario: Scenario) -> list[Redraw]:
+    """The redraws that count with this record: its own, and its machine's if it is the machine's first record."""
     first = recipe.place(scenario.record).record_in_machine == 0
     return [redraw for redraw in scenario.redraws if first or redraw.scope == "record"]
 
@@ -27,7 +27,7 @@ class RedrawCount:
     def add(self, scenario: Scenario) -> None:
         """Count those of one more scenario."""
         self._records += 1
-        redraws = own_redraws(self._recipe, scenario)
+        redraws = counted_redraws(self._recipe, scenario)
         if redraws:
             self._redrawn += 1
             self._refused = add_refused([self._refused, count_refused(redraws)])

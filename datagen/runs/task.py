@@ -16,7 +16,7 @@ from datagen.progress import Say
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
-from datagen.runs.redraws import own_redraws
+from datagen.runs.redraws import counted_redraws
 from datagen.runs.workers import none_woken, woken_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
@@ -76,7 +76,7 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
     redraws: list[Redraw] = []
     for index in planned.records:
         scenario = draw_scenario(recipe, index)
-        redraws += own_redraws(recipe, scenario)
+        redraws += counted_redraws(recipe, scenario)
         try:
             records.append(make_record(scenario, planned.stored))
         except SimulationFailed as problem:

@@ -4,7 +4,7 @@
 - where numbers come from: `streams`, `design` (spread evenly), `turns` (exact counts), `draw` (one attempt), `picker`
 - what is drawn: `machine`, with `drawn_rig`, `imperfections`, `chain` and `drawn_background` (a `background`);
   `defect`; `accuracy`
-- what cannot be: `feasibility`, `redraw`; `meant`: what it is to be all the same; `deciders`: the settings that it
+- what cannot be: `feasibility`, `redraw`; `intended_kind`: what is not drawn again; `deciders`: the settings that it
   follows from
 - as text: `scenario_text`, `sampling_text`, `sensor_text`
 - what may be absent: `optional`

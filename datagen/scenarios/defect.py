@@ -25,12 +25,12 @@ ROWS: dict[str, tuple[int, ...]] = {"1": (1,), "2": (2,), "both": (1, 2)}
 def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, draw: Draw) -> tuple[Spall, ...]:
     """Spalls of one record under `load` (N), which only sets the width of contact that smooths their roughness.
 
-    Raises InvalidParameter if what was drawn cannot be; the caller draws again, with the same `draw.meant`.
+    Raises InvalidParameter if what was drawn cannot be; the caller draws again, with the same `draw.intended`.
     """
     if settings is None:
         return ()
     pick = draw.picker("defect")
-    kind = draw.meant.settle((pick.word(settings.condition), pick.word(settings.race), pick.word(settings.profile)))
+    kind = draw.intended.settle((pick.word(settings.condition), pick.word(settings.race), pick.word(settings.profile)))
     if kind[0] == "healthy":
         return ()
     turn = draw.turns.turn
@@ -39,7 +39,7 @@ def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, 
     except InvalidParameter:
         others = (other for other in settings.refined if other != kind)
         if not any(_can_be(other, settings, bearing, load, replace(draw, turn=turn)) for other in others):
-            draw.meant.release()
+            draw.intended.release()
         raise
 
 

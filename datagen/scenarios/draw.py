@@ -9,7 +9,7 @@ import numpy as np
 
 from datagen.recipes.recipe import Recipe
 from datagen.scenarios.design import Design, dimension_of
-from datagen.scenarios.meant import Meant
+from datagen.scenarios.intended_kind import IntendedKind
 from datagen.scenarios.picker import Picker
 from datagen.scenarios.streams import stream
 from datagen.scenarios.turns import Turn, Turns
@@ -22,7 +22,7 @@ class Draw:
     """The streams of machine or record (`scope`) `number` of a recipe, in its part with index `part`.
 
     `place` is its place among the machines or records of the part. `turn` says which balanced settings were met before,
-    `meant`, which its attempts share, what it is to be.
+    `intended`, which its attempts share, of what kind its spalls are to be.
     """
 
     recipe: Recipe
@@ -32,7 +32,7 @@ class Draw:
     place: int
     attempt: int = 0
     turn: Turn | None = None
-    meant: Meant = field(default_factory=Meant)
+    intended: IntendedKind = field(default_factory=IntendedKind)
 
     def stream(self, purpose: str, item: int = 0) -> np.random.Generator:
         """A fresh generator at the start of one of its streams."""

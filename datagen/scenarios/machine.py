@@ -70,13 +70,13 @@ class _Wanted:
 @lru_cache(maxsize=4)
 def _first_possible(wanted: _Wanted) -> Machine:
     """The first attempt that gives a machine; kept, because the records of a machine ask for it one after another."""
-    draw, redraws, meant = wanted.draw, list[Redraw](), wanted.draw.meant
+    draw, redraws, intended = wanted.draw, list[Redraw](), wanted.draw.intended
     for attempt in range(MOST_ATTEMPTS):
         try:
             return _draw(replace(draw, attempt=attempt), tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("machine", attempt, refused.field, str(refused)))
-    raise given_up(draw.recipe, draw.recipe.part[draw.part], f"machine {wanted.number}", redraws, meant.kind)
+    raise given_up(draw.recipe, draw.recipe.part[draw.part], f"machine {wanted.number}", redraws, intended.kind)
 
 
 def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
@@ -104,7 +104,7 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
     )
     if part.defect is not None and part.defect.drawn_for == "machine":
         draw_spalls(part.defect, rig.bearing, rig.rated_load, replace(draw, turn=machine.turn))
-        machine = replace(machine, kind=draw.meant.kind)
+        machine = replace(machine, kind=draw.intended.kind)
     return machine
 
 

@@ -14,8 +14,8 @@ from datagen.scenarios.draw import Draw
 from datagen.scenarios.drawn_background import draw_noise_target, draw_stretch
 from datagen.scenarios.drawn_rig import RPM_PER_RAD_S
 from datagen.scenarios.feasibility import require_equilibrium
+from datagen.scenarios.intended_kind import IntendedKind
 from datagen.scenarios.machine import Machine, draw_machine
-from datagen.scenarios.meant import Meant
 from datagen.scenarios.optional import if_given
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
@@ -34,14 +34,14 @@ def draw_scenario(recipe: Recipe, record: int) -> Scenario:
     place = recipe.place(record)
     part = recipe.part[place.part]
     machine = draw_machine(recipe, place.part, place.machine, place.machine_in_part)
-    redraws, meant = list(machine.redraws), Meant()
+    redraws, intended = list(machine.redraws), IntendedKind()
     for attempt in range(MOST_ATTEMPTS):
-        draw = Draw(recipe, place.part, "record", record, place.record_in_part, attempt, meant=meant)
+        draw = Draw(recipe, place.part, "record", record, place.record_in_part, attempt, intended=intended)
         try:
             return _draw(draw, machine, place, tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("record", attempt, refused.field, str(refused)))
-    raise given_up(recipe, part, f"record {record}", redraws, meant.kind)
+    raise given_up(recipe, part, f"record {record}", redraws, intended.kind)
 
 
 def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...]) -> Scenario:
@@ -98,7 +98,7 @@ def _spalls(draw: Draw, machine: Machine, place: Place, load: float) -> tuple[Sp
             place=place.machine_in_part,
             attempt=machine.attempt,
             turn=machine.turn,
-            meant=Meant(machine.kind),
+            intended=IntendedKind(machine.kind),
         )
     return draw_spalls(part.defect, machine.rig.bearing, load, draw)
 

@@ -32,9 +32,11 @@ SHORTEST_SHARE, LONGEST_SHARE = 0.1, 0.5
 
 
 @dataclass(frozen=True)
-class Heard:
-    """What is heard of a record: a `signal` (T,), m/s², that begins at its sample `start`; `stored` if it is whole and
-    its noise the corpus's own, `clean` if it is whole and without noise."""
+class Excerpt:
+    """What a trial is made of: a `signal` (T,), m/s², of a record from its sample `start` on.
+
+    `stored` if it is whole and its noise the corpus's own, `clean` if it is whole and without noise.
+    """
 
     signal: Array
     start: int
@@ -44,7 +46,7 @@ class Heard:
 
 @dataclass(frozen=True)
 class Trial:
-    """What was found in what was heard of a record, and what is true; `stored` and `clean` as in Heard, `asked` if a
+    """What was found in an excerpt of a record, and what is true; `stored` and `clean` as in Excerpt, `asked` if a
     size must be given of it.
 
     `true_lag` in samples (NaN: no events); `lag` the same modulo the period (NaN: no events or the wrong race), `arc`
@@ -75,14 +77,14 @@ def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Tria
 
 def _of_record(sized: SizedRecord) -> list[Trial]:
     made = []
-    for heard in _heard(sized):
-        evidence = gather_evidence(heard.signal, sized.rate, sized.situation.pass_periods())
+    for excerpt in _excerpts(sized):
+        evidence = gather_evidence(excerpt.signal, sized.rate, sized.situation.pass_periods())
         if evidence is not None:
-            made.append(trial(sized, _slim(evidence), heard))
+            made.append(trial(sized, _slim(evidence), excerpt))
     return made
 
 
-def _heard(sized: SizedRecord) -> list[Heard]:
+def _excerpts(sized: SizedRecord) -> list[Excerpt]:
     """The y axis as stored; clean if it was stored with noise, else with noise of a level drawn from those of the size
     ladder; and of one of both, drawn, a part that holds a tenth to half of it."""
     stored = sized.acceleration[:, 1]
@@ -94,7 +96,7 @@ def _heard(sized: SizedRecord) -> list[Heard]:
     length = round(share * stored.size)
     start = int(generator.integers(stored.size - length + 1))
     part = (stored, other)[int(generator.integers(2))][start : start + length]
-    return [Heard(stored, 0, True, not noisy), Heard(other, 0, False, noisy), Heard(part, start, False, False)]
+    return [Excerpt(stored, 0, True, not noisy), Excerpt(other, 0, False, noisy), Excerpt(part, start, False, False)]
 
 
 def in_noise_of_the_ladder(clean: Array, record: int) -> Array:
@@ -112,10 +114,10 @@ def _slim(evidence: Evidence) -> Evidence:
     return replace(evidence, mean=mean, pairs=pairs)
 
 
-def trial(sized: SizedRecord, evidence: Evidence, heard: Heard) -> Trial:
-    """The `evidence` of what was `heard` of a record beside its truth."""
+def trial(sized: SizedRecord, evidence: Evidence, excerpt: Excerpt) -> Trial:
+    """The `evidence` found in an `excerpt` of a record beside its truth."""
     lag, arc, quality = math.nan, math.nan, np.zeros(evidence.pairs.lag.size)
-    truth = None if sized.truth is None else sized.truth.within(*_stretch(sized, heard))
+    truth = None if sized.truth is None else sized.truth.within(*_stretch(sized, excerpt))
     true_lag = truth.lag * sized.rate if truth is not None else math.nan
     if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LAG:
         turns = math.floor(true_lag / (LONGEST_LAG * evidence.mean.period))
@@ -123,13 +125,13 @@ def trial(sized: SizedRecord, evidence: Evidence, heard: Heard) -> Trial:
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
         quality = _quality(evidence, truth, lag)
     bearing_id = str(sized.labels["bearing_id"])
-    stored, clean, asked = heard.stored, heard.clean, _asked(sized, true_lag)
+    stored, clean, asked = excerpt.stored, excerpt.clean, _asked(sized, true_lag)
     return Trial(sized.record, bearing_id, stored, clean, asked, sized.situation, evidence, true_lag, lag, arc, quality)
 
 
-def _stretch(sized: SizedRecord, heard: Heard) -> tuple[float, float]:
-    """Where what was `heard` begins and ends in its record, s."""
-    return heard.start / sized.rate, (heard.start + heard.signal.size) / sized.rate
+def _stretch(sized: SizedRecord, excerpt: Excerpt) -> tuple[float, float]:
+    """Where the `excerpt` begins and ends in its record, s."""
+    return excerpt.start / sized.rate, (excerpt.start + excerpt.signal.size) / sized.rate
 
 
 def _asked(sized: SizedRecord, true_lag: float) -> bool:

@@ -6,11 +6,14 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from datagen.distributions.kinds import Balanced
 from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.turns import Turn, Turns
 
 DEFECT = {
     "condition": {"balanced": ["healthy", "line", "extended"], "weights": [1, 2, 2]},
@@ -134,3 +137,20 @@ def test_a_spall_on_any_row_lies_on_each_row_that_the_bearing_has() -> None:
     assert {s.scene.spalls[0].row for s in draw_all(recipe_of(12, defect=line))} == {1, 2}
     single = draw_all(recipe_of(12, defect=line, machine={"rig": "cwru"}))
     assert {(s.scene.spalls[0].row, len(s.redraws)) for s in single} == {(1, 0)}
+
+
+def test_the_streams_of_a_block_are_numbered_as_in_every_corpus_made_so_far() -> None:
+    opened: list[tuple[int, int]] = []
+
+    def open_block(block: int, path: int) -> np.random.Generator:
+        opened.append((block, path))
+        return np.random.default_rng(0)
+
+    three, two = (Balanced(options, (1.0,) * len(options)) for options in (("a", "b", "c"), ("p", "q")))
+    turns = Turns(Turn(7), open_block)
+    first = three.options.index(turns.take(three))
+    second = two.options.index(turns.take(two))
+    turns.take(two)
+    code = 1024 + first + 1
+    # The eighth comes in the third block of three, after two of its own option: in the second block of two.
+    assert opened == [(2, 1), (1, code), (0, (1024 * code + second + 1) % 2**32)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,15 @@ from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.corpus_run import score_sizes
-from datagen.sizing.known_sizes import KnownSize, factor_for, machine_of, parse_known_sizes, shared_factors
+from datagen.sizing.known_sizes import (
+    KnownSize,
+    factor_for,
+    machine_of,
+    parse_known_sizes,
+    shared_factors,
+    with_effect,
+)
+from datagen.sizing.scored_record import ScoredRecord
 from labels.spall_size.known_size import known_size_factor
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -108,6 +117,24 @@ def test_two_known_sizes_of_a_machine_count_by_their_geometric_mean() -> None:
         1,
         1,
     ]
+
+
+def test_the_effect_of_a_known_size_is_the_error_of_the_others_of_its_machine_without_and_with_it(
+    scored: Callable[..., ScoredRecord],
+) -> None:
+    corrected = {"known_size_factor": 1.05}
+    records = [
+        scored({"record": 0, "bearing_id": "one"}),
+        scored({"record": 1, "bearing_id": "one"}, corrected | {"extent": 0.105}),  # was exact
+        scored({"record": 2, "bearing_id": "one"}, corrected | {"extent": 0.0945}),  # was a tenth too small
+        scored({"record": 3, "bearing_id": "one", "known": False}, corrected),  # of unknown truth
+        scored({"record": 4, "bearing_id": "one"}, corrected | {"extent": math.nan}),  # without an estimate
+        scored({"record": 5, "bearing_id": "two"}),
+    ]
+    (effect,) = with_effect([KnownSize(0, "one", 2.1, 2.0, 1.05)], records)
+    assert effect.corrected == 3
+    assert effect.arc_error_without == pytest.approx((0.0 + 0.1) / 2, abs=1e-12)  # rounding
+    assert effect.arc_error_with == pytest.approx((0.05 + 0.055) / 2, abs=1e-12)
 
 
 @pytest.mark.parametrize("text", ["0", "0=", "=2", "a=2", "0=x", "0=-1", "0=0", "0=nan", "0=inf", "-1=2", "0.5=1"])

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from datagen.sizing.sized_records import SizedRecord
-from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Heard, in_noise_of_the_ladder, trial
+from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Excerpt, in_noise_of_the_ladder, trial
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.evidence import Evidence
 from labels.spall_size.gathering import gather_evidence
@@ -63,7 +63,7 @@ def test_whole_passes_are_taken_off_the_lag_and_as_many_spacings_off_the_arc(
     spacings: int, heard: tuple[Evidence, Array]
 ) -> None:
     # A ball covers a spacing in a pass, so a spall a spacing longer shows its exit a pass later.
-    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    (evidence, first), whole = heard, Excerpt(np.zeros(32768), 0, True, True)
     late = LAG + spacings * MACHINE.pass_periods()["outer"]
     made = trial(record(first, first + late, 0.2 + spacings * SPACING), evidence, whole)
     assert made.true_lag == pytest.approx(late * RATE)
@@ -73,7 +73,7 @@ def test_whole_passes_are_taken_off_the_lag_and_as_many_spacings_off_the_arc(
 
 
 def test_the_pair_of_the_true_lag_at_the_true_place_is_the_best(heard: tuple[Evidence, Array]) -> None:
-    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    (evidence, first), whole = heard, Excerpt(np.zeros(32768), 0, True, True)
     made = trial(record(first, first + LAG, 0.2), evidence, whole)
     best = int(made.quality.argmax())
     assert made.quality[best] > 0.9
@@ -87,7 +87,7 @@ def test_the_pair_of_the_true_lag_at_the_true_place_is_the_best(heard: tuple[Evi
 
 @pytest.mark.parametrize(("off", "wrong"), [(0.4, 0.0), (4.5, 4.0)])  # samples
 def test_half_a_sample_of_the_lag_is_no_error(off: float, wrong: float, heard: tuple[Evidence, Array]) -> None:
-    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    (evidence, first), whole = heard, Excerpt(np.zeros(32768), 0, True, True)
     best = int(trial(record(first, first + LAG, 0.2), evidence, whole).quality.argmax())
     lag = float(evidence.pairs.lag[best]) - off
     made = trial(record(first, first + lag / RATE, 0.2), evidence, whole)
@@ -97,7 +97,7 @@ def test_half_a_sample_of_the_lag_is_no_error(off: float, wrong: float, heard: t
 def test_a_record_without_events_or_heard_on_the_wrong_race_has_no_pair_to_be_found(
     heard: tuple[Evidence, Array],
 ) -> None:
-    (evidence, first), whole = heard, Heard(np.zeros(32768), 0, True, True)
+    (evidence, first), whole = heard, Excerpt(np.zeros(32768), 0, True, True)
     right = record(first, first + LAG, 0.2)
     for one in (replace(right, truth=None), replace(right, labels=right.labels | {"location": "inner", "bpfi": 7.0})):
         made = trial(one, evidence, whole)

@@ -10,7 +10,7 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, parse_recipe
-from datagen.scenarios.meant import Meant
+from datagen.scenarios.intended_kind import IntendedKind
 from datagen.scenarios.sampling import draw_scenario
 
 RECORDS = 120
@@ -129,14 +129,14 @@ def test_a_kind_binds_from_the_first_refusal_on_that_another_might_have_been_spa
         ("extended", "outer", "tukey"),
         ("healthy", "outer", "tukey"),
     )
-    meant = Meant()
-    assert meant.kind is None
-    assert meant.settle(line) == line
-    meant.release()
-    assert meant.settle(healthy) == line
-    meant.release()
-    assert meant.settle(extended) == extended
-    assert meant.settle(line) == extended
-    meant.release()  # one refusal for all kinds does not undo an earlier one that was of this kind alone
-    assert meant.settle(line) == meant.kind == extended
-    assert Meant(line).settle(extended) == line
+    intended = IntendedKind()
+    assert intended.kind is None
+    assert intended.settle(line) == line
+    intended.release()
+    assert intended.settle(healthy) == line
+    intended.release()
+    assert intended.settle(extended) == extended
+    assert intended.settle(line) == extended
+    intended.release()  # one refusal for all kinds does not undo an earlier one that was of this kind alone
+    assert intended.settle(line) == intended.kind == extended
+    assert IntendedKind(line).settle(extended) == line

@@ -64,7 +64,20 @@ def ball_passes(scene: Scene, changes: ContactChanges | None, duration: float) -
 
 def _no_passes() -> PassTable:
     index, time, truth = np.zeros(0, np.int16), np.zeros(0), np.zeros(0, np.bool_)
-    return PassTable(index, index, index, time, time, time, time, time, truth, truth, time, time)
+    return PassTable(
+        row=index,
+        ball=index,
+        defect=index,
+        entry_time=time,
+        deepest_time=time,
+        exit_time=time,
+        release_time=time,
+        regain_time=time,
+        loaded=truth,
+        complete=truth,
+        fall_time=time,
+        rise_time=time,
+    )
 
 
 def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, defect: int) -> PassTable:

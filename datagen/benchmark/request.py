@@ -52,7 +52,15 @@ def benchmark_of(
     _require_folders(train, tests, learning.takes_windows)
     if out is not None:
         require_results_folder(out)
-    return Benchmark(train, tests, options, estimator, learning_curve, workers, save)
+    return Benchmark(
+        train=train,
+        tests=tests,
+        options=options,
+        estimator=estimator,
+        learning_curve=learning_curve,
+        workers=workers,
+        save=save,
+    )
 
 
 def _require_learning(learning: Learning) -> None:

@@ -95,7 +95,17 @@ def judge(
     verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
     classes = np.array([true_class(row) for _, row in labels.iterrows()], dtype=np.str_)
-    return Tested(folder, labels, truth, classes, reasons, glitches, shocks, tuple(verdicts), imported)
+    return Tested(
+        folder=folder,
+        labels=labels,
+        truth=truth,
+        classes=classes,
+        reasons=reasons,
+        glitches=glitches,
+        shocks=shocks,
+        verdicts=tuple(verdicts),
+        imported=imported,
+    )
 
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
@@ -121,7 +131,15 @@ def _of_model(
     condition = np.where(rejected, REJECTED, np.array([words[0] for words in named]))
     location = np.where(rejected, REJECTED, np.array(LOCATIONS)[place])
     race = np.where(missing, REJECTED, np.where(where[:, 1] >= where[:, 2], "outer", "inner"))
-    return Verdicts(model.name, location, condition, race, 1.0 - where[:, 0], said.alarm, said.probability)
+    return Verdicts(
+        name=model.name,
+        location=location,
+        condition=condition,
+        race=race,
+        score=1.0 - where[:, 0],
+        alarm=said.alarm,
+        probability=said.probability,
+    )
 
 
 class Vote(NamedTuple):
@@ -171,11 +189,11 @@ def pooled_draws(draws: list[Tested]) -> Tested:
 
 def _pooled(said: list[Verdicts]) -> Verdicts:
     return Verdicts(
-        said[0].name,
-        np.concatenate([draw.location for draw in said]),
-        np.concatenate([draw.condition for draw in said]),
-        np.concatenate([draw.race for draw in said]),
-        np.concatenate([draw.score for draw in said]),
-        np.concatenate([draw.alarm for draw in said]),
-        np.concatenate([draw.probability for draw in said]),
+        name=said[0].name,
+        location=np.concatenate([draw.location for draw in said]),
+        condition=np.concatenate([draw.condition for draw in said]),
+        race=np.concatenate([draw.race for draw in said]),
+        score=np.concatenate([draw.score for draw in said]),
+        alarm=np.concatenate([draw.alarm for draw in said]),
+        probability=np.concatenate([draw.probability for draw in said]),
     )

@@ -112,12 +112,18 @@ def solved(table: pandas.DataFrame) -> list[Solved]:
     """Steps and error estimates of the records of each model and method."""
     return [
         Solved(
-            str(model), str(method), len(rows), _known(rows["step"].min()), _known(rows["step"].max()),
-            _known(rows["error_estimate"].median()), _known(rows["error_estimate"].quantile(0.95)),
-            _known(rows["error_estimate"].max()), int(rows["error_estimate"].isna().sum()),
+            model=str(model),
+            method=str(method),
+            records=len(rows),
+            shortest_step=_known(rows["step"].min()),
+            longest_step=_known(rows["step"].max()),
+            median_error=_known(rows["error_estimate"].median()),
+            error_95_percent=_known(rows["error_estimate"].quantile(0.95)),
+            largest_error=_known(rows["error_estimate"].max()),
+            errors_unknown=int(rows["error_estimate"].isna().sum()),
         )
         for (model, method), rows in table.groupby(["model", "method"])
-    ]  # fmt: skip
+    ]
 
 
 def _known(value: float) -> float | None:

@@ -158,10 +158,28 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
         seconds, result = timed(contestant, scene, subject.rate, rounds)
         response = contestant.response(scene, subject.rate, result)
     except SimulationFailed as failure:
-        return Run(contestant.group, contestant.name, contestant.setting, 0.0, math.nan, math.nan, None, str(failure))
+        return Run(
+            group=contestant.group,
+            name=contestant.name,
+            setting=contestant.setting,
+            duration=0.0,
+            seconds=math.nan,
+            real_time=math.nan,
+            score=None,
+            failure=str(failure),
+        )
     found = response_errors(scene, subject.rate, response, reference)
     speed = scene.duration / seconds
-    return Run(contestant.group, contestant.name, contestant.setting, scene.duration, seconds, speed, found, "")
+    return Run(
+        group=contestant.group,
+        name=contestant.name,
+        setting=contestant.setting,
+        duration=scene.duration,
+        seconds=seconds,
+        real_time=speed,
+        score=found,
+        failure="",
+    )
 
 
 def timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tuple[float, object]:

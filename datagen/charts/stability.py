@@ -193,7 +193,15 @@ def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[f
     try:
         if method == MODAL:
             samples = round(scene.duration * RATE)
-            trace = respond_accurately(scene, resting(scene), RATE, samples, row, 0.0, Kept())
+            trace = respond_accurately(
+                scene=scene,
+                rest=resting(scene),
+                rate=RATE,
+                samples=samples,
+                accuracy=row,
+                least=0.0,
+                kept=Kept(),
+            )
             return relative_error(trace.acceleration, exact), VALUE
         found = _response(scene, method, row)
     except SimulationFailed as failure:

@@ -94,7 +94,15 @@ def classify(
     from datagen.benchmark.request import benchmark_of
 
     options = Options(learning, scoring)
-    benchmark = benchmark_of(train, (*(test or []), *(more or [])), options, learning_curve, workers, out, save)
+    benchmark = benchmark_of(
+        train=train,
+        tests=(*(test or []), *(more or [])),
+        options=options,
+        learning_curve=learning_curve,
+        workers=workers,
+        out=out,
+        save=save,
+    )
     results = _run(benchmark, out)
     write_json(json_file, results.to_dict())
     print_results(results.tests)

@@ -71,7 +71,14 @@ def show_records() -> Iterator[Listener]:
         yield Listener(say=lines.say, advance=lines.advance)
         return
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
     columns = (
         TextColumn("{task.description}"),
@@ -79,6 +86,7 @@ def show_records() -> Iterator[Listener]:
         MofNCompleteColumn(),
         TextColumn("{task.fields[rate]}"),
         TimeRemainingColumn(),
+        TimeElapsedColumn(),  # moves on while a single slow record is made
     )
     with Progress(*columns, console=Console(stderr=True)) as progress:
         bar = Bar(progress)

@@ -60,7 +60,15 @@ def size(
         require_results_folder(out)
     sizes = parse_known_sizes(known_size or ())
     with show_steps() as listener:
-        scores = score_sizes(folder, estimator, load_known, split, workers, sizes, listener.counting("sizes"))
+        scores = score_sizes(
+            folder=folder,
+            estimator=estimator,
+            load_known=load_known,
+            split=split,
+            workers=workers,
+            sizes=sizes,
+            count=listener.counting("sizes"),
+        )
     write_json(json_file, flat_scores(scores))
     if out is not None:
         from datagen.drawing.size_report import size_report_png

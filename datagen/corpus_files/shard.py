@@ -79,7 +79,18 @@ def write_shard(
 ) -> Sidecar:
     """Write `dataset` (None: every record failed) whole or not at all, then its sidecar; OSError on a full disk."""
     if dataset is None:
-        sidecar = Sidecar(shard, identity, (), failed, 0, "", "", seconds, {}, refused or {})
+        sidecar = Sidecar(
+            shard=shard,
+            identity=identity,
+            records=(),
+            failed=failed,
+            bytes=0,
+            sha256="",
+            content="",
+            seconds=seconds,
+            labels={},
+            refused=refused or {},
+        )
     else:
         content = memoryview(netcdf_bytes(dataset, compression))
         sidecar = Sidecar(

@@ -71,9 +71,16 @@ def check_corpus(folder: Path, remake: int = 0) -> Verdict:
     check.whole()
     check.remake(remake)
     return Verdict(
-        str(folder), len(check.sidecars), len(check.records), manifest.imported, tuple(check.remade),
-        check.difference, tuple(check.problems), tuple(check.damaged), check.remedy(),
-    )  # fmt: skip
+        folder=str(folder),
+        shards=len(check.sidecars),
+        records=len(check.records),
+        imported=manifest.imported,
+        remade=tuple(check.remade),
+        largest_difference=check.difference,
+        problems=tuple(check.problems),
+        damaged=tuple(check.damaged),
+        remedy=check.remedy(),
+    )
 
 
 class _Check:

@@ -56,7 +56,15 @@ def beside(
     said: Published = published(chapter, key)
     verdict = said.holds(ours) if agrees is None else bool(agrees)
     return Row(
-        quantity, float(ours), said.unit or unit, said.value, said.claim, said.sense, verdict, comment, said.where
+        quantity=quantity,
+        ours=float(ours),
+        unit=said.unit or unit,
+        paper=said.value,
+        claim=said.claim,
+        sense=said.sense,
+        agrees=verdict,
+        comment=comment,
+        where=said.where,
     )
 
 

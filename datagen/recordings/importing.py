@@ -85,10 +85,18 @@ def _import(spec: Spec, folder: Path, root: Path, step: Say) -> Imported:
         plan.add(request)
     manifest = _write(plan, _manifest(spec, listing, len(plan.records)), listing, folder, step)
     return Imported(
-        str(folder), len(plan.records), len(manifest.shards), manifest.bytes, round(time.monotonic() - began, 3),
-        len({request.path for request in listing.requests}), listing.absent, tuple(plan.skipped), tuple(plan.dead),
-        {doubt: tuple(names) for doubt, names in plan.doubts.items()}, plan.few_turns,
-    )  # fmt: skip
+        folder=str(folder),
+        records=len(plan.records),
+        shards=len(manifest.shards),
+        bytes=manifest.bytes,
+        seconds=round(time.monotonic() - began, 3),
+        files=len({request.path for request in listing.requests}),
+        absent=listing.absent,
+        skipped=tuple(plan.skipped),
+        dead=tuple(plan.dead),
+        doubts={doubt: tuple(names) for doubt, names in plan.doubts.items()},
+        few_turns=plan.few_turns,
+    )
 
 
 def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path, step: Say) -> Manifest:
@@ -100,7 +108,15 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
             dataset = _dataset(planned, manifest)
             seconds = round(time.perf_counter() - start, 3)
             with writing(folder):
-                write_shard(staging, number, manifest.identity, dataset, (), "zlib", seconds)
+                write_shard(
+                    folder=staging,
+                    shard=number,
+                    identity=manifest.identity,
+                    dataset=dataset,
+                    failed=(),
+                    compression="zlib",
+                    seconds=seconds,
+                )
         with writing(folder):
             write_index(staging, finished_shards(staging))
             manifest = manifest.with_shards(staging, finished_shards(staging))

@@ -85,13 +85,13 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
     dataset = to_dataset(records, title) if records else None
     seconds = time.perf_counter() - began
     written = write_shard(
-        folder,
-        planned.number,
-        identity,
-        dataset,
-        tuple(failed),
-        recipe.store.compression,
-        round(seconds, 3),
-        count_refused(redraws),
+        folder=folder,
+        shard=planned.number,
+        identity=identity,
+        dataset=dataset,
+        failed=tuple(failed),
+        compression=recipe.store.compression,
+        seconds=round(seconds, 3),
+        refused=count_refused(redraws),
     )
     return ShardRow(planned.number, len(records), len(failed), written.bytes)

@@ -97,7 +97,17 @@ def _draw_shape(settings: SpallSettings, race: str, profile: str, bearing: Beari
         return _measured_spall(race, settings.table)
     require(depth > 0.0 or roughness > 0.0, "a spall with neither depth nor roughness is none", "depth")
     _require_arcs(extent, entry, exit_, bearing, race)
-    return Spall(race, 1, 0.0, extent, depth, entry, exit_, profile, roughness)
+    return Spall(
+        race=race,
+        row=1,
+        angle=0.0,
+        extent=extent,
+        depth=depth,
+        entry_taper=entry,
+        exit_taper=exit_,
+        profile=profile,
+        roughness=roughness,
+    )
 
 
 def _measured_spall(race: str, table: ProfileTable) -> Spall:

@@ -152,7 +152,15 @@ class _Slip:
             return CagePath(self.nominal_speed, duration, start_angle, self.mean_slip)
         generator = draw.stream("slip", item)
         step, start, values = draw_slip_knots(generator, self.deviation, self.correlation_time, duration, settle)
-        return CagePath(self.nominal_speed, duration, start_angle, self.mean_slip, step, start, values)
+        return CagePath(
+            nominal_speed=self.nominal_speed,
+            duration=duration,
+            start_angle=start_angle,
+            mean_slip=self.mean_slip,
+            knot_step=step,
+            knot_start=start,
+            knot_values=values,
+        )
 
 
 def _draw_slip(settings: OperationSettings, bearing: Bearing, shaft_speed: float, pick: Picker) -> _Slip:

@@ -57,13 +57,13 @@ def mean_of(members: list[Trees]) -> Trees:
         for name in ("left", "right", "root")
     }
     return Trees(
-        np.concatenate([member.feature for member in members]),
-        np.concatenate([member.threshold for member in members]),
-        together["left"],
-        together["right"],
-        np.concatenate([member.value / len(members) for member in members]).astype(np.float32),
-        together["root"],
-        float(np.mean([member.base for member in members])),
+        feature=np.concatenate([member.feature for member in members]),
+        threshold=np.concatenate([member.threshold for member in members]),
+        left=together["left"],
+        right=together["right"],
+        value=np.concatenate([member.value / len(members) for member in members]).astype(np.float32),
+        root=together["root"],
+        base=float(np.mean([member.base for member in members])),
     )
 
 
@@ -86,4 +86,12 @@ def to_trees(model: Any) -> Trees:
         count += nodes.size
     feature, threshold, left, right, value = (np.concatenate(column) for column in zip(*parts, strict=True))
     base = float(np.ravel(model._baseline_prediction)[0])
-    return Trees(feature, threshold, left, right, value, np.array(roots, dtype=np.int32), base)
+    return Trees(
+        feature=feature,
+        threshold=threshold,
+        left=left,
+        right=right,
+        value=value,
+        root=np.array(roots, dtype=np.int32),
+        base=base,
+    )

@@ -126,7 +126,19 @@ def trial(sized: SizedRecord, evidence: Evidence, excerpt: Excerpt) -> Trial:
         quality = _quality(evidence, truth, lag)
     bearing_id = str(sized.labels["bearing_id"])
     stored, clean, asked = excerpt.stored, excerpt.clean, _asked(sized, true_lag)
-    return Trial(sized.record, bearing_id, stored, clean, asked, sized.situation, evidence, true_lag, lag, arc, quality)
+    return Trial(
+        record=sized.record,
+        bearing_id=bearing_id,
+        stored=stored,
+        clean=clean,
+        asked=asked,
+        situation=sized.situation,
+        evidence=evidence,
+        true_lag=true_lag,
+        lag=lag,
+        arc=arc,
+        quality=quality,
+    )
 
 
 def _stretch(sized: SizedRecord, excerpt: Excerpt) -> tuple[float, float]:

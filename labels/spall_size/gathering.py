@@ -43,7 +43,16 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
     )
     view = all_pairs(mean, places, facts)
     pairs = Pairs(view.entry, view.exit, view.lag, pair_rows(view))
-    return Evidence(race, rate, float(np.std(signal)), white.unit, found[race], alignment, mean, pairs)
+    return Evidence(
+        race=race,
+        rate=rate,
+        deviation=float(np.std(signal)),
+        unit=white.unit,
+        track=found[race],
+        alignment=alignment,
+        mean=mean,
+        pairs=pairs,
+    )
 
 
 def predictability(signal: Array) -> float:

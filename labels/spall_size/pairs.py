@@ -95,4 +95,12 @@ def all_pairs(mean: MeanPass, places: Array, facts: RecordFacts) -> PairView:
     lag = places[last] - places[first]
     lag = np.where(lag < 0.0, lag + mean.period, lag)
     kept = (first != last) & (lag < LONGEST_LAG * mean.period)
-    return PairView(mean, RunningEnergy(mean), facts, places, first[kept], last[kept], lag[kept])
+    return PairView(
+        mean=mean,
+        summed=RunningEnergy(mean),
+        facts=facts,
+        places=places,
+        first=first[kept],
+        last=last[kept],
+        lag=lag[kept],
+    )

@@ -44,14 +44,14 @@ class Situation:
     def bearing(self) -> Bearing:
         """The bearing; without a Hertz factor its stiffness means nothing."""
         return Bearing(
-            "recorded",
-            self.balls,
-            self.rows,
-            self.pitch_diameter,
-            self.ball_diameter,
-            PLACEHOLDER_FACTOR if self.load_deflection is None else self.load_deflection,
-            self.exponent,
-            self.contact_angle,
+            name="recorded",
+            balls=self.balls,
+            rows=self.rows,
+            pitch_diameter=self.pitch_diameter,
+            ball_diameter=self.ball_diameter,
+            load_deflection=PLACEHOLDER_FACTOR if self.load_deflection is None else self.load_deflection,
+            exponent=self.exponent,
+            contact_angle=self.contact_angle,
         )
 
     @property

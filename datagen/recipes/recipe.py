@@ -8,12 +8,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
-from datagen.files.netcdf import COMPRESSIONS, NO_LZ4
 from datagen.recipes.accuracy_settings import AccuracySettings
 from datagen.recipes.background_settings import BackgroundSettings
 from datagen.recipes.chain_settings import ChainSettings
@@ -25,114 +23,16 @@ from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recipe_files import find_recipe
 from datagen.recipes.record_order import Place, machines, place_by_part, place_interleaved
 from datagen.recipes.sampling_limits import require_sampled_fast_enough
+from datagen.recipes.signal_settings import Signal
+from datagen.recipes.split_settings import Split
+from datagen.recipes.store_settings import Store
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import Between, OneOf, Table, refuse
+from datagen.settings.table import OneOf, Table, refuse
 from datagen.settings.toml_file import read_toml
-from labels.band import holds_a_line
 from physics.words import CONTACT_LAWS
 
-FEWEST_STORED_SAMPLES = 16
 LARGEST_HYPERCUBE = 50_000
 Count = Annotated[int, Field(ge=1, le=10_000_000)]
-
-
-class Signal(Table):
-    """How every record is sampled; drawn once for each virtual machine if not fixed."""
-
-    rate_hz: Annotated[Distribution, Between(100.0, 1e7)]
-    """Sampling rate, Hz."""
-    duration_s: Annotated[Distribution, Between(0.001, 3600.0)]
-    """Length of a record, s, rounded to whole samples."""
-    settle_s: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
-    """Time that a machine runs before each of its records, s, rounded to whole samples; otherwise it starts at rest."""
-    envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
-    """Band of the stored envelope, Hz; by default the resonator's coupled mode ± 5 %."""
-
-    @model_validator(mode="after")
-    def _long_enough(self) -> Signal:
-        rate, duration = self.rate_hz.lowest, self.duration_s.lowest
-        if rate * duration < FEWEST_STORED_SAMPLES:
-            shortest = f"at least {FEWEST_STORED_SAMPLES / rate:g} at {rate:g} Hz"
-            raise refuse(f"a record would hold fewer than {FEWEST_STORED_SAMPLES} samples", "duration_s", shortest)
-        return self
-
-    @model_validator(mode="after")
-    def _band_below_nyquist(self) -> Signal:
-        if self.envelope_band_hz is not None:
-            low, high = self.envelope_band_hz
-            nyquist = self.rate_hz.lowest / 2.0
-            if not 0.0 <= low < high <= nyquist:
-                problem = "the band is empty" if low >= high else "the band is not below half the sampling rate"
-                raise refuse(problem, "envelope_band_hz", f"0 <= low < high <= {nyquist:g}")
-            narrow = self.too_narrow(self.envelope_band_hz)
-            if narrow is not None:
-                raise refuse(narrow[0], "envelope_band_hz", narrow[1])
-        return self
-
-    def too_narrow(self, band: tuple[float, float]) -> tuple[str, str] | None:
-        """Problem and what is allowed of a band (Hz) that holds no line of a record's spectrum; None if all hold one.
-
-        Where rate or duration are drawn the band must be as wide as the lines of the shortest record lie apart.
-        """
-        rate, seconds = self.rate_hz.lowest, self.duration_s.lowest
-        spacing = rate / round(rate * seconds)
-        drawn = not (isinstance(self.rate_hz, Fixed) and isinstance(self.duration_s, Fixed))
-        wide = band[1] - band[0] >= spacing if drawn else holds_a_line(band, round(rate * seconds), rate)
-        problem = (
-            f"the band may hold none of the lines in the spectrum of {seconds:g} s, which lie {spacing:g} Hz apart"
-        )
-        return None if wide else (problem, f"a band at least {spacing:g} wide")
-
-
-def _offered(compression: object) -> object:
-    if compression == "lz4":
-        raise PydanticCustomError("settings", "{problem}", {"problem": NO_LZ4, "allowed": ", ".join(COMPRESSIONS)})
-    return compression
-
-
-class Store(Table):
-    """What is written and how."""
-
-    compression: Annotated[Literal["zlib", "none"], BeforeValidator(_offered)] = "zlib"
-    """Compression of the shards."""
-    records_per_shard: Annotated[int, Field(ge=1, le=1_000_000)] = 32
-    """Most records in one shard."""
-    clean: bool = False
-    """Store the acceleration without sensor path and background too."""
-    sensor: bool = False
-    """Store the acceleration after sensor path and mounting, without background, too."""
-    background: bool = False
-    """Store every layer of the background too."""
-    cage_angle: bool = False
-    """Store the cage angle too."""
-    profile: bool = False
-    """Store the path of the ball's centre over the defective race too."""
-    contact_force: Literal["none", "first_of_each", "all"] = "none"
-    """Store the force of every ball too: of no record, of the first of each rig and condition, or of all."""
-
-
-class Split(Table):
-    """Shares of the virtual machines in each split; never divides the records of one machine."""
-
-    train: Annotated[float, Field(ge=0.0, le=1.0)] = 0.7
-    """Share for training."""
-    validation: Annotated[float, Field(ge=0.0, le=1.0)] = 0.15
-    """Share for choosing between models."""
-    test: Annotated[float, Field(ge=0.0, le=1.0)] = 0.15
-    """Share for the final score."""
-
-    @model_validator(mode="after")
-    def _whole(self) -> Split:
-        total = self.train + self.validation + self.test
-        if abs(total - 1.0) > 1e-9:
-            shares = {name: getattr(self, name) for name in type(self).model_fields}
-            said = (f"{name} = {share:g}{self._origin(name)}" for name, share in shares.items())
-            first = next(name for name in shares if name in self.model_fields_set)
-            raise refuse(f"{', '.join(said)} add up to {total:g}", first, "three shares that add up to 1")
-        return self
-
-    def _origin(self, name: str) -> str:
-        return "" if name in self.model_fields_set else " (its default)"
 
 
 class Part(Table):

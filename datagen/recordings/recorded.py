@@ -15,7 +15,7 @@ from datagen.errors import BadInput
 from datagen.formats.placeholders import without_ending
 from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
-from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
+from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
 from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts
 from datagen.recordings.listing import Request

@@ -23,7 +23,7 @@ from datagen.formats.csv_file import Columns
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.placeholders import filled, place_without_ending
 from datagen.formats.reading import read_arrays
-from datagen.recipes.recipe import FEWEST_STORED_SAMPLES
+from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.listing import Request
 from datagen.recordings.sample_times import rate_of
 from datagen.recordings.unchanged import first_state, require_unchanged

@@ -6,7 +6,9 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from datagen.recipes.defect_settings import Combination
-from datagen.recipes.recipe import FEWEST_STORED_SAMPLES, Recipe, Signal, Split
+from datagen.recipes.recipe import Recipe
+from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES, Signal
+from datagen.recipes.split_settings import Split
 from datagen.scenarios.background import Background
 from datagen.scenarios.chain import draw_chain
 from datagen.scenarios.defect import draw_spalls

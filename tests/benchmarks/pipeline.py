@@ -21,7 +21,8 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from datagen.recipes.recipe import Recipe, Store, load_recipe
+from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.recipes.store_settings import Store
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard

@@ -110,20 +110,22 @@ def _kinds(table: pandas.DataFrame) -> list[Kind]:
 
 def solved(table: pandas.DataFrame) -> list[Solved]:
     """Steps and error estimates of the records of each model and method."""
-    return [
-        Solved(
-            model=str(model),
-            method=str(method),
-            records=len(rows),
-            shortest_step=_known(rows["step"].min()),
-            longest_step=_known(rows["step"].max()),
-            median_error=_known(rows["error_estimate"].median()),
-            error_95_percent=_known(rows["error_estimate"].quantile(0.95)),
-            largest_error=_known(rows["error_estimate"].max()),
-            errors_unknown=int(rows["error_estimate"].isna().sum()),
-        )
-        for (model, method), rows in table.groupby(["model", "method"])
-    ]
+    return [_solved(str(model), str(method), rows) for (model, method), rows in table.groupby(["model", "method"])]
+
+
+def _solved(model: str, method: str, rows: pandas.DataFrame) -> Solved:
+    estimates = rows["error_estimate"].dropna()
+    return Solved(
+        model=model,
+        method=method,
+        records=len(rows),
+        shortest_step=_known(rows["step"].min()),
+        longest_step=_known(rows["step"].max()),
+        median_error=_known(estimates.median()),
+        error_95_percent=_known(estimates.quantile(0.95)),
+        largest_error=_known(estimates.max()),
+        errors_unknown=len(rows) - len(estimates),
+    )
 
 
 def _known(value: float) -> float | None:

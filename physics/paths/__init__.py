@@ -2,7 +2,7 @@
 
 - `profile`: the front door
 - `spall_surface`, `roughness`: the surface, a path as it is or after a ball has rolled over it
-- `rolling`: where the centre of that ball runs; `held_ball`: what holds it there
+- `rolling`: where the centre of that ball runs; `held_ball`: what holds it there; `corners`: where it changes bumps
 - `depth_path`: either kind of path as cubic pieces between edges
 - `passages`: when balls come by
 """

@@ -81,7 +81,7 @@ class Ball(NamedTuple):
         return Held(place, depth, self.drop(depth, place - arc))
 
 
-def _between_points(surface: Surface, ball: Ball, arc: Array, place: Array, apart: float) -> Held:
+def between_points(surface: Surface, ball: Ball, arc: Array, place: Array, apart: float) -> Held:
     """The ball at the arcs (N,), rad, where it touches the surface no farther than `apart` (rad) from the places (N,),
     rad, or at these if it would fall from both sides."""
 
@@ -104,7 +104,7 @@ def _between_points(surface: Surface, ball: Ball, arc: Array, place: Array, apar
 
 def hold_between_points(surface: Surface, ball: Ball, arc: Array, held: Held, apart: float) -> None:
     """Let balls touch the surface between its points, `apart` (rad), beside those that hold them."""
-    held.take(np.arange(arc.size), _between_points(surface, ball, arc, held.place, apart), ROUNDING)
+    held.take(np.arange(arc.size), between_points(surface, ball, arc, held.place, apart), ROUNDING)
 
 
 def hold_as_neighbours(surface: Surface, ball: Ball, arc: Array, held: Held, apart: float, leap: float) -> None:
@@ -115,7 +115,7 @@ def hold_as_neighbours(surface: Surface, ball: Ball, arc: Array, held: Held, apa
         corners = np.flatnonzero(np.abs(np.diff(held.place)) > leap)
         moved = 0
         for at, neighbour in ((corners, corners + 1), (corners + 1, corners)):
-            found = _between_points(surface, ball, arc[at], held.place[neighbour], apart)
+            found = between_points(surface, ball, arc[at], held.place[neighbour], apart)
             moved += held.take(at, found, -ROUNDING)
         if moved == 0:
             return

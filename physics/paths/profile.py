@@ -10,8 +10,9 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.bearing import Bearing
+from physics.paths.corners import Branches
 from physics.paths.depth_path import DepthPath, hermite_path
-from physics.paths.rolling import Branches, branches, deep_gap_drop, hanging_reach, rolled_path
+from physics.paths.rolling import deep_gap_drop, hanging_reach, rolled_branches
 from physics.paths.spall_surface import (
     gap_surface,
     reaches_floor,
@@ -127,8 +128,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
     half, rough = spall.extent / 2.0, bool(spall.roughness_values)
     step = max(ROLLED_STEP / race_radius, spall.extent / MOST_STEPS)
-    rolled = rolled_path(surface, half, spall.race, race_radius, ball_radius, step, table_arcs(spall))
-    smooth = branches(rolled)
+    rolled, smooth = rolled_branches(surface, half, spall.race, race_radius, ball_radius, step, table_arcs(spall))
     width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
     cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)

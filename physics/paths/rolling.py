@@ -10,11 +10,13 @@ import numpy as np
 
 from physics._jit import njit, njit_inline, njit_lean
 from physics.arrays import Array, Index
+from physics.paths.corners import LEAP, Branches, RolledPath, branches, corners_of
 from physics.paths.held_ball import (
     ROUNDING,
     Ball,
     Held,
     Surface,
+    between_points,
     hold_as_neighbours,
     hold_between_points,
     hold_on_lips,
@@ -27,32 +29,18 @@ FEWEST_STEPS = 512
 POINTS_A_STEP = 4
 # Points of the surface that are passed over together, for each one of the path's.
 BLOCKED = 4
-# Where the contact point leaps by more than this many steps of the path the ball has changed from one bump to another.
-LEAP = 3.0
-# Both sides of a corner are nearly parabolas; one nearer to a node than this share of a step is put onto it.
-NEWTON_STEPS, NEAREST = 4, 1e-3
+# A bump between both that meet in a corner holds the ball if it does so by more than this (m) higher than they.
+HIGHER = 1e-11
 
 
-class RolledPath(NamedTuple):
-    """`drop` (N,), m, of the ball's centre and its `slope` (N,), m/rad, at the arcs `arc` (N,), rad, and the `contact`
-    (N,) that holds the ball there, in steps of the path."""
+class Rolled(NamedTuple):
+    """A `path`, the `ball` that rolled, the `surface`, and its `depth` (M,), m, at the `points` (M,), rad, tried."""
 
-    arc: Array
-    drop: Array
-    slope: Array
-    contact: Array
-
-
-class Branches(NamedTuple):
-    """A rolled path as smooth branches: nodes `arc`, `drop`, `slope` (N,) as above, with two nodes at every corner.
-
-    `edges` (B + 1,), rad, are both ends and the corners.
-    """
-
-    arc: Array
-    drop: Array
-    slope: Array
-    edges: Array
+    path: RolledPath
+    ball: Ball
+    surface: Surface
+    points: Array
+    depth: Array
 
 
 def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Curve, Curve]:
@@ -103,6 +91,26 @@ def rolled_path(
     no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
     ball touches is looked for among points of the surface and then, exactly, between the neighbours of the point found.
     """
+    return _rolled(surface, half, race, race_radius, ball_radius, step, lips).path
+
+
+def rolled_branches(
+    surface: Surface,
+    half: float,
+    race: str,
+    race_radius: float,
+    ball_radius: float,
+    step: float,
+    lips: Array | None = None,
+) -> tuple[RolledPath, Branches]:
+    """The same path, and its smooth branches with those of bumps that hold the ball over less than a step."""
+    rolled = _rolled(surface, half, race, race_radius, ball_radius, step, lips)
+    return rolled.path, branches(_with_narrow_bumps(rolled))
+
+
+def _rolled(
+    surface: Surface, half: float, race: str, race_radius: float, ball_radius: float, step: float, lips: Array | None
+) -> Rolled:
     ball = Ball(race_radius, ball_radius, -1.0 if race == "outer" else 1.0)
     lips = np.zeros(0) if lips is None else lips
     count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
@@ -126,7 +134,37 @@ def rolled_path(
     hold_between_points(inside, ball, arc, held, fine)
     hold_as_neighbours(inside, ball, arc, held, fine, LEAP * POINTS_A_STEP * fine)
     slope = ball.slope(held.depth, held.place - arc)
-    return RolledPath(arc, held.drop, slope, (held.place - arc[0]) / (fine * POINTS_A_STEP))
+    path = RolledPath(arc, held.drop, slope, (held.place - arc[0]) / (fine * POINTS_A_STEP))
+    return Rolled(path, ball, inside, points, depth)
+
+
+def _with_narrow_bumps(rolled: Rolled) -> RolledPath:
+    """The path with one more node for every bump that holds the ball over less than a step, so between two nodes.
+
+    Such a bump lies between both that meet in a corner, and holds the ball there higher than they do.
+    """
+    path, ball, surface, points, depth = rolled
+    fine, outer = points[1] - points[0], ball.turn < 0.0
+    known = np.zeros(path.arc.size - 1, dtype=np.bool_)
+    while True:
+        cells, arc, drop = corners_of(path).between_nodes(path)
+        new = ~known[cells]
+        cells, arc, drop = cells[new], arc[new], drop[new]
+        touched = path.arc[0] + path.contact * fine * POINTS_A_STEP
+        first, last = (np.rint((touched[cells + k] - points[0]) / fine).astype(np.int64) for k in (0, 1))
+        place = _highest_between(depth, first, last, arc - points[0], fine, *ball[:2], outer)
+        held = between_points(surface, ball, arc, points[place], fine)
+        contact = (held.place - path.arc[0]) / (fine * POINTS_A_STEP)
+        # Where both leaps that it leaves are too short to be corners, the one corner is nearer to the truth.
+        leap = np.maximum(contact - path.contact[cells], path.contact[cells + 1] - contact)
+        narrow = (held.drop < drop - HIGHER) & (leap > LEAP)
+        known[cells] = ~narrow
+        if not narrow.any():
+            return path
+        after = cells[narrow] + 1
+        known = np.insert(known, after, False)
+        added = (arc, held.drop, ball.slope(held.depth, held.place - arc), contact)
+        path = RolledPath(*(np.insert(old, after, more[narrow]) for old, more in zip(path, added, strict=True)))
 
 
 def _margins(depths: Array, race: str, ball: Ball, fine: float) -> tuple[int, int]:
@@ -139,45 +177,6 @@ def _margins(depths: Array, race: str, ball: Ball, fine: float) -> tuple[int, in
     hung = hanging_reach(race, bump_radius, ball.ball_radius, max(deepest + proud, 1e-9))
     # Whole steps, so that both edges stay on a point of the grid.
     return math.ceil(lifted / (fine * POINTS_A_STEP)), math.ceil(1.05 * hung / fine) + 2
-
-
-def branches(path: RolledPath) -> Branches:
-    """The smooth branches between the corners at which the ball changes from one bump to another.
-
-    A corner lies where the parabolas of both sides, each from its own slope and curvature, meet.
-    """
-    arc, drop, slope, contact = path
-    step = (arc[-1] - arc[0]) / (arc.size - 1)
-    leaps = np.abs(np.diff(contact)) > LEAP
-    cells = np.flatnonzero(leaps)
-    bend = np.diff(slope) / step
-    before, after = np.maximum(cells - 1, 0), np.minimum(cells + 1, arc.size - 2)
-    left_bend, right_bend = np.where(leaps[before], 0.0, bend[before]), np.where(leaps[after], 0.0, bend[after])
-    share = np.full(cells.size, 0.5)
-    for _ in range(NEWTON_STEPS):
-        x, y = share * step, (share - 1.0) * step
-        left = drop[cells] + x * (slope[cells] + 0.5 * x * left_bend)
-        right = drop[cells + 1] + y * (slope[cells + 1] + 0.5 * y * right_bend)
-        turn = slope[cells + 1] + y * right_bend - slope[cells] - x * left_bend
-        share = np.clip(share + (left - right) / np.where(turn < 0.0, turn, -math.inf) / step, 0.0, 1.0)
-    # The higher branch holds the ball: a corner turns the path upwards, and what does not is none.
-    real = turn < 0.0
-    cells, share, left_bend, right_bend = cells[real], share[real], left_bend[real], right_bend[real]
-    on_left, on_right = share < NEAREST, share > 1.0 - NEAREST
-    share = np.where(on_left, 0.0, np.where(on_right, 1.0, share))
-    x, y = share * step, (share - 1.0) * step
-    corner = np.where(on_right, drop[cells + 1], drop[cells] + x * (slope[cells] + 0.5 * x * left_bend))
-    edges = np.where(on_right, arc[cells + 1], arc[cells] + x)
-    # Two nodes a corner, one of them there already where the corner lies on a node.
-    new = np.column_stack([~on_left, ~on_right]).ravel()
-    places = np.repeat(cells + 1, 2)[new]
-    both = np.column_stack([slope[cells] + x * left_bend, slope[cells + 1] + y * right_bend]).ravel()
-    return Branches(
-        np.insert(arc, places, np.repeat(edges, 2)[new]),
-        np.insert(drop, places, np.repeat(corner, 2)[new]),
-        np.insert(slope, places, both[new]),
-        np.unique(np.concatenate([arc[:1], edges, arc[-1:]])),
-    )
 
 
 @njit
@@ -213,6 +212,30 @@ def _roll(
                     least, best = found, place
         drop[k], contact[k] = least, best
     return drop, contact
+
+
+@njit
+def _highest_between(
+    depth: Array,
+    first: Index,
+    last: Index,
+    arc: Array,
+    step: float,
+    race_radius: float,
+    ball_radius: float,
+    outer: bool,
+) -> Index:
+    """The points (N,) of the surface, from `first` to `last` (N,) each, that hold balls at the arcs (N,), rad, from
+    point 0 highest."""
+    highest = first.copy()
+    for k in range(arc.size):
+        least = math.inf
+        for place in range(first[k], last[k] + 1):
+            away = abs(step * place - arc[k])
+            found = _drop_on(depth[place], math.cos(away), math.sin(away), race_radius, ball_radius, outer)
+            if found < least:
+                least, highest[k] = found, place
+    return highest
 
 
 @njit_inline

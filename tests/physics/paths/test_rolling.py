@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from measures import hanging
 from scipy.interpolate import CubicSpline
 
-from physics.paths.rolling import branches, deep_gap_drop, hanging_reach, rolled_path
+from physics.paths.corners import branches
+from physics.paths.rolling import deep_gap_drop, hanging_reach, rolled_branches, rolled_path
 
 BALL = 3.56e-3
 RACE = {"outer": 22.935e-3, "inner": 15.815e-3}
@@ -223,6 +224,51 @@ def test_a_ball_turns_around_a_lip_wherever_it_lies_between_points(race):
     np.testing.assert_allclose(
         np.diff(slope[near]) / np.diff(arcs[near]), np.diff(slope[near]).mean() / np.diff(arcs).mean(), rtol=0.01
     )
+
+
+@RACES
+def test_a_bump_that_holds_the_ball_over_less_than_a_step_is_not_passed_over(race):
+    half = 4.0 * HALF  # so that steps are no shorter than asked
+    step = 2.0 * half / math.ceil(2.0 * half / STEP)
+    middle = -half + step * (math.floor(half / step) + 0.5)  # in the middle between two nodes
+    apart, width = 100e-6 / RACE[race], 20e-6 / RACE[race]
+
+    def crests(height):
+        def surface(arc):
+            tops = ((middle - apart, 18e-6), (middle, height), (middle + apart, 18e-6))
+            return 20e-6 - sum(top * np.exp(-(((arc - place) / width) ** 2)) for place, top in tops)
+
+        return surface
+
+    path, without = rolled_branches(sloped(crests(0.0)), half, race, RACE[race], BALL, STEP)
+    assert np.min(np.abs(path.arc - middle)) == pytest.approx(0.5 * step)
+    corner = float(np.interp(middle, without.arc, without.drop))
+    surface = crests(20e-6 - corner + 15e-9)  # holds the ball 15 nm higher than its neighbours, over a µm
+    _, found = rolled_branches(sloped(surface), half, race, RACE[race], BALL, STEP)
+    near = np.abs(found.edges - middle) < 0.5 * step
+    assert np.count_nonzero(near) == 2
+    assert 0.0 < np.ptp(found.edges[near]) < 0.5 * step
+    arcs = middle + 0.5 * step * np.linspace(-1.0, 1.0, 41)
+    clear = closest(surface, race, arcs, np.interp(arcs, found.arc, found.drop), half)
+    np.testing.assert_allclose(clear, BALL, rtol=0, atol=2e-9)  # chords of 5 µm, points of the race 0.2 µm apart
+
+
+@RACES
+@pytest.mark.parametrize("seed", range(3))
+def test_a_path_over_roughness_is_the_same_with_steps_eight_times_as_short(race, seed):
+    half, step = 20.0 * HALF, 2e-6 / RACE[race]
+    knots = np.linspace(-half, half, round(2.0 * half * RACE[race] / 15e-6) + 1)
+    heights = np.random.default_rng(seed).normal(0.0, 0.3e-6, knots.size)
+    rough = CubicSpline(knots, heights, bc_type="natural")
+
+    def surface(arc, order=0):
+        return rough(arc, order) + (10e-6 if order == 0 else 0.0)
+
+    arcs = np.linspace(-half, half, 400_001)
+    long, short = (rolled_branches(surface, half, race, RACE[race], BALL, step / n)[1] for n in (1, 8))
+    assert long.edges.size > 100
+    drops = [np.interp(arcs, found.arc, found.drop) for found in (long, short)]
+    np.testing.assert_allclose(*drops, rtol=0, atol=2e-9)  # chords of 2 µm, and corners of bumps less than 6 µm apart
 
 
 @RACES

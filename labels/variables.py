@@ -225,7 +225,7 @@ PASSES: tuple[Variable, ...] = (
         "time of release",
         "First loss of contact between entry and exit: compression becomes zero, or, with the contact law no_tension, "
         "the force does while the film would pull.",
-        missing="the ball never lost contact during the pass, or did not touch at entry",
+        missing="the ball never lost contact during the pass, or did not touch at entry (at t = 0 if it began before)",
     ),
     _simulated(
         "regain_time",
@@ -251,7 +251,7 @@ PASSES: tuple[Variable, ...] = (
         "bool",
         "",
         "complete",
-        "True if entry, exit and, where they exist, release and regain lie inside the record.",
+        "True if entry, exit and, of a ball that is released, release and regain lie inside the record.",
     ),
     _simulated(
         "fall_time",

@@ -34,6 +34,8 @@ from physics.trace import Kept, Trace
 
 Rounded = NDArray[np.float32]
 RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
+# Inputs that agree to 1e-4 leave responses within half a per cent up to so many times.
+SENSITIVE = 50.0
 
 
 @dataclass(frozen=True)
@@ -149,7 +151,7 @@ def _profile_depth(scene: Scene) -> Rounded:
 def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:
     """Labels of scene, run and place in the corpus."""
     values = label_values(scenario.scene)
-    warnings = [str(values["validity"]), _chaos(trace), _missed(scenario, trace), _unlocated(trace)]
+    warnings = [str(values["validity"]), _chaos(trace), _sensitive(trace), _missed(scenario, trace), _unlocated(trace)]
     return values | {
         "validity": "; ".join(filter(None, warnings)),
         "record": scenario.record,
@@ -177,6 +179,16 @@ def _chaos(trace: Trace) -> str:
     return (
         f"bouncing balls multiply errors {trace.sensitivity:.0f} times, and finer steps lead to other responses: it is "
         "chaotic, and its spectra hold but not its single points"
+    )
+
+
+def _sensitive(trace: Trace) -> str:
+    """What it means for the reader that the response multiplies errors; empty if it does so little, or is chaotic."""
+    if trace.chaotic or not trace.sensitivity > SENSITIVE:
+        return ""
+    return (
+        f"contacts multiply errors {trace.sensitivity:.0f} times: single points may move if a path of the ball is "
+        "computed otherwise by less than a nanometre, so compare them with this program only, and spectra with others"
     )
 
 

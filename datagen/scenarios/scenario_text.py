@@ -81,7 +81,8 @@ ROLLED = (
     "sqrt(Rb^2 - R^2 sin(theta - phi)^2) with R(theta) = Ro + s(theta), path = rho - (Ro - Rb). Inner race: rho(phi) = "
     "max of R cos(theta - phi) + sqrt(Rb^2 - R^2 sin(theta - phi)^2) with R(theta) = Ri - s(theta), "
     "path = Ri + Rb - rho. Ro, Ri = (Dp +- Db cos(alpha)) / 2, Rb = Db / 2. Sought on a grid over a rough surface, "
-    "the extremum needs steps of 0.3 um along the race: with 1 um the response was 4e-4 of its RMS off"
+    "the extremum needs steps of 0.3 um along the race: with 1 um the response was 4e-4 of its RMS off; a table of the "
+    "path that is read linearly needs nodes 0.1 um apart"
 )
 RULES = {
     "tukey": f"{TRAVEL}the ball's centre drops by {WINDOW}",
@@ -92,10 +93,10 @@ RULES = {
 
 SCENE_RULES = {
     "ball_angle": "ball j (from 1) of row r (from 1) is at phi = cage angle + 2 pi (j - 1) / Nb + (r - 1) row_offset; "
-    "with separate cages row 2 takes the angle of second_cage and keeps its row_offset",
+    "with separate cages row 2 takes the angle of second_cage, start_angle at t = 0, and keeps its row_offset",
     "compression": "along the contact normal: (dx cos phi + dy sin phi - depth - c) cos(alpha) + "
-    "ball_deviation[r - 1][j - 1], with (dx, dy) inner ring minus outer ring; the radial force is the normal "
-    "force times cos(alpha)",
+    "ball_deviation[r - 1][j - 1], with (dx, dy) inner ring minus outer ring; depth is the sum of the drops of all "
+    "spalls on the row, each by itself, and of the waviness; the radial force is the normal force times cos(alpha)",
     "waviness": "each adds amplitude cos(order (phi - race angle) + phase) to the depth on every row; race angle is 0 "
     "on the outer race and omega_s t on the inner one",
     "loads": "on the inner ring: -W (1 + load_fluctuation cos(omega_s t + fluctuation_phase)) along y, and "

@@ -90,6 +90,16 @@ def test_an_accuracy_that_was_not_reached_is_told(scenario, monkeypatch):
     assert "chaotic" not in validity
 
 
+@pytest.mark.parametrize(("sensitivity", "told"), [(400.0, True), (4.0, False), (float("nan"), False)])
+def test_a_response_that_multiplies_errors_without_being_chaotic_is_told(sensitivity, told, monkeypatch):
+    def sensitive(*scene, **choices):
+        return replace(simulate(*scene, **choices), sensitivity=sensitivity)
+
+    monkeypatch.setattr("datagen.records.record.simulate", sensitive)
+    validity = make_record(draw_scenario(load_recipe("gearbox_rig"), 0)).labels["validity"]
+    assert ("contacts multiply errors 400 times" in validity) is told
+
+
 QUIET_RECORDS = (8, 52)  # of the wide corpus: healthy, noise far above the vibration, so that large errors are allowed
 
 

@@ -64,7 +64,6 @@ def _numbers(option: str, text: str) -> list[int]:
 
 
 def _print_run(run: Summary) -> None:
-
     for failure in run.failed[:3]:
         complain(f"record {failure.record} could not be made: {failure.reason.strip().splitlines()[-1]}")
     if len(run.failed) > 3:

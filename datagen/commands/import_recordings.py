@@ -38,7 +38,6 @@ def import_recordings(
 
 
 def _print_result(done: Imported) -> None:
-
     for problem, names in (
         ("not found", done.absent),
         ("left out as repeats", done.skipped),

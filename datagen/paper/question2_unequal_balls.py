@@ -189,14 +189,14 @@ def draw(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> Figure:
 
 
 def _draw_growth(axes: Axes, found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> None:
-    for condition, answer in found.items():
+    for condition, sidebands in found.items():
         colour = COLOURS[condition]
-        level = answer.sixth()
+        level = sidebands.sixth()
         axes.semilogx(
             DEVIATIONS_UM, np.median(level, axis=1), "o-", color=colour, markersize=4, label=f"{condition}, no slip"
         )
         axes.fill_between(DEVIATIONS_UM, level.min(axis=1), level.max(axis=1), color=colour, alpha=0.13, linewidth=0)
-        slipping = np.median(answer.sixth(slipping=True), axis=1)
+        slipping = np.median(sidebands.sixth(slipping=True), axis=1)
         axes.semilogx(
             DEVIATIONS_UM, slipping, "s--", color=colour, markersize=3.5, linewidth=0.9, label=f"{condition}, 1 % slip"
         )

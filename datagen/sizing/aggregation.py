@@ -87,12 +87,8 @@ def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
         return noise_level(record), record.answer.trust
 
     first = max(records, key=sure)
-    return [
-        first,
-        *sorted((record for record in records if record.truth.record != first.truth.record), key=sure, reverse=True)[
-            :1
-        ],
-    ]
+    others = [record for record in records if record.truth.record != first.truth.record]
+    return [first, *sorted(others, key=sure, reverse=True)[:1]]
 
 
 def _events(records: list[ScoredRecord]) -> dict[str, EventFigures]:

@@ -12,7 +12,7 @@ from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.paths.corners import Branches
 from physics.paths.depth_path import DepthPath, hermite_path
-from physics.paths.rolling import deep_gap_drop, hanging_reach, rolled_branches
+from physics.paths.rolling import deep_gap_drop, hanging_reach, roll, smooth_branches
 from physics.paths.spall_surface import (
     gap_surface,
     reaches_floor,
@@ -128,8 +128,9 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
     half, rough = spall.extent / 2.0, bool(spall.roughness_values)
     step = max(ROLLED_STEP / race_radius, spall.extent / MOST_STEPS)
-    rolled, smooth = rolled_branches(surface, half, spall.race, race_radius, ball_radius, step, table_arcs(spall))
-    width = CELL_STEPS * (rolled.arc[-1] - rolled.arc[0]) / (rolled.arc.size - 1)
+    rolled = roll(surface, half, spall.race, race_radius, ball_radius, step, table_arcs(spall))
+    path, smooth = rolled.path, smooth_branches(rolled)
+    width = CELL_STEPS * (path.arc[-1] - path.arc[0]) / (path.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
     cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)
     return hermite_path(
@@ -137,7 +138,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         cells.tolist(),
         lambda arc: _on_branches(smooth, arc)[0],
         lambda arc: _on_branches(smooth, arc)[1],
-        bridged=not reaches_floor(spall, rolled.arc, surface(rolled.arc) - rolled.drop),
+        bridged=not reaches_floor(spall, path.arc, surface(path.arc) - path.drop),
         # One lip is enough for a free ball to touch it within a step.
         bumps=rough or measured,
         rough=rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS,

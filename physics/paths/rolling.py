@@ -78,7 +78,7 @@ def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float
     return min(furthest, 2.0 * math.asin(half_sine))
 
 
-def rolled_path(
+def roll(
     surface: Surface,
     half: float,
     race: str,
@@ -86,33 +86,13 @@ def rolled_path(
     ball_radius: float,
     step: float,
     lips: Array | None = None,
-) -> RolledPath:
-    """The path of the ball's centre over the `surface` of a spall of half width `half` (rad).
+) -> Rolled:
+    """A ball rolled over the `surface` of a spall of half width `half` (rad), with the path of its centre.
 
-    `step` is the wanted distance between the returned arcs (rad); between its `lips` (L,), rad, rising, the surface has
-    no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
+    `step` is the wanted distance between the arcs of the path (rad); between its `lips` (L,), rad, rising, the surface
+    has no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
     ball touches is looked for among points of the surface and then, exactly, between the neighbours of the point found.
     """
-    return _rolled(surface, half, race, race_radius, ball_radius, step, lips).path
-
-
-def rolled_branches(
-    surface: Surface,
-    half: float,
-    race: str,
-    race_radius: float,
-    ball_radius: float,
-    step: float,
-    lips: Array | None = None,
-) -> tuple[RolledPath, Branches]:
-    """The same path, and its smooth branches with those of bumps that hold the ball over less than a step."""
-    rolled = _rolled(surface, half, race, race_radius, ball_radius, step, lips)
-    return rolled.path, branches(_with_narrow_bumps(rolled))
-
-
-def _rolled(
-    surface: Surface, half: float, race: str, race_radius: float, ball_radius: float, step: float, lips: Array | None
-) -> Rolled:
     ball = Ball(race_radius, ball_radius, -1.0 if race == "outer" else 1.0)
     lips = np.zeros(0) if lips is None else lips
     count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
@@ -138,6 +118,11 @@ def _rolled(
     slope = ball.slope(held.depth, held.place - arc)
     path = RolledPath(arc, held.drop, slope, (held.place - arc[0]) / (fine * POINTS_A_STEP))
     return Rolled(path, ball, inside, points, depth)
+
+
+def smooth_branches(rolled: Rolled) -> Branches:
+    """The smooth branches of the path, those of bumps that hold the ball over less than a step among them."""
+    return branches(_with_narrow_bumps(rolled))
 
 
 def _with_narrow_bumps(rolled: Rolled) -> RolledPath:

@@ -10,7 +10,7 @@ from measures import hanging
 from scipy.interpolate import CubicSpline
 
 from physics.paths.corners import branches
-from physics.paths.rolling import deep_gap_drop, hanging_reach, rolled_branches, rolled_path
+from physics.paths.rolling import deep_gap_drop, hanging_reach, roll, smooth_branches
 
 BALL = 3.56e-3
 RACE = {"outer": 22.935e-3, "inner": 15.815e-3}
@@ -26,8 +26,8 @@ def sloped(depth):
     return lambda arc, order=0: depth(arc) if order == 0 else (depth(arc + apart) - depth(arc - apart)) / (2.0 * apart)
 
 
-def roll(depth, race, half=HALF, step=STEP):
-    return rolled_path(sloped(depth), half, race, RACE[race], BALL, step)[:2]
+def rolled(depth, race, half=HALF, step=STEP):
+    return roll(sloped(depth), half, race, RACE[race], BALL, step).path[:2]
 
 
 def gap(depth):
@@ -61,13 +61,13 @@ def bumpy(seed, height, waves=8):
 
 @RACES
 def test_a_deep_gap_is_crossed_on_the_closed_form_of_its_two_edges(race):
-    arcs, drop = roll(gap(1e-3), race)
+    arcs, drop = rolled(gap(1e-3), race)
     assert np.max(np.abs(drop - hanging(race, RACE[race], BALL, HALF - np.abs(arcs)))) < ROUNDING
 
 
 @RACES
 def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
-    arcs, drop = roll(gap(4e-6), race)
+    arcs, drop = rolled(gap(4e-6), race)
     expected = np.minimum(hanging(race, RACE[race], BALL, HALF - np.abs(arcs)), 4e-6)
     assert np.max(np.abs(drop - expected)) < ROUNDING
     assert np.count_nonzero(np.abs(drop - 4e-6) < ROUNDING) > 0.2 * arcs.size
@@ -76,7 +76,7 @@ def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
 @RACES
 @pytest.mark.parametrize("steps", [800, 801])  # the corner lies on a node, or in the middle between two
 def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slope(race, steps):
-    path = rolled_path(sloped(gap(1e-3)), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5))
+    path = roll(sloped(gap(1e-3)), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5)).path
     assert path.arc.size == steps + 1
     found = branches(path)
     assert found.edges[1:-1] == pytest.approx([0.0], abs=1e-9)
@@ -89,7 +89,7 @@ def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slop
 @RACES
 @pytest.mark.parametrize("seed", range(3))
 def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
-    path = rolled_path(sloped(bumpy(seed, 8e-6)), HALF, race, RACE[race], BALL, STEP)
+    path = roll(sloped(bumpy(seed, 8e-6)), HALF, race, RACE[race], BALL, STEP).path
     found = branches(path)
     assert 2 < found.edges.size < 20
     width, rise = np.diff(found.arc), np.diff(found.drop)
@@ -130,7 +130,7 @@ def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
 def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(race, ball_share):
     ball = ball_share * RACE[race]
     half = 0.98 * math.asin(ball_share)
-    arcs, drop, _, _ = rolled_path(sloped(gap(5e-3)), half, race, RACE[race], ball, STEP)
+    arcs, drop, _, _ = roll(sloped(gap(5e-3)), half, race, RACE[race], ball, STEP).path
     exact, _ = deep_gap_drop(race, RACE[race], ball)
     assert np.max(np.abs(drop - np.minimum(exact(half - np.abs(arcs)), 5e-3))) < ROUNDING * 10  # steep: more rounding
 
@@ -139,14 +139,14 @@ def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(rac
 @pytest.mark.parametrize("seed", range(4))
 def test_the_ball_touches_the_surface_and_never_enters_it(race, seed):
     surface = bumpy(seed, 8e-6)
-    arcs, drop = roll(surface, race)
+    arcs, drop = rolled(surface, race)
     distance = closest(surface, race, arcs[::16], drop[::16])
     assert np.max(np.abs(distance - BALL)) < 1e-8  # contacts found to 0.6 µm on bumps of 50 µm radius: 4 nm, twice
 
 
 @RACES
 def test_a_smooth_healthy_race_leaves_the_ball_where_it_is(race):
-    _, drop = roll(gap(0.0), race)
+    _, drop = rolled(gap(0.0), race)
     assert np.max(np.abs(drop)) < ROUNDING
 
 
@@ -154,7 +154,7 @@ def test_a_smooth_healthy_race_leaves_the_ball_where_it_is(race):
 @pytest.mark.parametrize("seed", range(3))
 def test_the_ball_s_centre_is_never_deeper_than_the_surface_below_it(race, seed):
     surface = bumpy(seed, 20e-6)
-    arcs, drop = roll(surface, race)
+    arcs, drop = rolled(surface, race)
     assert np.all(drop <= np.where(np.abs(arcs) < HALF, surface(arcs), 0.0) + ROUNDING)
 
 
@@ -166,7 +166,7 @@ def test_a_ball_neither_sinks_into_a_steep_taper_nor_is_lifted_by_it(race, taper
     def surface(arc):
         return depth * np.sin(0.5 * np.pi * np.clip((half - np.abs(arc)) / width, 0.0, 1.0)) ** 2
 
-    arcs, drop = roll(surface, race, half)
+    arcs, drop = rolled(surface, race, half)
     for arc, found in zip(arcs[1:-1:23], drop[1:-1:23], strict=True):
         # Points of the taper itself, much closer together than it bends.
         edge = half - width * np.linspace(0.0, 1.0, 200_001)
@@ -190,7 +190,7 @@ def test_over_a_taper_the_ball_runs_on_the_curve_one_radius_off_it(race, taper):
             return depth * np.sin(0.5 * np.pi * into) ** 2
         return -np.sign(arc) * depth * 0.5 * np.pi / width * np.sin(np.pi * into)
 
-    arcs, drop, slope, _ = rolled_path(surface, HALF, race, RACE[race], BALL, STEP)
+    arcs, drop, slope, _ = roll(surface, HALF, race, RACE[race], BALL, STEP).path
     # Points of the taper near its edge and the ball that lies on each of them, along the normal there.
     touched = -HALF + width * np.linspace(1e-5, 0.3, 4001)
     radius, tilt = RACE[race] + outward * surface(touched), outward * surface(touched, 1)
@@ -215,7 +215,7 @@ def test_a_ball_turns_around_a_lip_wherever_it_lies_between_points(race):
             return np.interp(arc, knots, depths)
         return np.concatenate([[0.0], np.diff(depths) / np.diff(knots), [0.0]])[np.searchsorted(knots, arc)]
 
-    arcs, drop, slope, _ = rolled_path(surface, HALF, race, RACE[race], BALL, STEP, knots)
+    arcs, drop, slope, _ = roll(surface, HALF, race, RACE[race], BALL, STEP, knots).path
     near = np.abs(arcs - lip) < 1e-3
     radius, away = RACE[race] + outward * 2e-6, lip - arcs[near]
     hanging = np.sqrt(BALL**2 - (radius * np.sin(away)) ** 2)
@@ -240,11 +240,12 @@ def test_a_bump_that_holds_the_ball_over_less_than_a_step_is_not_passed_over(rac
 
         return surface
 
-    path, without = rolled_branches(sloped(crests(0.0)), half, race, RACE[race], BALL, STEP)
+    low = roll(sloped(crests(0.0)), half, race, RACE[race], BALL, STEP)
+    path, without = low.path, smooth_branches(low)
     assert np.min(np.abs(path.arc - middle)) == pytest.approx(0.5 * step)
     corner = float(np.interp(middle, without.arc, without.drop))
     surface = crests(20e-6 - corner + 15e-9)  # holds the ball 15 nm higher than its neighbours, over a µm
-    _, found = rolled_branches(sloped(surface), half, race, RACE[race], BALL, STEP)
+    found = smooth_branches(roll(sloped(surface), half, race, RACE[race], BALL, STEP))
     near = np.abs(found.edges - middle) < 0.5 * step
     assert np.count_nonzero(near) == 2
     assert 0.0 < np.ptp(found.edges[near]) < 0.5 * step
@@ -265,7 +266,7 @@ def test_a_path_over_roughness_is_the_same_with_steps_eight_times_as_short(race,
         return rough(arc, order) + (10e-6 if order == 0 else 0.0)
 
     arcs = np.linspace(-half, half, 400_001)
-    long, short = (rolled_branches(surface, half, race, RACE[race], BALL, step / n)[1] for n in (1, 8))
+    long, short = (smooth_branches(roll(surface, half, race, RACE[race], BALL, step / n)) for n in (1, 8))
     assert long.edges.size > 100
     drops = [np.interp(arcs, found.arc, found.drop) for found in (long, short)]
     np.testing.assert_allclose(*drops, rtol=0, atol=2e-9)  # chords of 2 µm, and corners of bumps less than 6 µm apart
@@ -276,8 +277,8 @@ def test_a_path_over_roughness_is_the_same_with_steps_eight_times_as_short(race,
 def test_a_deeper_surface_never_lifts_the_ball(race, seed):
     shallow = bumpy(seed, 10e-6)
     extra = bumpy(seed + 100, 10e-6)
-    _, upper = roll(lambda arc: np.maximum(shallow(arc), 0.0), race)
-    arcs, lower = roll(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race)
+    _, upper = rolled(lambda arc: np.maximum(shallow(arc), 0.0), race)
+    arcs, lower = rolled(lambda arc: np.maximum(shallow(arc), 0.0) + np.maximum(extra(arc), 0.0), race)
     assert np.all(lower >= upper - ROUNDING)
     assert np.max(lower - upper) > 1e-7
     assert arcs.size == upper.size
@@ -287,29 +288,29 @@ def test_a_deeper_surface_never_lifts_the_ball(race, seed):
 @pytest.mark.parametrize("seed", range(2))
 def test_rolling_over_what_the_ball_left_reachable_changes_nothing(race, seed):
     surface = bumpy(seed, 8e-6)
-    arcs, drop = roll(lambda arc: np.maximum(surface(arc), 0.0), race)
+    arcs, drop = rolled(lambda arc: np.maximum(surface(arc), 0.0), race)
     outward = 1 if race == "outer" else -1
     centre = RACE[race] - outward * BALL + outward * drop
     away = arcs[:, None] - arcs[None, :]
     furthest_out = outward * centre * np.cos(away) + np.sqrt(BALL**2 - (centre * np.sin(away)) ** 2)
     reached = np.max(furthest_out, axis=1) - outward * RACE[race]
     assert np.max(surface(arcs) - reached) > 1e-6
-    _, again = roll(lambda arc: np.interp(arc, arcs, reached), race)
+    _, again = rolled(lambda arc: np.interp(arc, arcs, reached), race)
     assert np.max(np.abs(again - drop)) < 1e-8  # the surface left is known every 1.6 µm, on bumps of 50 µm radius: 6 nm
 
 
 @RACES
 def test_a_symmetric_surface_gives_a_symmetric_path(race):
     surface = bumpy(1, 10e-6)
-    _, drop = roll(lambda arc: surface(arc) + surface(-arc), race)
+    _, drop = rolled(lambda arc: surface(arc) + surface(-arc), race)
     assert np.allclose(drop, drop[::-1], rtol=0, atol=ROUNDING)
 
 
 @RACES
 def test_a_mirrored_surface_gives_the_mirrored_path(race):
     surface = bumpy(2, 10e-6)
-    _, drop = roll(surface, race)
-    _, mirrored = roll(lambda arc: surface(-arc), race)
+    _, drop = rolled(surface, race)
+    _, mirrored = rolled(lambda arc: surface(-arc), race)
     assert np.allclose(drop, mirrored[::-1], rtol=0, atol=ROUNDING)
 
 
@@ -320,7 +321,7 @@ def ridge(arc):
 
 @RACES
 def test_a_bump_that_stands_proud_lifts_the_ball_before_the_edge(race):
-    arcs, drop = roll(ridge, race)
+    arcs, drop = rolled(ridge, race)
     assert drop.min() == pytest.approx(-6e-6, abs=1e-11)  # the grid may miss the lip's centre by half a step
     assert arcs[0] < -HALF
     approach = drop[arcs < -HALF + 1e-4]
@@ -332,7 +333,7 @@ def test_a_bump_that_stands_proud_lifts_the_ball_before_the_edge(race):
 @RACES
 def test_a_ball_climbs_a_proud_plateau_on_its_very_corner(race):
     proud, turn = 3e-6, -1 if race == "outer" else 1
-    arc, drop = roll(gap(-proud), race)
+    arc, drop = rolled(gap(-proud), race)
     before = (arc < -HALF) & (drop < -ROUNDING)
     corner, psi = RACE[race] + turn * proud, -HALF - arc[before]
     sag = BALL - np.sqrt(BALL**2 - corner**2 * np.sin(psi) ** 2) + turn * corner * (1 - np.cos(psi))
@@ -342,7 +343,7 @@ def test_a_ball_climbs_a_proud_plateau_on_its_very_corner(race):
 
 @RACES
 def test_both_edges_stay_exact_when_a_bump_stands_proud(race):
-    arcs, drop = roll(ridge, race)
+    arcs, drop = rolled(ridge, race)
     beside_exit = (arcs > HALF - 5e-3) & (arcs < HALF)
     expected = hanging(race, RACE[race], BALL, HALF - arcs[beside_exit])
     assert np.max(np.abs(drop[beside_exit] - expected)) < ROUNDING
@@ -351,7 +352,7 @@ def test_both_edges_stay_exact_when_a_bump_stands_proud(race):
 @RACES
 @pytest.mark.parametrize("height", [5e-6, 5e-4])
 def test_the_path_of_a_lifted_ball_begins_and_ends_at_zero(race, height):
-    arcs, drop = roll(lambda arc: np.where(np.abs(arc) > HALF - 1e-4, -height, 0.0), race)
+    arcs, drop = rolled(lambda arc: np.where(np.abs(arc) > HALF - 1e-4, -height, 0.0), race)
     assert arcs[0] == pytest.approx(-arcs[-1], rel=1e-12)
     assert max(abs(drop[0]), abs(drop[-1])) < ROUNDING
     touch = hanging_reach(race, RACE[race] - height if race == "outer" else RACE[race] + height, BALL, height)
@@ -360,7 +361,7 @@ def test_the_path_of_a_lifted_ball_begins_and_ends_at_zero(race, height):
 
 @RACES
 def test_arcs_are_no_further_apart_than_asked(race):
-    arcs, _ = roll(gap(1e-5), race, half=0.3, step=STEP)
+    arcs, _ = rolled(gap(1e-5), race, half=0.3, step=STEP)
     assert np.max(np.diff(arcs)) <= STEP * (1 + 1e-9)
     assert np.ptp(np.diff(arcs)) < 1e-12
 
@@ -374,7 +375,7 @@ def test_a_ball_falls_to_the_floor_of_a_hole_deeper_than_itself_and_is_found_the
         bumps = 1e-6 * np.cos(4e2 * arc)
         return np.full_like(arc, floor) + bumps if order == 0 else -4e-4 * np.sin(4e2 * arc)
 
-    path = rolled_path(surface, half, race, RACE[race], BALL, STEP)
+    path = roll(surface, half, race, RACE[race], BALL, STEP).path
     # A ball that touches neither edge from beside its centre rests on the floor, a little above its deepest points.
     free = np.abs(path.arc) < half - 1.05 * math.asin(BALL / RACE[race])
     assert free.sum() > 500

@@ -15,6 +15,8 @@ from physics.arrays import Array
 from physics.integrators.modal.flow import slowest_decay
 from physics.integrators.modal.memory import Stride
 from physics.integrators.output import Output
+from physics.integrators.propagator import reach
+from physics.motion import motion_model
 from physics.paths.profile import is_rough
 from physics.response.adaptive import PILOT_SAMPLES, respond_accurately
 from physics.response.modal_case import March
@@ -25,10 +27,13 @@ from physics.statics.load_distribution import Equilibrium
 from physics.trace import ContactChanges, Trace
 
 METHOD = "modal, repeated"
-# Samples of the march for each one asked for: the response is read between them.
-FINENESS = 4
+# The response is read between samples of the march: so many a period of the fastest mode, and at least so many for each
+# one asked for.
+SAMPLES_PER_FAST_PERIOD, FINENESS = 16.0, 3
 # A record must hold this many periods, or repeating spares too little; fewer where a spall is rough and steps short.
 FEWEST_PERIODS, FEWEST_ROUGH_PERIODS = 20, 12
+# So many periods show how a slow part of the transient falls.
+FEWEST_MARCHED = 3
 # Of the accuracy asked for: what the march may be wrong by, and how far its last period may be from all later ones.
 MARCHED, REPEATED = 0.85, 0.4
 # A spall that a ball passes in fewer samples than this leaves spikes that lie between the samples that are read.
@@ -68,9 +73,8 @@ def respond_until_repeated(
     """
     if any(spall.extent * rate < FEWEST_SAMPLES_A_PASS * scene.cage.mean_speed for spall in scene.spalls):
         return respond_accurately(scene, rest, rate, samples, accuracy, least)
-    period = period_of(scene)
-    cells = math.ceil(FINENESS * rate * period)
-    duration = samples / rate
+    period, fineness, duration = period_of(scene), _fineness(scene, rate), samples / rate
+    cells = math.ceil(fineness * rate * period)
     marching = _Repeating(cells, REPEATED * accuracy, REPEATED * least)
     marched = respond_accurately(
         scene,
@@ -80,12 +84,17 @@ def respond_until_repeated(
         MARCHED * accuracy,
         MARCHED * least,
         go_on=marching.go_on,
-        pilot=FINENESS * PILOT_SAMPLES,
+        pilot=fineness * PILOT_SAMPLES,
     )
     trace = _read_again(scene, marched, marching, rate, samples)
     if trace.error_estimate > accuracy and trace.error_estimate * rms(trace.acceleration) > least:
         return respond_accurately(scene, rest, rate, samples, accuracy, least)
     return trace
+
+
+def _fineness(scene: Scene, rate: float) -> int:
+    """How many times as dense as asked for, at `rate` (Hz), the samples of the march are."""
+    return max(FINENESS, math.ceil(SAMPLES_PER_FAST_PERIOD * reach(motion_model(scene), 1.0 / rate) / (2.0 * math.pi)))
 
 
 def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float, samples: int) -> Trace:
@@ -126,7 +135,7 @@ class _Repeating:
     def go_on(self, march: March, grid: Stride) -> Output:
         """The output, up to the last period that was needed."""
         self._decay = slowest_decay(march.case.flow) * self.cells / march.case.rate
-        for count in range(2, grid.samples // self.cells + 1):
+        for count in range(FEWEST_MARCHED, grid.samples // self.cells + 1):
             marched = count * self.cells
             output = march.go_on(grid._replace(samples=marched))
             output = output._replace(acceleration=output.acceleration[:marched])
@@ -139,8 +148,9 @@ class _Repeating:
         """How far (m/s², RMS) the last of the periods so far is estimated to be from all later ones.
 
         What is left of the transient, were it to fall from now on as it did in the last half of the `acceleration`
-        (T, 2), or no faster than the slowest mode decays. The last period is held against all others of that half: a
-        response that repeats itself only after two or more periods differs from its neighbour.
+        (T, 2), or no faster than the slowest mode decays; or what is left of a slow part of it, if that is more. The
+        last period is held against all others of that half: a response that repeats itself only after two or more
+        periods differs from its neighbour.
         """
         periods = acceleration.shape[0] // self.cells
         half = periods // 2
@@ -151,7 +161,21 @@ class _Repeating:
         if apart == 0.0 or apart >= before:
             return math.inf if apart > 0.0 else 0.0
         fallen = max(apart / before, math.exp(-self._decay * half))
-        return apart * fallen / (1.0 - fallen) if fallen < 1.0 else math.inf
+        left = apart * fallen / (1.0 - fallen) if fallen < 1.0 else math.inf
+        return max(left, self._slowly_left(acceleration, last, max(1, half // 2)))
+
+    def _slowly_left(self, acceleration: Array, last: int, span: int) -> float:
+        """How far (m/s², RMS) the `last` period is from all later ones by what goes on in one direction, or to and fro.
+
+        Contacts can feed a part of the transient, which then falls more slowly than any mode decays, and at first is
+        hidden behind the rest. Its fall is that of the way over the last `span` periods, as far as it goes along the
+        way over those before; errors of the steps go in other directions.
+        """
+        now = self._apart(acceleration, last, last - span)
+        before = self._apart(acceleration, last - span, last - 2 * span)
+        along = 0.5 * (self._apart(acceleration, last, last - 2 * span) ** 2 - now**2 - before**2)
+        fallen = along / before**2 if before > 0.0 else 0.0
+        return now * abs(fallen) / (1.0 - fallen) if fallen < 1.0 else math.inf
 
     def _apart(self, acceleration: Array, one: int, other: int) -> float:
         """How far (m/s², RMS) two periods of the `acceleration` (T, 2) are apart."""

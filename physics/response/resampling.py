@@ -71,13 +71,13 @@ def _weigh(phases: Array, weights: Array, lowered: Array) -> None:
 
 
 def read_at(signal: Array, place: Array) -> Array:
-    """Values (K, C) of `signal` (T, C) at each `place` (K,) in samples, by quintic polynomials.
+    """Values (K, 2) of `signal` (T, 2) at each `place` (K,) in samples, by quintic polynomials.
 
     Raises ValueError if there are fewer than 6 samples.
     """
     if signal.shape[0] < POINTS:
         raise ValueError(f"{signal.shape[0]} samples; reading between them takes at least {POINTS}")
-    values = np.zeros((place.size, signal.shape[1]))
+    values = np.zeros((place.size, 2))
     _read_at(np.ascontiguousarray(signal), np.ascontiguousarray(place), values)
     return values
 
@@ -85,43 +85,46 @@ def read_at(signal: Array, place: Array) -> Array:
 @njit_lean
 def _read_at(signal: Array, place: Array, values: Array) -> None:
     for k in range(place.size):
-        _read_one(signal, place[k], signal.shape[0], values, k)
+        _read_one(signal, place[k], min(_first_point(place[k]), signal.shape[0] - POINTS), values, k)
 
 
 def read_repeated(signal: Array, period: int, pace: float, count: int) -> Array:
-    """Values (count, C) at the places k · `pace` of `signal` (T, C), whose last `period` samples, 6 or more, go on and
+    """Values (count, 2) at the places k · `pace` of `signal` (T, 2), whose last `period` samples, 6 or more, go on and
     on."""
-    values = np.zeros((count, signal.shape[1]))
-    _read_repeated(np.ascontiguousarray(signal), period, pace, values)
+    values, end = np.zeros((count, 2)), signal.shape[0]
+    _read_repeated(np.concatenate([signal, signal[end - period :][:POINTS]]), end, period, pace, values)
     return values
 
 
 @njit_lean
-def _read_repeated(signal: Array, period: int, pace: float, values: Array) -> None:
-    end = signal.shape[0]
+def _read_repeated(signal: Array, end: int, period: int, pace: float, values: Array) -> None:
+    """As `read_repeated`, of a `signal` that goes on behind its `end` by as many samples as are read there."""
     for k in range(values.shape[0]):
         place = k * pace
         if place >= end:
             place -= math.floor((place - end) / period + 1.0) * period
-        _read_one(signal, place, period, values, k)
+        _read_one(signal, place, _first_point(place), values, k)
 
 
 @njit_inline
-def _read_one(signal: Array, place: float, period: int, values: Array, row: int) -> None:
-    """Fill one `row` of `values` (K, C): what `signal` (T, C) is at a `place`; points beyond its end are those a
-    `period` earlier, if that is less than the signal."""
-    last = signal.shape[0]
-    first = max(int(place) - POINTS // 2 + 1, 0)
-    if period >= last:
-        first = min(first, last - POINTS)
+def _first_point(place: float) -> int:
+    """The first of the POINTS samples around a `place`."""
+    return max(int(place) - POINTS // 2 + 1, 0)
+
+
+@njit_inline
+def _read_one(signal: Array, place: float, first: int, values: Array, row: int) -> None:
+    """Fill one `row` of `values` (K, 2): what the polynomial through the POINTS samples of `signal` (T, 2) from the
+    `first` on is at a `place`."""
     a = place - first
     b, c, d, e, f = a - 1.0, a - 2.0, a - 3.0, a - 4.0, a - 5.0
     ab, ef = a * b, e * f
     abc, d_to_f = ab * c, d * ef
     shares = (b * c * d_to_f, a * c * d_to_f, ab * d_to_f, abc * ef, abc * d * f, abc * d * e)
-    for channel in range(signal.shape[1]):
-        total = 0.0
-        for j in range(POINTS):
-            point = first + j
-            total += SHARES[j] * shares[j] * signal[point if point < last else point - period, channel]
-        values[row, channel] = total
+    along, across = 0.0, 0.0
+    for j in range(POINTS):
+        # Unsigned, so that no point is looked at for being counted from the end.
+        point, share = np.uint64(first + j), SHARES[j] * shares[j]
+        along += share * signal[point, 0]
+        across += share * signal[point, 1]
+    values[row, 0], values[row, 1] = along, across

@@ -114,6 +114,13 @@ def test_a_response_that_repeats_itself_only_after_two_periods_is_not_read_from_
     assert trace.error_estimate <= 1e-3
 
 
+def test_a_slow_part_of_the_transient_that_hides_behind_the_rest_is_seen(reference_scene):
+    scene = changed(reference_scene("F1"), operation={"load": 80.0})
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
+    assert trace.method == METHOD
+    assert rms(trace.acceleration - exact.acceleration) <= trace.error_estimate * rms(exact.acceleration)
+
+
 def test_a_response_of_which_a_low_rate_leaves_little_is_not_repeated(reference_scene):
     scene = _without_slip(reference_scene("F1s"), 0.4)
     low, exact = simulate(scene, 1000.0), simulate(scene, 1000.0, Accurate(1e-6))

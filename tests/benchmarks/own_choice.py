@@ -35,6 +35,7 @@ from physics.request import Accurate, FixedSteps, Solution
 from physics.rms import relative_error, rms
 from physics.scene import Scene
 from physics.simulate import simulate
+from physics.trace import Trace
 from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -63,17 +64,16 @@ def shortened(scene: Scene, seconds: float) -> Scene:
     return replace(scene, cage=cages[0], second_cage=cages[1])
 
 
-def judge(scene: Scene, rate: float) -> tuple[Array, float]:
-    """Acceleration (T, 2) by fixed steps, and how far (relative RMS) two step sizes are apart."""
+def judge(scene: Scene, rate: float) -> tuple[Trace, float]:
+    """The response by fixed steps, and how far (relative RMS) the accelerations of two step sizes are apart."""
     coarse, fine = (
-        simulate(scene, rate, FixedSteps(count)).acceleration
-        for count in (JUDGING_SUBSTEPS[0] // 2, JUDGING_SUBSTEPS[0])
+        simulate(scene, rate, FixedSteps(count)) for count in (JUDGING_SUBSTEPS[0] // 2, JUDGING_SUBSTEPS[0])
     )
     last = fine
-    apart = relative_error(coarse, fine)
+    apart = relative_error(coarse.acceleration, fine.acceleration)
     if apart > CERTAIN * ACCURACY:
-        last = simulate(scene, rate, FixedSteps(JUDGING_SUBSTEPS[1])).acceleration
-        apart = relative_error(fine, last)
+        last = simulate(scene, rate, FixedSteps(JUDGING_SUBSTEPS[1]))
+        apart = relative_error(fine.acceleration, last.acceleration)
     return last, apart
 
 
@@ -108,7 +108,8 @@ def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: 
     """One scene's row; `allowed` is the accuracy and the error (m/s²) that its recipe asks for."""
     trace = simulate(scene, rate, Accurate(ACCURACY))
     seconds, _ = timed(lambda: simulate(scene, rate, Accurate(ACCURACY)).acceleration)
-    exact, apart = judge(scene, rate)
+    judged, apart = judge(scene, rate)
+    exact = judged.acceleration
     accuracy, least = allowed
     own = simulate(scene, rate, Accurate(accuracy, least_error=least))
     row: dict[str, object] = {

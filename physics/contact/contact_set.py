@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
-from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts
+from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts, law_force
 
 # A mark is a polynomial in this number (a multiplier of D. Knuth's generators) with coefficients of 0 and 1, cut to as
 # many bits as a float holds with room for more. The number's powers up to the 2^50th differ in these bits.
@@ -107,6 +107,29 @@ def count_brushes(balls: Array, noted: Array) -> int:
             came = (noted[cage, 0, j] < 0.0) & (balls[cage, COMPRESSION, j] > 0.0)
             brushes += came & (balls[cage, ACTIVE, j] < 0.5) & (balls[cage, LAW, j] <= 0.0)
     return brushes
+
+
+@njit_inline
+def count_lapses(contacts: Contacts, noted: Array, step: float) -> int:
+    """Number of balls that are pressed now and `step` s ago, as `noted`, but seem to have been let go of in between.
+
+    Without tension the film lets go of a ball that is still compressed. Between, its force is taken for a parabola, and
+    its compression halfway for that of the cubic with the rates of both ends.
+    """
+    balls, law, lapses = contacts.balls, contacts.law, 0
+    for cage in range(balls.shape[0]):
+        for j in range(balls.shape[2]):
+            start, rate = noted[cage, 0, j], noted[cage, 1, j]
+            end, end_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
+            if balls[cage, ACTIVE, j] > 0.5 and min(rate, end_rate) < 0.0 and min(start, end) > 0.0:
+                halfway = 0.5 * (start + end) + 0.125 * step * (rate - end_rate)
+                halfway_rate = 1.5 * (end - start) / step - 0.25 * (rate + end_rate)
+                first, middle = law_force(law, start, rate), law_force(law, halfway, halfway_rate)
+                last = balls[cage, LAW, j]
+                bend, slope = 2.0 * (first - 2.0 * middle + last), 4.0 * middle - 3.0 * first - last
+                turns_inside = (slope < 0.0) & (slope + 2.0 * bend > 0.0)
+                lapses += (first > 0.0) & (last > 0.0) & turns_inside & (slope * slope > 4.0 * first * bend)
+    return lapses
 
 
 @njit_inner

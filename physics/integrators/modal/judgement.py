@@ -6,7 +6,7 @@ import math
 
 from physics._jit import njit_inline, njit_pasted
 from physics.arrays import Array
-from physics.contact.contact_set import count_brushes, count_dips
+from physics.contact.contact_set import count_brushes, count_dips, count_lapses
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
 from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
 from physics.integrators.modal.memory import (
@@ -65,7 +65,7 @@ def dipped(contacts: Contacts, grid: Stride, memory: Memory, step: float, contra
         return False
     dips = 0 if contradicted else count_dips(contacts.balls, memory.noted, step)
     if contacts.law.no_tension:
-        dips += count_brushes(contacts.balls, memory.noted)
+        dips += count_brushes(contacts.balls, memory.noted) + count_lapses(contacts, memory.noted, step)
     if dips == 0:
         return False
     memory.clock[PACE] = 0.5 * step

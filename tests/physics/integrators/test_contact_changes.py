@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from variants import changed
 
 from physics.request import FixedSteps
 from physics.simulate import simulate
@@ -140,6 +141,18 @@ def test_the_no_tension_law_never_pulls(fine_fan_without_tension, reference_scen
     assert trace.tension_share == 0.0
     coarse = dataclasses.replace(reference_scene("F1", 0.1), contact_law="no_tension")
     assert simulate(coarse, RATE, keep=Kept(force=True)).contact_force.min() >= 0.0
+
+
+def test_without_tension_a_ball_that_is_let_go_of_within_a_step_is_seen(reference_scene):
+    loose = changed(
+        reference_scene("G1", 0.1, slip_seed=3),
+        rig={"film_damping": 3.45 * reference_scene("G1").rig.film_damping},
+        operation={"load": 0.21 * reference_scene("G1").operation.load},
+        contact_law="no_tension",
+    )
+    trace, exact = simulate(loose, 48000.0), simulate(loose, 48000.0, FixedSteps(64))
+    assert trace.changes.time.size == exact.changes.time.size == 26
+    assert np.sort(trace.changes.time) == pytest.approx(np.sort(exact.changes.time), abs=1e-7)
 
 
 def test_the_tension_share_is_the_share_of_contact_time_in_which_forces_pull(reference_scene):

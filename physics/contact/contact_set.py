@@ -113,8 +113,8 @@ def count_brushes(balls: Array, noted: Array) -> int:
 def count_lapses(contacts: Contacts, noted: Array, step: float) -> int:
     """Number of balls that are pressed now and `step` s ago, as `noted`, but seem to have been let go of in between.
 
-    Without tension the film lets go of a ball that is still compressed. Between, its force is taken for a parabola, and
-    its compression halfway for that of the cubic with the rates of both ends.
+    Without tension the film lets go of a ball that is still compressed, if that unloads fast enough. Between, its force
+    is taken for a parabola, and its compression halfway for that of the cubic with the rates of both ends.
     """
     balls, law, lapses = contacts.balls, contacts.law, 0
     for cage in range(balls.shape[0]):

@@ -7,6 +7,7 @@ Each direction is u' = L u + b F with u = (xo, vo, xr, vr). A step of length h n
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from physics.arrays import Array
 from physics.motion import MotionModel
 
 SERIES_TOLERANCE = 1e-18
+MODELS_KEPT = 8
 
 
 class PowerSeries(NamedTuple):
@@ -54,8 +56,14 @@ def linear_matrix(motion: MotionModel, axis: int) -> Array:
 
 def reach(motion: MotionModel, step: float) -> float:
     """Largest |eigenvalue| of the linear part times `step`: how many radians its fastest mode turns in one step."""
+    return _fastest(motion) * step
+
+
+@lru_cache(maxsize=MODELS_KEPT)
+def _fastest(motion: MotionModel) -> float:
+    """Largest |eigenvalue| (1/s) of the linear part; asked for several times a scene."""
     matrices = np.array([linear_matrix(motion, axis) for axis in range(2)])
-    return float(np.abs(np.linalg.eigvals(matrices)).max() * step)
+    return float(np.abs(np.linalg.eigvals(matrices)).max())
 
 
 def power_series(motion: MotionModel, step: float) -> PowerSeries:

@@ -120,10 +120,8 @@ def timing(scene: Scene, trace: Trace, judged: Trace) -> dict[str, int]:
 def stiffness_error(scene: Scene, rate: float) -> dict[str, float]:
     """RMS error of the worst component of the stiffness over the mean of kyy, and what is said of it."""
     count = round(scene.duration * rate)
-    series, solved = (
-        stiffness_series(scene, 1.0 / rate, count),
-        stiffness_trace(scene, np.arange(count) / rate, TOLERANCE),
-    )
+    series = stiffness_series(scene, 1.0 / rate, count)
+    solved = stiffness_trace(scene, np.arange(count) / rate, TOLERANCE)
     mean = float(solved[:, 1].mean())
     error = max(rms(series.stiffness[:, part] - solved[:, part]) for part in range(3)) / mean if mean > 0.0 else 0.0
     return {"stiffness_error": error, "stiffness_said": series.error}

@@ -140,7 +140,8 @@ LABELS: tuple[Label, ...] = (
         "snr_db",
         "dB",
         "record",
-        "Power of the sensor's signal over that of the background, y axis, 0 to half the sampling rate.",
+        "Power of the sensor's signal over that of the background, y axis, each without its mean, up to half the "
+        "sampling rate.",
         "the record has no background, or its sensor no signal",
     ),
     _number(

@@ -12,7 +12,7 @@ from datagen.benchmark.verdicts import Tested, Verdicts
 from labels.classifier.classes import condition_probability, location_probability
 from labels.schema import CONDITIONS, LOCATIONS
 
-FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "shocks_cut")
+FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "shocks_cut", "in_mains")
 SAID = ("location", "score", "alarm")
 
 
@@ -36,7 +36,8 @@ class ModelAnswer:
 @dataclass(frozen=True)
 class Prediction:
     """What is known of a record (`truth`, its location), why it was `rejected` ("" if it was not), how many glitches
-    were drawn over and shocks cut, and the answer of each of the `models`."""
+    were drawn over and shocks cut, which races hide `in_mains` ("", "outer", "inner" or "outer inner"), and the answer
+    of each of the `models`."""
 
     record: int
     recording: str
@@ -45,6 +46,7 @@ class Prediction:
     rejected: str
     despiked: int
     shocks_cut: int
+    in_mains: str
     models: dict[str, ModelAnswer]
 
     @property
@@ -68,6 +70,7 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             rejected=str(tested.reasons[place]),
             despiked=int(tested.glitches[place]),
             shocks_cut=int(tested.shocks[place]),
+            in_mains=str(tested.in_mains[place]),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )
         for place, (_, row) in enumerate(tested.labels.iterrows())

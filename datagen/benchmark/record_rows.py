@@ -20,6 +20,7 @@ from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
+from labels.features.families import races_in_mains
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
 from labels.features.shocks import without_shocks
@@ -48,12 +49,13 @@ class Row:
 @dataclass(frozen=True)
 class RecordRows:
     """The rows of one record, why it must not be classified ("" if it may), how many glitches were drawn over in it and
-    how many shocks cut."""
+    how many shocks cut, and the races whose faults hide among multiples of the mains."""
 
     rows: list[Row]
     reason: str
     glitches: int = 0
     shocks: int = 0
+    in_mains: tuple[str, ...] = ()
 
 
 def feature_rows(found: Sequence[Row], record: int) -> Rows:
@@ -88,7 +90,10 @@ def record_rows(
         glitches, shocks = glitches + drawn_over, shocks + cut
         rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
-    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks)
+    step = 1.0 / min(len(signals) / rate, reading.window)
+    # Over the angle of a shaft that changes its speed, mains is no line and nothing is left out for it.
+    in_mains = races_in_mains(kinematics, step) if turning is None else ()
+    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks, in_mains)
 
 
 def signal_rows(

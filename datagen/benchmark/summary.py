@@ -52,6 +52,7 @@ def summarise(tested: Tested) -> CorpusScores:
         rejections=dict(Counter(str(reason) for reason in tested.reasons if reason)),
         despiked={"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
         shocks_cut={"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
+        in_mains={race: int((np.char.find(tested.in_mains, race) >= 0).sum()) for race in RACES},
         models={verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
     )
 

@@ -52,7 +52,7 @@ class Tested:
     """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
 
     `reasons` (R,) say why a record was rejected, `glitches` (R,) how many were drawn over in it, `shocks`
-    (R,) how many were cut.
+    (R,) how many were cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks between.
     """
 
     folder: Path
@@ -62,6 +62,7 @@ class Tested:
     reasons: NDArray[np.str_]
     glitches: NDArray[np.int64]
     shocks: NDArray[np.int64]
+    in_mains: NDArray[np.str_]
     verdicts: tuple[Verdicts, ...]
     imported: bool
 
@@ -91,6 +92,7 @@ def judge(
         np.array([counts.get(record, 0) for record in records.tolist()], dtype=np.int64)
         for counts in (found.glitches, found.shocks)
     )
+    in_mains = np.array([" ".join(found.in_mains.get(record, ())) for record in records.tolist()], dtype=np.str_)
     verdicts = [_of_rule(rule, found.rows, records, reasons)]
     verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
     truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
@@ -103,6 +105,7 @@ def judge(
         reasons=reasons,
         glitches=glitches,
         shocks=shocks,
+        in_mains=in_mains,
         verdicts=tuple(verdicts),
         imported=imported,
     )

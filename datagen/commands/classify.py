@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 Option, Argument = typer.Option, typer.Argument
 AS_USUAL = Options()
+IN_MAINS = "balls pass the {race} race at a multiple of 50 or 60 Hz, which is not counted: a fault of it is hardly seen"
 Train = Annotated[
     Path,
     Option(
@@ -139,6 +140,9 @@ def print_results(tests: list[CorpusResults]) -> None:
             print("  despiked   {glitches} glitches in {records} records".format(**found.despiked))
         if found.shocks_cut["shocks"]:
             print("  shocks cut {shocks} in {records} records".format(**found.shocks_cut))
+        for race, count in found.in_mains.items():
+            if count:
+                print(f"  in mains   {count}: {IN_MAINS.format(race=race)}")
         for noisy in test.noise:
             for name, scores in noisy.scores.models.items():
                 print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")

@@ -27,7 +27,7 @@ def import_recordings(
     ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Import recordings (.mat, .npz, .npy, .csv, .wav, .nc) as a corpus; nothing is written if any file is bad."""
+    """Import recordings (.mat, .npz, .npy, .csv, .wav, .nc, .h5) as a corpus; nothing is written if any file is bad."""
     from datagen.recordings.importing import import_recordings as bring
     from datagen.recordings.spec import load_spec
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-# ISA-L's third level: streams about 3 % longer than those of zlib's first, made in a fifth of the time.
-ISAL_LEVEL = 3
+# ISA-L's first level: streams about 6 % longer than those of zlib's first, made in a tenth of the time. Its third one
+# takes twice as long for 3.5 % fewer bytes, a twentieth of what a record costs.
+ISAL_LEVEL = 1
 MODULUS = 65535
 CHECKSUM_BYTES = 4
 # Sums of so many words lie below 2^24: single floats, whose sums are the fastest, add them exactly and in any order.

@@ -43,11 +43,12 @@ def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
 def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
     """Name of the array that `wish` means, and the places to take of it if it says so; raises BadInput.
 
-    Names with | between them are tried in order; * and ? stand for any text and must fit one name only; what stands in
-    braces is filled in (see `filled`); "NAME[:,2]" takes one column of a table, counted from 0.
+    Names with | between them are tried in order, unless all of it is a name; * and ? stand for any text and must fit
+    one name only; what stands in braces is filled in (see `filled`); "NAME[:,2]" takes one column of a table, counted
+    from 0.
     """
     text = filled(wish, path, field)
-    for alternative in text.split("|"):
+    for alternative in (text, *text.split("|")):  # a name may hold the sign itself
         found = _named(arrays, alternative.strip(), path, field)
         if found is not None:
             return found

@@ -115,7 +115,8 @@ class BackgroundSettings(Table):
     snr_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the label snr_band_db, Hz; by default that of the envelope."""
     snr_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
-    """Scales the whole background of each record to this ratio over 0 to half the sampling rate, dB."""
+    """Scales the whole background of each record to this ratio up to half the sampling rate, dB; signal and background
+    count without their means, so a tone of less than a period a record hardly counts."""
     snr_band_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
     """The same over snr_band_hz, dB."""
 

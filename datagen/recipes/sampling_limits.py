@@ -39,24 +39,23 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
         for location, setting, name in frequencies:
             highest = setting.highest
             if highest >= nyquist:
-                problem = f"the {name} must lie below half the sampling rate of {2.0 * nyquist:g} Hz"
-                raise refuse((*place, *location), problem, highest, f"below {nyquist:g}")
+                problem = f"the {name} must lie below half the sampling rate of {2.0 * nyquist:.12g} Hz"
+                raise refuse((*place, *location), problem, highest, f"below {nyquist:.12g}")
 
     if recipe.signal.envelope_band_hz is None:
         require_below((), _resonators(recipe))
         for index, rig, frequency in _catalogue_resonances(recipe):
             if frequency >= nyquist:
-                problem = (
-                    f"its resonance at {frequency:.0f} Hz must lie below half the sampling rate of {2 * nyquist:g} Hz"
-                )
+                limit = f"half the sampling rate of {2.0 * nyquist:.12g} Hz"
+                problem = f"its resonance at {frequency:.0f} Hz must lie below {limit}"
                 allowed = f"signal.rate_hz above {2.0 * frequency:.0f}, or a signal.envelope_band_hz of your own"
                 raise refuse(("part", index, "machine", "rig"), problem, rig, allowed)
     for place, chain, background in _tables(recipe):
         require_below(place, (*_of_chain(chain), *_of_background(background)))
         band = background.snr_band_hz
         if band is not None and band[1] > nyquist:
-            problem = f"the band is not below half the sampling rate of {2.0 * nyquist:g} Hz"
-            raise refuse((*place, "background", "snr_band_hz"), problem, band, f"0 <= low < high <= {nyquist:g}")
+            problem = f"the band is not below half the sampling rate of {2.0 * nyquist:.12g} Hz"
+            raise refuse((*place, "background", "snr_band_hz"), problem, band, f"0 <= low < high <= {nyquist:.12g}")
         narrow = None if band is None else recipe.signal.too_narrow(band)
         if narrow is not None:
             raise refuse((*place, "background", "snr_band_hz"), narrow[0], band, narrow[1])
@@ -119,9 +118,9 @@ def _misfit(recipe: Recipe, background: BackgroundSettings) -> tuple[str, str, o
         return None
     if not isinstance(rate, Fixed):
         problem = f"the records' rate is drawn, and {recording.file} is not resampled"
-        return "rate_hz", problem, recording.rate_hz, f"signal.rate_hz = {recording.rate_hz:g}"
+        return "rate_hz", problem, recording.rate_hz, f"signal.rate_hz = {recording.rate_hz:.12g}"
     if rate.value != recording.rate_hz:
-        stated = ", ".join(f"{value:g}" for value in rate.stated())
+        stated = ", ".join(f"{value:.12g}" for value in rate.stated())
         problem = f"{recording.file} is not sampled at the records' rate, and recordings are not resampled"
         return "rate_hz", problem, recording.rate_hz, f"{stated} (signal.rate_hz)"
     longest = duration.highest

@@ -25,6 +25,7 @@ SLOWEST_RPM = 300.0
 FASTEST_RPM = 60_000.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
 OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
+STANDING = "with a speed that is 0 in places, taken as a shaft that stands there and not as one nobody measured"
 FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
 
 
@@ -63,6 +64,12 @@ def speed_doubts(rpm: float, settings: Container[str]) -> dict[str, str]:
         return {}
     hint = ", as if `speed_hz` were in rpm" if "speed_hz" in settings else ""
     return {f"with a shaft faster than {FASTEST_RPM:g} rpm{hint}": f"{rpm:g} rpm"}
+
+
+def standing_doubt(course: NDArray[np.float64] | None) -> dict[str, str]:
+    """Whether the speed (N,) told along a recording is 0 in places, and in how many."""
+    zeros = 0 if course is None else course.size - int(np.count_nonzero(course))
+    return {STANDING: f"{zeros} of {course.size} places"} if course is not None and zeros else {}
 
 
 def turns_doubt(turns: float, labels: Mapping[str, Any], settings: Container[str]) -> str:

@@ -17,10 +17,10 @@ from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
 from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
-from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts
+from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts, standing_doubt
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
-from datagen.recordings.shaft_speed import shaft_speeds
+from datagen.recordings.shaft_speed import shaft_speeds, told_course
 from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.band import holds_a_line
@@ -82,6 +82,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     band = _band(source, rate, shortest, counts[:, axes.index("y")] if "y" in axes else None)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
     speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
+    of_file = scale_doubts(source) | standing_doubt(told_course(source))
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
         of_piece = {
@@ -101,9 +102,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,
             dead=dead,
-            doubts=scale_doubts(source)
-            | level_doubts(acceleration, axes, dead)
-            | speed_doubts(speed.rpm, request.settings),
+            doubts=of_file | level_doubts(acceleration, axes, dead) | speed_doubts(speed.rpm, request.settings),
         )
 
 

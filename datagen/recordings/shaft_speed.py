@@ -27,6 +27,8 @@ FEWEST_PULSES = 3
 STEADY_WITHIN = 0.1
 # Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor.
 NOMINAL_WITHIN = 0.2
+# Share by which a tach of a rate of its own may last longer or shorter than the vibration.
+LASTS_WITHIN = 0.1
 
 
 @dataclass(frozen=True)
@@ -135,13 +137,17 @@ def _stated_speed(source: Source, span: Span) -> tuple[float, str]:
 def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
     """Instants (N + 1,), s, and the angles (N + 1,), rad, turned by then, if a channel holds N speeds, each of an N-th
     of the `duration` (s)."""
-    for name, factor in RPM_PER.items():
-        course = source.course(name)
-        if course is not None:
-            step = duration / course.size
-            angle = np.concatenate([[0.0], np.cumsum(course)]) * (factor * step * math.pi / 30.0)
-            return np.linspace(0.0, duration, course.size + 1), angle
-    return None
+    course = told_course(source)
+    if course is None:
+        return None
+    angle = np.concatenate([[0.0], np.cumsum(course)]) * (duration / course.size * math.pi / 30.0)
+    return np.linspace(0.0, duration, course.size + 1), angle
+
+
+def told_course(source: Source) -> NDArray[np.float64] | None:
+    """The speeds (N,), rpm, that a channel tells along the recording, 0 where the shaft stands; None without one."""
+    courses = ((source.course(name), factor) for name, factor in RPM_PER.items())
+    return next((factor * course for course, factor in courses if course is not None), None)
 
 
 def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64] | None:
@@ -158,8 +164,21 @@ def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[
             f"holds {pulses.size} samples, the vibration {size}", str(source.path), "tach.variable", tach.variable,
             "equally many, or the sampling rate of the pulses in tach.rate_hz",
         )  # fmt: skip
+    if tach.rate_hz is not None:
+        _require_as_long(source, tach, pulses.size, size / rate)
     edges = rising_edges(pulses, tach.threshold)
     return edges / (tach.rate_hz or rate) if edges.size or not dispensable else None
+
+
+def _require_as_long(source: Source, tach: Tach, size: int, duration: float) -> None:
+    """Raises BadInput if `size` samples of a tach with a rate of its own do not last about the vibration's `duration`,
+    s: mostly that rate is wrong, and so would be the speed."""
+    lasts = size / float(tach.rate_hz or math.nan)
+    if abs(lasts - duration) > LASTS_WITHIN * duration:
+        raise BadInput(
+            f"its {size} samples then last {lasts:.4g} s, the vibration {duration:.4g} s", str(source.path),
+            "tach.rate_hz", tach.rate_hz, f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
+        )  # fmt: skip
 
 
 def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> float:

@@ -173,7 +173,8 @@ class Source:
         return float(np.mean(found, dtype=np.float64))
 
     def course(self, name: str) -> Array | None:
-        """The numbers (N,), all above 0, that a variable holds along the recording; None if it holds no such row."""
+        """The numbers (N,), 0 or above, that a variable holds along the recording; None if it holds no such row, or
+        nothing but 0."""
         said = self.setting(name)
         if not isinstance(said, FromVariable) or not self.variable(said.variable, name):
             return None
@@ -182,7 +183,7 @@ class Source:
             found.ndim != 1
             or found.dtype.kind not in "iuf"
             or found.size < FEWEST_STORED_SAMPLES
-            or not (found > 0).all()
+            or not ((found >= 0).all() and found.any())
         ):
             return None
         return found.astype(np.float64) * said.factor

@@ -69,6 +69,7 @@ RIG_DETAILS = ("rated_speed", "rated_load")
 TRAVEL = (
     "u runs in the direction of travel from the entry edge -extent/2 to the exit edge +extent/2: u = phi - phi_f for "
     "an outer spall, which is fixed; u = phi_f(t) - phi for an inner one, with phi_f(t) = phi_f + omega_s t; "
+    "both modulo a turn, nearest to 0; "
 )
 WINDOW = (
     "depth * w(u) + r(u): w rises as (1 - cos(pi (u + extent/2) / entry_taper)) / 2 over the entry taper, is 1, and "
@@ -91,22 +92,33 @@ RULES = {
     f"of increasing phi; zero outside; the ball's centre follows {ROLLED}",
 }
 
+BALANCE = (
+    ": the elastic forces K delta^n alone, without c_d, carry the load; the supports carry it too, with (xo, yo) = "
+    "load / (k_ox, k_oy), and the resonator stands where the outer ring does"
+)
 SCENE_RULES = {
     "ball_angle": "ball j (from 1) of row r (from 1) is at phi = cage angle + 2 pi (j - 1) / Nb + (r - 1) row_offset; "
     "with separate cages row 2 takes the angle of second_cage, start_angle at t = 0, and keeps its row_offset",
     "compression": "along the contact normal: (dx cos phi + dy sin phi - depth - c) cos(alpha) + "
     "ball_deviation[r - 1][j - 1], with (dx, dy) inner ring minus outer ring; depth is the sum of the drops of all "
     "spalls on the row, each by itself, and of the waviness; the radial force is the normal force times cos(alpha)",
+    "contact": "a ball whose compression delta is above 0 presses with the normal force K delta^n + c_d delta', any "
+    "other with none; delta' is the total time derivative: (dx, dy), phi with the cage's speed, slip included, and the "
+    "depth under the ball as ball and race move all count; by the contact_law paper this force may pull, by no_tension "
+    "it is 0 where the sum is negative",
+    "motion": "m_i (xi, yi)'' = loads - S with S the sum of radial force times (cos phi, sin phi) over all balls; "
+    "m_o (xo, yo)'' = S - (k_ox xo + c_ox xo', k_oy yo + c_oy yo') - L; m_r (xr, yr)'' = L = k_r (xo - xr, yo - yr) + "
+    "c_r (xo' - xr', yo' - yr'); the acceleration is (xr, yr)''",
     "waviness": "each adds amplitude cos(order (phi - race angle) + phase) to the depth on every row; race angle is 0 "
     "on the outer race and omega_s t on the inner one",
     "loads": "on the inner ring: -W (1 + load_fluctuation cos(omega_s t + fluctuation_phase)) along y, and "
     "unbalance_force (cos, sin)(omega_s t + unbalance_phase)",
-    "start": "at rest in equilibrium under the load vector of t = 0, velocities zero",
+    "start": f"at rest in equilibrium under the load vector of t = 0, velocities zero{BALANCE}",
 }
 SETTLED_START = (
-    "at rest in equilibrium under the load vector of t = -settle_s, velocities zero, and so are the modes and the "
-    "mounting of the chain; the simulated instants begin there, and whatever depends on t holds for negative t too; "
-    "the record has the samples from t = 0 on"
+    f"at rest in equilibrium under the load vector of t = -settle_s, velocities zero{BALANCE}; the modes and the "
+    "mounting of the chain are at rest then, too; the simulated instants begin there, and whatever depends on t holds "
+    "for negative t too; the record has the samples from t = 0 on"
 )
 
 

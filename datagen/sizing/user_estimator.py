@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from datagen.errors import BadInput
 from datagen.user_code import FIELD, user_code
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from physics.bearing import RACES
 
 NUMBERS = ("lag", "lag_arc", "extent", "extent_mm", "pass_period", "trust")
 INTERVALS = ("lag_interval", "extent_interval", "extent_mm_interval")
@@ -55,11 +57,27 @@ def _against(estimate: object) -> str:
     for name in INTERVALS:
         if not _are_numbers(getattr(estimate, name), 2):
             return f"a SizeEstimate whose {name} is {_kind(getattr(estimate, name))} and no pair of numbers"
+    wrong = _impossible(estimate) if estimate.found else ""
+    if wrong:
+        return f"a SizeEstimate that is ESTIMATED, whose {wrong}"
     if not _are_numbers(estimate.candidates):
         return f"a SizeEstimate whose candidates are {_kind(estimate.candidates)} and not numbers"
     times: Any = estimate.event_times
     if not isinstance(times, np.ndarray) or times.dtype.kind not in "iuf" or times.ndim != 2 or times.shape[1] != 2:
         return f"a SizeEstimate whose event_times are {_kind(times)} and no array of numbers (K, 2)"
+    return ""
+
+
+def _impossible(estimate: SizeEstimate) -> str:
+    """What no spall can have, in words; empty if a size can be meant."""
+    if estimate.race not in ("", *RACES):
+        return f"race is {_kind(estimate.race)} and not {' or '.join(RACES)}"
+    if not 0.0 < estimate.extent <= math.pi:
+        return f"extent is {estimate.extent:g} rad and not above 0 and pi at most"
+    if not 0.0 < estimate.extent_mm < math.inf:
+        return f"extent_mm is {estimate.extent_mm:g} and not above 0"
+    if not 0.0 <= estimate.trust <= 1.0:
+        return f"trust is {estimate.trust:g} and not between 0 and 1"
     return ""
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.features.kinematics import Kinematics
 from physics.arrays import Array
 from physics.compiled import njit_inline, njit_lean
 
@@ -123,7 +124,21 @@ def mains_components(count: int, step: float) -> NDArray[np.bool_]:
     """
     if step > COARSEST_STEP:
         return np.zeros(count, dtype=bool)
-    frequency = np.arange(count) * step
+    return _taken_for_mains(np.arange(count) * step, step)
+
+
+def races_in_mains(kinematics: Kinematics, step: float) -> tuple[str, ...]:
+    """The races whose ball pass frequency counts as mains in a spectrum of components `step` (Hz) apart: with all its
+    harmonics it is left out, and a fault of that race is hardly seen."""
+    if step > COARSEST_STEP:
+        return ()
+    orders = {"outer": kinematics.bpfo, "inner": kinematics.bpfi}
+    hidden = _taken_for_mains(np.array([*orders.values()], dtype=np.float64) * kinematics.shaft_hz, step)
+    return tuple(race for race, is_hidden in zip(orders, hidden, strict=True) if is_hidden)
+
+
+def _taken_for_mains(frequency: NDArray[Any], step: float) -> NDArray[np.bool_]:
+    """Which frequencies (F,), Hz, count as mains in a spectrum of components `step` (Hz) apart."""
     margin = np.maximum(np.minimum(MAINS_SPREAD * frequency, MAINS_REACH), STEADY_MAINS * frequency)
     return near_mains(frequency, 1.01 * step + margin)
 

@@ -57,6 +57,27 @@ def test_a_window_without_signal_leaves_the_vote_to_the_others():
     assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows([], DEAD)
 
 
+@pytest.mark.parametrize(
+    ("speed_rpm", "hidden"),
+    [
+        (3010.0, ("outer",)),  # 3.585 orders are 179.84 Hz, beside three times 60 Hz
+        (2990.0, ()),  # 178.64 Hz, and 269.85 Hz of the inner race
+        (3324.0, ("inner",)),  # 5.415 orders are 299.99 Hz, five times 60 Hz; 198.6 Hz of the outer race
+    ],
+)
+def test_a_race_whose_ball_passes_fall_on_the_mains_is_told(speed_rpm, hidden):
+    found = record_rows(shaking(int(4 * RATE)), labels(speed_rpm=speed_rpm), Reading())
+    assert found.in_mains == hidden
+
+
+def test_over_the_angle_of_a_changing_shaft_nothing_falls_on_the_mains():
+    time = np.arange(int(4 * RATE)) / RATE
+    turning = Turning(2.0 * np.pi * (45.0 * time + 1.3 * time**2))
+    found = record_rows(shaking(time.size), labels(speed_rpm=3010.0), Reading(), turning)
+    assert found.rows
+    assert found.in_mains == ()
+
+
 def test_rows_tell_the_axis_that_they_are_of():
     found = record_rows(np.column_stack([shaking(3000), shaking(3001)[1:]]), labels(), Reading(window=1500 / RATE))
     assert [row.axis for row in found.rows] == [0, 0, 1, 1]

@@ -76,7 +76,7 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
             "the defect covers 0.061 ball spacings, which makes it line",
         ),
         ('bearing = "skf_6205"\nbpfo = 3.6', "bpfo: it already follows from the bearing's geometry"),
-        ('tach = {variable = "sig", rate_hz = 100, threshold = 9}', "pulses from 0 to 0.4 s"),
+        ('tach = {variable = "sig", rate_hz = 1000, threshold = 9}', "pulses from 0 to 0.4 s"),
         ('channel = [{name = "a"}]\n', "the channel has no variable"),
         ('csv = {decimal = ","}', "csv.delimiter: decimal sign and delimiter are the same; allowed: a character other"),
         ("notes = {a = {b = 1}}", "line 8: recording[1].notes.a = {b = 1}; allowed: a text in quotes or a number or"),

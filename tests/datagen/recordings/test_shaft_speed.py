@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,11 +9,14 @@ import numpy as np
 import pytest
 from imports import Bring, Mat
 
+from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
+from datagen.recordings.importing import import_recordings
 from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.shaft_speed import is_steady, shaft_angle, tach_speed
+from datagen.recordings.spec import load_spec
 
 
 def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:
@@ -52,6 +56,33 @@ def test_pulses_of_another_length_need_a_rate_of_their_own(bring: Bring, mat: Ma
         bring(spec + 'tach = {variable = "tacho"}\n')
     corpus = bring(spec + 'tach = {variable = "tacho", rate_hz = 250}\n')
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([3000.0])
+
+
+@pytest.mark.parametrize(("rate", "lasts"), [(2500, "0.04"), (100, "1"), (225, "0.4444"), (280, "0.3571")])
+def test_pulses_must_last_as_long_as_the_vibration(bring: Bring, mat: Mat, rate: int, lasts: str) -> None:
+    mat("a.mat", tacho=np.tile([0.0, 0.0, 0.0, 0.0, 1.0], 20))
+    spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    message = (
+        rf"a\.mat: tach\.rate_hz = {rate}\.0: its 100 samples then last {lasts} s, the vibration 0\.4 s; allowed: "
+    )
+    with pytest.raises(BadInput, match=message):
+        bring(spec + f'tach = {{variable = "tacho", rate_hz = {rate}}}\n')
+
+
+def test_a_speed_of_0_is_that_of_a_shaft_that_stands_and_is_told(tmp_path: Path, mat: Mat) -> None:
+    mat("a.mat", np.random.default_rng(1).standard_normal(4000), rpm=np.repeat([0.0, 600.0, 1200.0, 1800.0], 25))
+    (tmp_path / "spec.toml").write_text(
+        'name = "mine"\n[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+        'speed_rpm = {variable = "rpm"}\n'
+    )
+    summary = import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+    corpus = Corpus(tmp_path / "corpus")
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([900.0])
+    # One second each at 0, 10, 20 and 30 turns a second.
+    angle = corpus.waveform(0, "shaft_angle")
+    assert angle[[0, 1000, 2000, 3000]] / (2.0 * np.pi) == pytest.approx([0.0, 0.0, 10.0, 30.0], abs=1e-6)
+    (doubt,) = (text for text in summary.doubts if "speed that is 0" in text)
+    assert summary.doubts[doubt] == ("a (25 of 100 places)",)
 
 
 TACH = (

@@ -77,6 +77,12 @@ def test_a_cell_that_is_no_number_is_shown_with_its_line(
     assert str(problem.value) == f"{tmp_path / 'a.csv'}, {message}"
 
 
+def test_a_column_may_have_the_sign_of_alternatives_in_its_name(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("RPM|1,a\n" + "1500,1.0\n" * 8 + "1500,2.0\n" * 12)
+    corpus = bring(f'{SPEC}speed_rpm = {{variable = "RPM|1"}}\n')
+    assert corpus.labels["speed_rpm"].tolist() == [1500.0]
+
+
 def at_once_only(patched: pytest.MonkeyPatch) -> None:
     """From now on no table is split into cells, but for the first rows by which its layout is known."""
 

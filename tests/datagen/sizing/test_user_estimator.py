@@ -35,6 +35,12 @@ WRONG = {
     "whose lag is an array of shape (2,) and no number": replace(GOOD, lag=np.zeros(2)),
     "whose extent_interval is float 0.2 and no pair of numbers": replace(GOOD, extent_interval=0.2),
     "whose lag_interval is tuple (1, 2, 3) and no pair of numbers": replace(GOOD, lag_interval=(1, 2, 3)),
+    "ESTIMATED, whose race is str 'middle' and not outer or inner": replace(GOOD, race="middle"),
+    "ESTIMATED, whose extent is -1 rad and not above 0": replace(GOOD, extent=-1.0),
+    "ESTIMATED, whose extent is nan rad and not above 0": replace(GOOD, extent=math.nan),
+    "ESTIMATED, whose extent is 100 rad and not above 0 and pi at most": replace(GOOD, extent=100.0),
+    "ESTIMATED, whose extent_mm is inf and not above 0": replace(GOOD, extent_mm=math.inf),
+    "ESTIMATED, whose trust is 7 and not between 0 and 1": replace(GOOD, trust=7.0),
     "whose candidates are None and not numbers": replace(GOOD, candidates=None),
     "whose event_times are an array of shape (3,) and no array of numbers (K, 2)": replace(
         GOOD, event_times=np.zeros(3)
@@ -97,7 +103,7 @@ def test_a_function_is_asked_like_a_method(tmp_path: Path, monkeypatch: pytest.M
     (tmp_path / "own_functions.py").write_text(
         "from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome\n"
         "def one_degree(acceleration, rate, situation):\n"
-        "    return SizeEstimate(SizeOutcome.ESTIMATED, f'{acceleration.shape[1]} axes', 'outer', extent=0.017)\n"
+        "    return SizeEstimate(SizeOutcome.ESTIMATED, f'{acceleration.shape[1]} axes', extent=0.017, extent_mm=0.3)\n"
         "def seven(acceleration, rate, situation):\n"
         "    return 7\n"
     )

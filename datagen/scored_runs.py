@@ -1,4 +1,5 @@
-"""The log of scoring runs on recordings: one line a run, appended in that corpus's own folder, never rewritten."""
+"""The log of scoring runs on recordings: a line before and one after each run, appended in that corpus's own folder,
+never rewritten."""
 
 from __future__ import annotations
 

@@ -9,11 +9,12 @@ from typing import Any
 
 from marked_tables import write_marked
 
+from datagen import versions
+
 CHARTS = Path(__file__).with_name("charts")
 PAGE = CHARTS / "README.md"
 SCENES = ("G1", "F1", "G2", "F2", "G1_3x", "F1_3x", "G2_3x", "F2_3x")
 MARCHED, REPEATED, DEFAULT = "modal", "modal, repeated", 1e-3
-PACKAGES = ("numpy", "scipy", "numba", "numbalsoda")
 RIVALS = (("compiled solver", "ball by ball"), ("compiled solver", "contact kernel"), ("SciPy solver", ""))
 MODELS = ("impulse train", "quasi-static", "linear time-varying")
 Facts = dict[str, Any]
@@ -80,8 +81,7 @@ def speeds(charts: dict[str, Facts]) -> list[str]:
         cells = [in_words(default), in_words(fastest_run(chart)), in_words(at_accuracy(chart, REPEATED, DEFAULT))]
         rows[name] = cells + [rival(fastest(chart, *kind), default["real_time"]) for kind in RIVALS]
     made = charts[SCENES[0]]["made_with"]
-    versions = ", ".join(f"{package} {made[package]}" for package in PACKAGES)
-    return [*by_scene(heads, rows), "", f"Measured on {made['machine']}, Python {made['python']}, {versions}."]
+    return [*by_scene(heads, rows), "", f"Measured on {versions.in_words(made)}."]
 
 
 def fastest_run(chart: Facts) -> Facts:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from make_draws import ODD
 from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.stats import binomtest
@@ -22,7 +23,6 @@ from physics.bearing import RACES
 PAGE = Path(__file__).with_name("transfer.md")
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
 FAULTS, RACE, AUC = "faults_balanced_accuracy", "race_accuracy", "detection_auc"
-ODD = {"197", "198", "199", "174", "201"}
 
 
 def interval(found: dict[str, Any]) -> str:

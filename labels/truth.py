@@ -27,7 +27,8 @@ class PassTable:
     `regain_time` the beginning of contact that ends the last loss begun there; both are NaN if the ball kept contact
     or did not touch at entry, and `regain_time` alone if contact does not begin again within the record.
     Where contact is never lost, `fall_time` and `rise_time` are the first fall and the last rise of the ball's
-    quasi-static load through half of what it would be without spalls; NaN where there is none or contact is lost.
+    quasi-static load through half of what it would be without spalls; NaN where there is none or contact is lost, and
+    of passes that an end of the record cuts or of balls that are not loaded.
     `loaded`: the ball touches both races at some moment of the pass; `complete`: all its times lie inside the record.
     """
 

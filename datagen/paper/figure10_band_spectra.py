@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 NAME = "figure10"
 RESOLUTION = 1.0
 WIDE_BAND = (9500.0, 11500.0)
-MIDDLE, NEARLY_ALL = 50.0, 90.0
+NEARLY_ALL = 90.0
 TITLES = {
     "line": "line",
     "gap": "line, path of the ball's centre (G1p)",

@@ -25,6 +25,8 @@ FEWEST_PULSES = 3
 # A shaft that stays this near (turns) to one that turns evenly is steady. The fourth harmonic of balls that pass five
 # times a turn then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1
+# Share of the mean speed at which a shaft that stands is taken to creep: the angle stored of it must grow.
+CREEP = 1e-6
 # Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor.
 NOMINAL_WITHIN = 0.2
 # Share by which a tach of a rate of its own may last longer or shorter than the vibration.
@@ -140,6 +142,7 @@ def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArr
     course = told_course(source)
     if course is None:
         return None
+    course = np.maximum(course, CREEP * course.mean())
     angle = np.concatenate([[0.0], np.cumsum(course)]) * (duration / course.size * math.pi / 30.0)
     return np.linspace(0.0, duration, course.size + 1), angle
 

@@ -109,8 +109,7 @@ def table(results: dict[str, dict[str, float]], rivals: dict[str, float], machin
             "",
             "SciPy's DOP853 at a relative tolerance of 1e-9 on a compiled right-hand side, events located, runs at "
             f"{rival} times real time in the same run. Its error is about 1e-6, so this is no comparison at equal "
-            "accuracy: at an error of 0.1 % the best of SciPy's solvers reach about 0.3 times real time on these two "
-            f"scenes, compiled ones 3 to 9 ([docs/charts](docs/charts/README.md)). {machine}",
+            f"accuracy. {machine}",
         ]
     )
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", ROOT / "datasets" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted(page for folder in ("datasets", "docs") for page in (ROOT / folder).rglob("*.md"))]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```sh\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
 
@@ -22,16 +22,13 @@ def test_the_first_makes_the_quick_start_and_the_second_runs_the_tests():
     assert "pytest" in BLOCKS[1]
 
 
-def test_every_picture_and_page_it_points_to_exists():
-    for target in re.findall(r"\]\(([^)#]+)\)", TEXT):
-        assert (ROOT / target).exists(), target
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_module_and_heading_that_a_page_names_exists(page):
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_every_module_picture_page_and_heading_that_a_page_names_exists(page):
     text = page.read_text(encoding="utf-8")
     for name in re.findall(r"`((?:physics|labels|datagen|tests|docs)/[\w/]+\.py)`", text):
         assert (ROOT / name).exists(), name
+    for target in re.findall(r"\]\(([^)#:]+)\)", text):
+        assert (page.parent / target).exists(), target
     for target, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", text):
         aimed_at = page.parent / target if target else page
         headings = re.findall(r"^#+ (.*)$", aimed_at.read_text(encoding="utf-8"), re.MULTILINE)

@@ -26,7 +26,7 @@ def test_every_decimal_of_the_verdict_stands_in_a_table_of_the_page(page):
 ALL, FIRST, IN_BRACKETS, OF_65, OF_78 = r"[\d.]+", r"^[\d.]+", r"\(([\d.]+)\)", r"^\d+(?= of 65)", r"^\d+(?= of 78)"
 LEARNERS, FOUND = "(forest|logistic|boosting)", "(outer and inner, )?without odd ones"
 LEVELS, NOISY = "clean|20|10|5|0", "(20|10|5|0) dB"
-PAGES = {"scores": "transfer.md", "draws": "transfer.md", "size ladder": "size.md"}
+PAGES = {"scores": "transfer.md", "draws": "transfer.md", "size ladder": "size.md", "speeds": "charts/README.md"}
 
 
 class Claim(NamedTuple):
@@ -45,6 +45,8 @@ class Claim(NamedTuple):
 
 
 CLAIMS = (
+    Claim("solvers run at {} to {} times", "speeds", ("G1|F1",), "SciPy solver", FIRST),
+    Claim("compiled throughout at {} to {} (", "speeds", ("G1|F1",), "compiled solver, .*", FIRST),
     Claim("three odd records: {} % are found", "scores", ("cwru_de12k", LEARNERS), FOUND, FIRST, 100.0),
     Claim("{} to {} % over draws of the training set", "draws", ("cwru_de12k", LEARNERS), FOUND, ALL, 100.0),
     Claim("without learning finds {} %", "scores", ("cwru_de12k", "rule"), FOUND, FIRST, 100.0),

@@ -80,7 +80,8 @@ def test_a_speed_of_0_is_that_of_a_shaft_that_stands_and_is_told(tmp_path: Path,
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([900.0])
     # One second each at 0, 10, 20 and 30 turns a second.
     angle = corpus.waveform(0, "shaft_angle")
-    assert angle[[0, 1000, 2000, 3000]] / (2.0 * np.pi) == pytest.approx([0.0, 0.0, 10.0, 30.0], abs=1e-6)
+    assert angle[[0, 1000, 2000, 3000]] / (2.0 * np.pi) == pytest.approx([0.0, 0.0, 10.0, 30.0], abs=1e-4)
+    assert check_corpus(corpus.folder).sound
     (doubt,) = (text for text in summary.doubts if "speed that is 0" in text)
     assert summary.doubts[doubt] == ("a (25 of 100 places)",)
 
@@ -193,7 +194,7 @@ def test_the_angle_of_the_shaft_is_stored_where_a_tach_says_that_the_speed_chang
     corpus = bring(spec, "whole")
     even, speeding = corpus.labels.set_index("recording").loc[["even", "speeding"], "record"]
     assert not corpus.has(even, "shaft_angle")
-    # The pulses are known to half a sample of 4 ms.
+    # The pulses are known to a sample of 0.25 ms, in which the shaft turns by up to a 200th of a turn.
     angle = corpus.waveform(speeding, "shaft_angle")
     assert np.allclose(angle, 2.0 * np.pi * (10.0 * time + 2.5 * time**2), atol=2.0 * np.pi * 20.0 / 4000.0)
     assert check_corpus(corpus.folder).sound

@@ -64,7 +64,8 @@ def _refuse_packed(path: Path) -> None:
 
 
 def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
-    """The columns of a table of nothing but finite numbers below its header, ten times as fast; None of any other.
+    """The columns of a table whose columns hold either nothing but finite numbers below its header or no number at all,
+    as clocks do, ten times as fast and in a tenth of the memory; None of any other.
 
     A delimiter may end each row: the last column is then empty.
     """
@@ -74,25 +75,30 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
         return None
     line, cells = rows[-1]
     last = len(cells) - 1
-    converters: dict[int | str, Callable[[str], float]] | None = (
-        {last: _nothing} if last and not cells[last].strip() else None
-    )
+    is_empty = bool(last) and not cells[last].strip()
+    words = _columns_of_words(cells[:last] if is_empty else cells, layout)
+    if words:
+        _refuse_split_numbers(path, line, cells, layout)
+    converters: dict[int | str, Callable[[str], float]] = dict.fromkeys(words, _no_number)
+    if is_empty:
+        converters[last] = _nothing
     try:
         with open_text(path, layout.encoding) as file, warnings.catch_warnings(action="ignore"):
             table = np.loadtxt(
                 _lines(file, layout.decimal), delimiter=None if layout.delimiter == BLANKS else layout.delimiter,
                 comments=None, skiprows=rows[head - 1][0] if head else layout.skip_lines, ndmin=2,
-                converters=converters,
+                converters=converters or None,
             )  # fmt: skip
     except (ValueError, TypeError):
         return None
     if table.shape[1] == 1 and _has_gaps(path, layout, line):
         return None
-    names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], converters is not None)
-    if len(names) != width or not np.isfinite(table[:, :last] if converters else table).all():
+    names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], is_empty)
+    numbers = [column for column in range(table.shape[1]) if column not in converters]
+    if len(names) != width or not numbers or not np.isfinite(table[:, numbers]).all():
         return None
     table = table[:, :width]
-    odd = {names[last]: (line, cells[last])} if converters and width > last else {}
+    odd = {names[column]: (line, cells[column]) for column in converters if isinstance(column, int) and column < width}
     return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, _headless_hint(names, layout))
 
 
@@ -111,6 +117,25 @@ def _without_blanks(rows: list[Row], layout: CsvLayout) -> list[Row]:
         return full
     first, last = full[head][0], full[-1][0]
     return full[:head] + [(line, cells or [""]) for line, cells in rows if first <= line <= last]
+
+
+def _columns_of_words(cells: list[str], layout: CsvLayout) -> list[int]:
+    """Which of the first row's `cells` are words that no other layout of the table would make numbers."""
+    words = [column for column, cell in enumerate(cells) if not math.isfinite(_number(_plain(cell, layout)))]
+    told = [cells[column].strip() for column in words]
+    if any(not cell or '"' in cell or DECIMAL_COMMA.fullmatch(cell) for cell in told):
+        return []
+    return words
+
+
+def _plain(cell: str, layout: CsvLayout) -> str:
+    return cell if layout.decimal == "." else cell.replace(layout.decimal, ".")
+
+
+def _no_number(cell: str) -> float:
+    if math.isfinite(_number(cell)):
+        raise ValueError(cell)
+    return math.nan
 
 
 def _nothing(cell: str) -> float:

@@ -13,6 +13,7 @@ from imports import Bring
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import Row, read_csv_rows
+from datagen.formats.csv_file import read_csv
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
 
@@ -127,6 +128,40 @@ def test_a_table_of_nothing_but_numbers_is_read_at_once_and_gives_the_same(
     for columns in (at_once, by_cells):
         assert [columns[name].tolist() for name in columns] == np.array(CELLS).T.tolist()
         assert list(columns) == ["a", "b"]
+
+
+@pytest.mark.parametrize(("end", "decimal"), [("", "."), (",", "."), ("", ",")])
+def test_a_table_with_a_clock_is_read_at_once_and_gives_the_same(
+    end: str, decimal: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    delimiter = "," if decimal == "." else ";"
+    numbers = [[repr(number).replace(".", decimal) for number in cells] for cells in CELLS]
+    lines = [delimiter.join([f"12:30:{k:02}", first, "on", second]) + end for k, (first, second) in enumerate(numbers)]
+    (tmp_path / "a.csv").write_text("\n".join([delimiter.join(["clock", "a", "state", "b"]), *lines]))
+    layout = CsvLayout(delimiter=delimiter, decimal=decimal)
+    with monkeypatch.context() as patched:
+        at_once_only(patched)
+        at_once = read_csv(tmp_path / "a.csv", layout)
+    with monkeypatch.context() as patched:
+        cell_by_cell_only(patched)
+        by_cells = read_csv(tmp_path / "a.csv", layout)
+    for columns in (at_once, by_cells):
+        assert list(columns) == ["clock", "a", "state", "b"]
+        assert np.array([columns["a"], columns["b"]]).T.tolist() == CELLS
+        assert np.isnan([columns["clock"], columns["state"]]).all()
+        assert columns.odd == {"clock": (2, "12:30:00"), "state": (2, "on")}
+
+
+@pytest.mark.parametrize("later", ["7", "nan"])
+def test_a_word_above_numbers_is_shown_as_before(later: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("a,b\ng,1.0\n" + f"{later},1.0\n" * 20)
+    hint = "; did you mean csv = {skip_below = 1}?" if later == "7" else ""
+    with pytest.raises(BadInput) as problem:
+        bring(SPEC)
+    count = 1 if later == "7" else 21
+    assert str(problem.value).startswith(
+        f'{tmp_path / "a.csv"}, line 2: y = "a": {count} of 21 cells are not finite numbers, the first is "g"{hint}'
+    )
 
 
 WHOLE_ROWS = {

@@ -458,3 +458,24 @@ def test_a_recording_that_vanishes_before_its_hash_is_taken_is_named(
     with pytest.raises(BadInput) as problem:
         bring(SPEC)
     assert str(problem.value) == f"{tmp_path / 'a.mat'}: cannot be read: No such file or directory"
+
+
+def test_a_piece_has_the_samples_next_to_its_length(bring: Bring, tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", noise())
+    spec = '[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 100\ny = "data"\ncut_s = 0.29\n'
+    assert 0.29 * 100 < 29  # in floating point
+    assert bring(spec).labels["duration_s"].tolist() == pytest.approx([0.29] * 13)
+
+
+def test_records_of_a_kind_share_a_shard_up_to_its_limit(
+    bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    np.save(tmp_path / "a.npy", noise(1000))
+    monkeypatch.setattr("datagen.recordings.import_plan.SHARD_BYTES", 1000.0)
+    spec = '[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\ncut_s = 0.1\n'
+    corpus = bring(spec)
+    sizes = []
+    for path in sorted((corpus.folder / "shards").glob("*.nc")):
+        with xarray.open_dataset(path) as shard:
+            sizes.append(shard.sizes["record"])
+    assert sizes == [2] * 5  # two records of 100 samples of four bytes are 800 bytes, three 1200

@@ -65,7 +65,7 @@ def _refuse_packed(path: Path) -> None:
 
 def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     """The columns of a table whose columns hold either nothing but finite numbers below its header or no number at all,
-    as clocks do, ten times as fast and in a tenth of the memory; None of any other.
+    as clocks do, ten times as fast and in less than half of the memory; None of any other.
 
     A delimiter may end each row: the last column is then empty.
     """

@@ -90,7 +90,7 @@ def record_rows(
         glitches, shocks = glitches + drawn_over, shocks + cut
         rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
-    step = 1.0 / min(len(signals) / rate, reading.window)
+    step = piece_count(len(signals), rate, reading.window) * rate / len(signals)
     # Over the angle of a shaft that changes its speed, mains is no line and nothing is left out for it.
     in_mains = races_in_mains(kinematics, step) if turning is None else ()
     return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks, in_mains)
@@ -126,8 +126,12 @@ def signal_rows(
 
 def equal_pieces(signal: Array, rate: float, longest: float) -> Iterator[Array]:
     """The signal (T,) in as few equal pieces as are no longer than `longest` (s)."""
-    count = max(1, int(np.ceil(signal.size / rate / longest - 0.05)))
-    yield from np.array_split(signal, count)
+    yield from np.array_split(signal, piece_count(signal.size, rate, longest))
+
+
+def piece_count(samples: int, rate: float, longest: float) -> int:
+    """Into how many equal pieces no longer than `longest` (s), or hardly, so many `samples` at `rate` (Hz) are cut."""
+    return max(1, int(np.ceil(samples / rate / longest - 0.05)))
 
 
 def _seed(labels: pandas.Series[Any]) -> list[int]:

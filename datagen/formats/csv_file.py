@@ -121,15 +121,12 @@ def _without_blanks(rows: list[Row], layout: CsvLayout) -> list[Row]:
 
 def _columns_of_words(cells: list[str], layout: CsvLayout) -> list[int]:
     """Which of the first row's `cells` are words that no other layout of the table would make numbers."""
-    words = [column for column, cell in enumerate(cells) if not math.isfinite(_number(_plain(cell, layout)))]
+    plain = [cell.replace(layout.decimal, ".") for cell in cells]
+    words = [column for column, cell in enumerate(plain) if not math.isfinite(_number(cell))]
     told = [cells[column].strip() for column in words]
     if any(not cell or '"' in cell or DECIMAL_COMMA.fullmatch(cell) for cell in told):
         return []
     return words
-
-
-def _plain(cell: str, layout: CsvLayout) -> str:
-    return cell if layout.decimal == "." else cell.replace(layout.decimal, ".")
 
 
 def _no_number(cell: str) -> float:

@@ -68,8 +68,9 @@ def speed_doubts(rpm: float, settings: Container[str]) -> dict[str, str]:
 
 def standing_doubt(course: NDArray[np.float64] | None) -> dict[str, str]:
     """Whether the speed (N,) told along a recording is 0 in places, and in how many."""
-    zeros = 0 if course is None else course.size - int(np.count_nonzero(course))
-    return {STANDING: f"{zeros} of {course.size} places"} if course is not None and zeros else {}
+    if course is None or course.all():
+        return {}
+    return {STANDING: f"{course.size - np.count_nonzero(course)} of {course.size} places"}
 
 
 def turns_doubt(turns: float, labels: Mapping[str, Any], settings: Container[str]) -> str:

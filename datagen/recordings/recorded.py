@@ -21,7 +21,7 @@ from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts, 
 from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds, told_course
-from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash
+from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash, span_of
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.band import holds_a_line
 from labels.dead_sensor import is_dead
@@ -82,7 +82,6 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     band = _band(source, rate, shortest, counts[:, axes.index("y")] if "y" in axes else None)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
     speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
-    of_file = scale_doubts(source) | standing_doubt(told_course(source))
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         part = counts[start:stop]
         of_piece = {
@@ -102,7 +101,10 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             content=samples_hash(rate, *part.T),
             shaft_angle=speed.angle,
             dead=dead,
-            doubts=of_file | level_doubts(acceleration, axes, dead) | speed_doubts(speed.rpm, request.settings),
+            doubts=scale_doubts(source)
+            | level_doubts(acceleration, axes, dead)
+            | speed_doubts(speed.rpm, request.settings)
+            | standing_doubt(told_course(source, span_of(start, stop, counts.shape[0]))),
         )
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.recordings.pulses import MOST_MENDED, mended, rising_edges
 from datagen.recordings.settings import Tach
-from datagen.recordings.source import Source, Span
+from datagen.recordings.source import WHOLE, Source, Span, span_of
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
 
@@ -93,7 +92,7 @@ def _tach_speeds(
 def _stated_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
     turned = _turned(source, size / rate)
     for start, stop in pieces:
-        rpm, basis = _stated_speed(source, (Fraction(start, size), Fraction(stop, size)))
+        rpm, basis = _stated_speed(source, span_of(start, stop, size))
         angle = None
         if turned is not None and basis == "measured":
             angle = _unless_steady(np.interp(np.arange(start, stop) / rate, *turned))
@@ -147,9 +146,10 @@ def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArr
     return np.linspace(0.0, duration, course.size + 1), angle
 
 
-def told_course(source: Source) -> NDArray[np.float64] | None:
-    """The speeds (N,), rpm, that a channel tells along the recording, 0 where the shaft stands; None without one."""
-    courses = ((source.course(name), factor) for name, factor in RPM_PER.items())
+def told_course(source: Source, span: Span = WHOLE) -> NDArray[np.float64] | None:
+    """The speeds (N,), rpm, that a channel tells along a span of the recording, 0 where the shaft stands; None without
+    one."""
+    courses = ((source.course(name, span), factor) for name, factor in RPM_PER.items())
     return next((factor * course for course, factor in courses if course is not None), None)
 
 
@@ -168,19 +168,19 @@ def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[
             "equally many, or the sampling rate of the pulses in tach.rate_hz",
         )  # fmt: skip
     if tach.rate_hz is not None:
-        _require_as_long(source, tach, pulses.size, size / rate)
+        _require_as_long(source, tach.rate_hz, pulses.size, size / rate)
     edges = rising_edges(pulses, tach.threshold)
     return edges / (tach.rate_hz or rate) if edges.size or not dispensable else None
 
 
-def _require_as_long(source: Source, tach: Tach, size: int, duration: float) -> None:
-    """Raises BadInput if `size` samples of a tach with a rate of its own do not last about the vibration's `duration`,
+def _require_as_long(source: Source, rate: float, size: int, duration: float) -> None:
+    """Raises BadInput if `size` samples of a tach at its own `rate` (Hz) do not last about the vibration's `duration`,
     s: mostly that rate is wrong, and so would be the speed."""
-    lasts = size / float(tach.rate_hz or math.nan)
+    lasts = size / rate
     if abs(lasts - duration) > LASTS_WITHIN * duration:
         raise BadInput(
             f"its {size} samples then last {lasts:.4g} s, the vibration {duration:.4g} s", str(source.path),
-            "tach.rate_hz", tach.rate_hz, f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
+            "tach.rate_hz", rate, f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
         )  # fmt: skip
 
 

@@ -172,9 +172,9 @@ class Source:
             )  # fmt: skip
         return float(np.mean(found, dtype=np.float64))
 
-    def course(self, name: str) -> Array | None:
-        """The numbers (N,), 0 or above, that a variable holds along the recording; None if it holds no such row, or
-        nothing but 0."""
+    def course(self, name: str, span: Span = WHOLE) -> Array | None:
+        """The numbers (N,), 0 or above, that a variable holds along a `span` of the recording; None if it holds no such
+        row, or nothing but 0 throughout."""
         said = self.setting(name)
         if not isinstance(said, FromVariable) or not self.variable(said.variable, name):
             return None
@@ -186,7 +186,7 @@ class Source:
             or not ((found >= 0).all() and found.any())
         ):
             return None
-        return found.astype(np.float64) * said.factor
+        return _within(found, span).astype(np.float64) * said.factor
 
     def or_none(self, name: str, span: Span = WHOLE) -> float | None:
         """As `number`, but None where the file lacks the variable."""
@@ -200,6 +200,11 @@ def longest_run(places: NDArray[np.intp]) -> int:
     """The most of the rising `places` (N,), at least one, that follow each other."""
     ends = np.flatnonzero(np.diff(places, append=places[-1] + 2) > 1)
     return int(np.diff(ends, prepend=-1).max())
+
+
+def span_of(start: int, stop: int, size: int) -> Span:
+    """The samples from `start` to before `stop` of a recording of `size` samples, as shares of its length."""
+    return Fraction(start, size), Fraction(stop, size)
 
 
 def _within(found: NDArray[Any], span: Span) -> NDArray[Any]:

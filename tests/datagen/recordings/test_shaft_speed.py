@@ -69,21 +69,31 @@ def test_pulses_must_last_as_long_as_the_vibration(bring: Bring, mat: Mat, rate:
         bring(spec + f'tach = {{variable = "tacho", rate_hz = {rate}}}\n')
 
 
-def test_a_speed_of_0_is_that_of_a_shaft_that_stands_and_is_told(tmp_path: Path, mat: Mat) -> None:
+def standing(tmp_path: Path, mat: Mat, more: str = "") -> tuple[Corpus, tuple[str, ...]]:
+    """A recording of one second each at 0, 10, 20 and 30 turns a second, and of which records a speed of 0 is told."""
     mat("a.mat", np.random.default_rng(1).standard_normal(4000), rpm=np.repeat([0.0, 600.0, 1200.0, 1800.0], 25))
     (tmp_path / "spec.toml").write_text(
         'name = "mine"\n[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
-        'speed_rpm = {variable = "rpm"}\n'
+        'speed_rpm = {variable = "rpm"}\n' + more
     )
     summary = import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
-    corpus = Corpus(tmp_path / "corpus")
+    (told,) = (records for doubt, records in summary.doubts.items() if "speed that is 0" in doubt)
+    return Corpus(tmp_path / "corpus"), told
+
+
+def test_a_speed_of_0_is_that_of_a_shaft_that_stands_and_is_told(tmp_path: Path, mat: Mat) -> None:
+    corpus, told = standing(tmp_path, mat)
+    assert told == ("a (25 of 100 places)",)
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([900.0])
-    # One second each at 0, 10, 20 and 30 turns a second.
     angle = corpus.waveform(0, "shaft_angle")
     assert angle[[0, 1000, 2000, 3000]] / (2.0 * np.pi) == pytest.approx([0.0, 0.0, 10.0, 30.0], abs=1e-4)
     assert check_corpus(corpus.folder).sound
-    (doubt,) = (text for text in summary.doubts if "speed that is 0" in text)
-    assert summary.doubts[doubt] == ("a (25 of 100 places)",)
+
+
+def test_a_speed_of_0_is_told_of_the_pieces_that_have_it(tmp_path: Path, mat: Mat) -> None:
+    corpus, told = standing(tmp_path, mat, "cut_s = 2\n")
+    assert told == ("a#0 (25 of 50 places)",)
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([300.0, 1500.0])
 
 
 TACH = (

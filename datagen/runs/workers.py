@@ -18,6 +18,9 @@ BACKENDS = ("loky", "dask")
 MOST_WORKERS = 1024  # more are a slip of the finger, and would bring the machine to a halt
 PARENT_POLL = 0.25
 SCHEDULER_PATIENCE = 5.0  # s
+# Bytes by which a worker may grow. loky takes 300 MB for a leak, warns of it and starts another worker, where psutil is
+# installed; but long records take more, and their arrays are kept for the next ones (physics/freed_memory.py).
+GROWTH = 4 << 30
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,15 @@ def watch_parent(parent: int) -> None:
     threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
 
 
+def _begin_worker(parent: int) -> None:
+    """What every worker process on this machine does first: watch its `parent`, and let itself grow."""
+    from joblib.externals.loky import process_executor
+
+    watch_parent(parent)
+    # No setting of loky's has this bound; where a version of it has another name, workers are replaced as before.
+    process_executor._MAX_MEMORY_LEAK_SIZE = GROWTH
+
+
 def _exit_with(parent: int) -> None:
     while os.getppid() == parent:
         time.sleep(PARENT_POLL)
@@ -84,7 +96,7 @@ def engaged(engine: Engine) -> Iterator[None]:
                 n_jobs=engine.workers or callers_workers or cpu_count(),
                 inner_max_num_threads=1,
                 max_nbytes=None,
-                initializer=watch_parent,
+                initializer=_begin_worker,
                 initargs=(os.getpid(),),
             ),
         ):

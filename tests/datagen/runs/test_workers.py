@@ -56,6 +56,21 @@ def test_there_is_nobody_to_wake_where_this_process_does_the_work() -> None:
         assert not are_ready()
 
 
+def grow(size: int) -> int:
+    """The number of this process, which keeps `size` bytes from now on, after longer than loky lets pass unseen."""
+    sys.modules[__name__].__dict__["kept"] = b"x" * size
+    time.sleep(1.1)
+    return os.getpid()
+
+
+def test_a_worker_may_grow_by_what_long_records_take(recwarn: pytest.WarningsRecorder) -> None:
+    pytest.importorskip("psutil", reason="loky looks at the memory of workers only where psutil is installed")
+    with engaged(Engine(workers=2)):
+        first = set(run_tasks(grow, [(0,)] * 2))
+        assert set(run_tasks(grow, [(400 << 20,)] * 4)) == first
+    assert not recwarn.list
+
+
 def test_an_exception_of_a_task_is_raised() -> None:
     with pytest.raises(ZeroDivisionError):
         results(Engine(workers=2), divmod, [(1, 0)])

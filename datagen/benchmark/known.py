@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from labels.classifier.classes import joint_class
-from labels.features.kinematics import Kinematics, bearing_kinematics
+from labels.features.kinematics import NOMINAL_WITHIN, Kinematics, bearing_kinematics
 from labels.schema import LOCATIONS, UNKNOWN
 from physics.orders import ball_spin_order
 
@@ -20,6 +21,13 @@ def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
     speed = _number(labels, "speed_rpm") / RPM_PER_HZ
     if not speed > 0.0:
         return None
+    known = _kinematics_at(labels, speed)
+    if known is None or labels.get("speed_basis") != "nominal":
+        return known
+    return replace(known, speed_within=NOMINAL_WITHIN)
+
+
+def _kinematics_at(labels: Mapping[str, Any], speed: float) -> Kinematics | None:
     balls, pitch, ball = (_number(labels, name) for name in ("balls", "pitch_diameter", "ball_diameter"))
     angle = _number(labels, "contact_angle")
     if all(math.isfinite(value) for value in (balls, pitch, ball)):

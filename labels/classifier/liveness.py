@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from labels.features.analysis import Analysis
 from labels.features.conditioning import FEWEST_BINS, Spectrum, over_floor
 from labels.features.families import find_family, lines_in, near_mains
-from labels.features.speed import SPECTRUM_FLOOR_ORDERS, SPEED_TOLERANCE
+from labels.features.speed import SPECTRUM_FLOOR_ORDERS
 from physics.arrays import Array
 
 # m/s: a tenth of the limit between zones A and B of ISO 10816-1 for the smallest machines (0.71 mm/s RMS).
@@ -116,7 +116,7 @@ def _turning(analysis: Analysis) -> float:
     lines = lines_in(np.where(_hum(frequency, step) | (frequency <= 2.0 * step), 1.0, excess), step)
     known = analysis.given
     found = [
-        find_family(lines, order * known.shaft_hz, SPEED_TOLERANCE, known.shaft_hz, harmonics=6).parts[0]
+        find_family(lines, order * known.shaft_hz, known.speed_within, known.shaft_hz, harmonics=6).parts[0]
         for order in (1.0, known.bpfo, known.bpfi)
     ]
     return float(max(parts.sum() - parts.max() for parts in found))

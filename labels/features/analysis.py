@@ -22,7 +22,7 @@ from labels.features.families import (
     without_shaft,
 )
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
-from labels.features.speed import SPEED_TOLERANCE, Speed, refine_speed, vibration_lines
+from labels.features.speed import Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
 from physics.arrays import Array
 
@@ -86,13 +86,13 @@ class Analysis:
         """
         spectrum, power = self.vibration_with_shaft
         if self.record.turning is not None:
-            return refine_speed(spectrum, self.envelopes, self.given, 0.0)
+            return refine_speed(spectrum, self.envelopes, self.given, exact=True)
         speed = refine_speed(spectrum, self.envelopes, self.given)
         if abs(speed.shaft_hz / self.given.shaft_hz - 1.0) < AS_STATED:
             return speed
         excess, step, stated = self.envelopes.excess, self.envelopes.step, self.given.shaft_hz
         mains = mains_components(excess.shape[-1], step)
-        combs = foreign_combs(np.where(mains, 1.0, excess), step, self.given, ~mains, SPEED_TOLERANCE)
+        combs = foreign_combs(np.where(mains, 1.0, excess), step, self.given, ~mains, self.given.speed_within)
         if not combs:
             return speed
         lines = lines_in(without_combs(power, self.record.step, combs, stated), self.record.step)

@@ -9,6 +9,9 @@ from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_
 
 # Shares by which the cage's slip moves a family at most, and usually.
 SLIP_TOLERANCE, SLIP_PRIOR = 0.025, 0.012
+# Shares by which a shaft may turn faster or slower than a speed that was measured or told, and than a nominal one: the
+# rotor of a motor lags behind the field, the more so the smaller the motor and the larger its load.
+MEASURED_WITHIN, NOMINAL_WITHIN = 0.022, 0.05
 
 
 @dataclass(frozen=True)
@@ -16,14 +19,15 @@ class Kinematics:
     """Ball pass orders of a bearing and the speed of its shaft.
 
     `balls` in a row, `diameter_ratio` = Db cos α / Dp, `ball_spin` the spin of a ball in orders of the shaft,
-    `shaft_hz` the shaft's speed in Hz, which may be off by 2 %. ValueError unless there are 3 balls or more, the ratio
-    lies between 0 and 1, and spin and speed are above 0.
+    `shaft_hz` the shaft's speed in Hz, which may be off by the share `speed_within`. ValueError unless there are 3
+    balls or more, the ratio and that share lie between 0 and 1, and spin and speed are above 0.
     """
 
     balls: int
     diameter_ratio: float
     ball_spin: float
     shaft_hz: float
+    speed_within: float = MEASURED_WITHIN
 
     def __post_init__(self) -> None:
         allowed = (
@@ -31,6 +35,7 @@ class Kinematics:
             ("diameter_ratio", self.diameter_ratio, 0.0 < self.diameter_ratio < 1.0, "between 0 and 1"),
             ("ball_spin", self.ball_spin, self.ball_spin > 0.0, "above 0"),
             ("shaft_hz", self.shaft_hz, 0.0 < self.shaft_hz < math.inf, "above 0"),
+            ("speed_within", self.speed_within, 0.0 < self.speed_within < 1.0, "between 0 and 1"),
         )
         for name, value, fits, range_ in allowed:
             if not fits:

@@ -9,18 +9,16 @@ import numpy as np
 from labels.features.conditioning import FEWEST_BINS, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
 from labels.features.families import STANDS_OUT, Lines, find_family, harmonic_evidence, lines_in, tempered
-from labels.features.kinematics import Kinematics
+from labels.features.kinematics import MEASURED_WITHIN, Kinematics
 from physics.arrays import Array, Flags
 
-# The share by which the shaft may turn faster or slower than stated.
-SPEED_TOLERANCE = 0.022
 SHAFT_HARMONICS = 8
 # Width, in orders of the shaft, of the blocks from which the floor under the lines of the vibration is taken.
 SPECTRUM_FLOOR_ORDERS = 3.0
 # Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle.
 SLIP_SPREAD = 0.007
-# Standard deviation of the shaft's speed about the one stated, as a share.
-PRIOR_SPREAD = 0.008
+# Standard deviation of the shaft's speed about the one stated, over the most that it may be off.
+PRIOR_SPREAD = 4.0 / 11.0
 # Fewest and most speeds that are tried.
 PLACES = (45, 800)
 # How far apart, in components of the spectrum, the highest harmonics of neighbouring speeds lie.
@@ -31,11 +29,12 @@ FAMILY_PRIOR = 0.015
 DECISIVE = 12.0
 # A speed is preferred to another only if this many more lines stand out at it.
 MORE_LINES = 4
-# Another speed than the one stated has to be better by so many nats.
-WORTH_LEAVING = 3.0
-# A harmonic of the shaft within this share of a race's order may be a line of the race: so far a wrong speed (2.2 %)
-# and slip (2.7 %) may move the two together.
-OF_A_RACE = 0.049
+# Another speed than the one stated has to be better by so many nats, over the most that it may be off: chance finds
+# more where more speeds are tried. These are 3 nats for a measured speed.
+WORTH_LEAVING = 3.0 / MEASURED_WITHIN
+# A harmonic of the shaft as near to a race's order as slip and a wrong speed together may move them, as shares, may be
+# a line of the race.
+MOVED_BY_SLIP = 0.027
 
 
 @dataclass(frozen=True)
@@ -56,10 +55,8 @@ def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tupl
     return lines_in(excess, record.step), excess
 
 
-def refine_speed(
-    spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics, tolerance: float = SPEED_TOLERANCE
-) -> Speed:
-    """The most likely shaft speed within the `tolerance` (a share) of the one given, 0 if that is exact.
+def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics, *, exact: bool = False) -> Speed:
+    """The most likely shaft speed within what the one given may be off, or that one if it is `exact`.
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
     slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie say nothing: a spall
@@ -68,6 +65,7 @@ def refine_speed(
     a shaft that knocks, harmonics 40 to 50 lie where those of the races are looked for.
     """
     turning = lines_in(envelopes.excess[:1], envelopes.step)
+    tolerance = 0.0 if exact else known.speed_within
     count = int(np.ceil(2.0 * tolerance * known.shaft_hz * SHAFT_HARMONICS / (BINS_BETWEEN * spectrum.step))) + 1
     places = max(PLACES[0], min(count, PLACES[1])) // 2 * 2 + 1 if tolerance > 0.0 else 1
     factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
@@ -76,9 +74,13 @@ def refine_speed(
     shaft = unambiguous * tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
     modulation = unambiguous[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
     comb = shaft.sum(axis=0) + modulation.sum(axis=0)
-    joint = comb + families_term(envelopes, known, factors) - 0.5 * ((factors - 1.0) / PRIOR_SPREAD) ** 2
+    joint = (
+        comb
+        + families_term(envelopes, known, factors)
+        - 0.5 * ((factors - 1.0) / (PRIOR_SPREAD * known.speed_within)) ** 2
+    )
     stated, place = places // 2, int(joint.argmax())
-    if joint[place] < joint[stated] + WORTH_LEAVING:
+    if joint[place] < joint[stated] + WORTH_LEAVING * known.speed_within:
         place = stated
     factor, nats = float(factors[place]), float(comb[place])
     if places > 1 and nats > 0.0:
@@ -91,7 +93,7 @@ def unambiguous_harmonics(known: Kinematics) -> Flags:
     harmonic = np.arange(1.0, SHAFT_HARMONICS + 1.0)[:, None]
     orders = np.array([known.bpfo, known.bpfi])
     line = np.maximum(np.round(harmonic / orders), 1.0) * orders
-    return np.asarray((np.abs(harmonic / line - 1.0) > OF_A_RACE).all(axis=1))
+    return np.asarray((np.abs(harmonic / line - 1.0) > MOVED_BY_SLIP + known.speed_within).all(axis=1))
 
 
 def sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float, between: float) -> float:
@@ -125,7 +127,7 @@ def families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array)
     lines = lines_in(envelopes.excess, envelopes.step)
     best, term = DECISIVE, np.zeros(factors.size)
     for order in (known.bpfo, known.bpfi):
-        family = find_family(lines, order * known.shaft_hz, 2.0 * SPEED_TOLERANCE, known.shaft_hz, FAMILY_PRIOR, 3)
+        family = find_family(lines, order * known.shaft_hz, 2.0 * known.speed_within, known.shaft_hz, FAMILY_PRIOR, 3)
         band = int(family.evidence.argmax())
         if family.evidence[band] > best:
             best = float(family.evidence[band])

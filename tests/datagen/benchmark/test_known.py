@@ -68,3 +68,11 @@ def test_the_order_of_one_race_and_the_number_of_balls_give_that_of_the_other():
         known = known_kinematics({"speed_rpm": 1800.0, "balls": 9} | said)
         assert known is not None
         assert (known.bpfo, known.bpfi) == (pytest.approx(3.5848), pytest.approx(5.4152))  # 9 together
+
+
+@pytest.mark.parametrize(("basis", "within"), [("measured", 0.022), ("tach", 0.022), ("nominal", 0.05), (None, 0.022)])
+def test_a_nominal_speed_may_be_off_by_more_than_one_that_was_measured(basis: str | None, within: float) -> None:
+    said = {} if basis is None else {"speed_basis": basis}
+    known = known_kinematics(GEOMETRY | {"speed_rpm": 1800.0} | said)
+    assert known is not None
+    assert known.speed_within == within

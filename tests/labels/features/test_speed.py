@@ -1,11 +1,13 @@
 """What the passing balls say of the speed of the shaft."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
 from labels.features.families import lines_in
-from labels.features.kinematics import bearing_kinematics
+from labels.features.kinematics import MEASURED_WITHIN, NOMINAL_WITHIN, bearing_kinematics
 from labels.features.speed import families_term, sharpened, unambiguous_harmonics
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
@@ -27,6 +29,14 @@ def test_a_shaft_that_knocks_tells_its_speed_to_a_component_of_the_highest_harmo
     signal = impulse_train(1.0, rate=10_240.0, duration=10.0, shaft_hz=7.0 * share, snr_db=3.0)
     found = analyse(signal, 10_240.0, known).speed.shaft_hz
     assert found == pytest.approx(7.0 * share, rel=3e-4)
+
+
+@pytest.mark.parametrize("share", [0.955, 1.0, 1.035])
+def test_a_nominal_speed_may_be_off_by_the_slip_of_a_motor_and_a_measured_one_may_not(impulse_train, share):
+    signal = impulse_train(1.0, duration=2.0, shaft_hz=25.0 * share, snr_db=3.0)
+    nominal = replace(KNOWN, speed_within=NOMINAL_WITHIN)
+    assert analyse(signal, 20_000.0, nominal).speed.shaft_hz == pytest.approx(25.0 * share, rel=1e-3)
+    assert analyse(signal, 20_000.0, KNOWN).speed.shaft_hz == pytest.approx(25.0, rel=1.001 * MEASURED_WITHIN)
 
 
 @pytest.mark.parametrize(("order", "moves"), [(1.001, True), (12.012, False)])
@@ -57,10 +67,12 @@ NEAR_WHOLE_ORDERS = {
 }
 
 
+@pytest.mark.parametrize("within", [MEASURED_WITHIN, NOMINAL_WITHIN])
 @pytest.mark.parametrize("case", NEAR_WHOLE_ORDERS)
-def test_lines_of_a_race_near_a_multiple_of_the_shaft_are_not_taken_for_it(impulse_train, case):
+def test_lines_of_a_race_near_a_multiple_of_the_shaft_are_not_taken_for_it(impulse_train, case, within):
     """Taken for harmonics of the shaft they would be left out of the envelope, and a clear spall would go unseen."""
-    known, race = NEAR_WHOLE_ORDERS[case]
+    bearing, race = NEAR_WHOLE_ORDERS[case]
+    known = replace(bearing, speed_within=within)
     signal = impulse_train(getattr(known, race), duration=5.0, shaft_hz=known.shaft_hz, snr_db=3.0)
     found = analyse(signal, 20_000.0, known)
     assert found.speed.shaft_hz == pytest.approx(known.shaft_hz, rel=3e-3)

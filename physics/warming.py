@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from physics._jit import compile_for, discard_cache, nothing_cached, raised_by_cache
+from physics._jit import compile_for, discard_cache, is_cached, raised_by_cache
 from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
@@ -50,10 +50,10 @@ MARCHING = "from physics.warming import compile_march; compile_march()"
 def warm_up() -> None:
     """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again.
 
-    With an empty cache and two processors, a second process compiles the march, which takes as long as all else and one
-    of its parts that it comes to late.
+    Where the march is not compiled and there are two processors, a second process compiles it, which takes as long as
+    all else and one of its parts that it comes to late.
     """
-    if nothing_cached() and (os.cpu_count() or 1) > 1:
+    if not is_warm() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():
             compile_location()
             _use_kernels_beside_the_march(_scene())
@@ -64,6 +64,12 @@ def warm_up() -> None:
             raise
         discard_cache()
         _use_every_kernel()
+
+
+def is_warm() -> bool:
+    """Whether the march is compiled, which takes longest. Other kernels say nothing of it: to draw a scenario, or to
+    read features, compiles a few."""
+    return is_cached(march_modal)
 
 
 def compile_march() -> None:

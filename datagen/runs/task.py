@@ -37,10 +37,9 @@ class ShardRow:
 
 def warm_kernels(say: Say) -> None:
     """Compile every kernel before workers start, so that they find it in the cache."""
-    from physics.compiled import nothing_cached
-    from physics.warming import warm_up
+    from physics.warming import is_warm, warm_up
 
-    if nothing_cached():
+    if not is_warm():
         say("compiling the physics; this is done once for each version of it")
     warm_up()
 
@@ -48,10 +47,9 @@ def warm_kernels(say: Say) -> None:
 @contextmanager
 def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
     """Local workers start and load compiled kernels, if there are any, while the block goes on; see `woken_workers`."""
-    from physics.compiled import nothing_cached
-    from physics.warming import warm_up
+    from physics.warming import is_warm, warm_up
 
-    with nullcontext(none_woken) if nothing_cached() else woken_workers(warm_up) as are_ready:
+    with woken_workers(warm_up) if is_warm() else nullcontext(none_woken) as are_ready:
         yield are_ready
 
 

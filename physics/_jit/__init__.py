@@ -5,7 +5,7 @@
 - `c_callback`: a kernel as a C function, for solvers in other languages
 """
 
-from physics._jit.cache import CACHE_FOLDER, discard_cache, fingerprint, nothing_cached, raised_by_cache
+from physics._jit.cache import CACHE_FOLDER, discard_cache, fingerprint, is_cached, raised_by_cache
 from physics._jit.decorators import (
     compile_for,
     njit,
@@ -22,12 +22,12 @@ __all__ = [
     "compile_for",
     "discard_cache",
     "fingerprint",
+    "is_cached",
     "njit",
     "njit_inline",
     "njit_inner",
     "njit_lean",
     "njit_pasted",
-    "nothing_cached",
     "raised_by_cache",
     "specialise",
     "uncompiled",

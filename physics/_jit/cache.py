@@ -17,7 +17,9 @@ import os
 import shutil
 import tempfile
 import traceback
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numba
 import numba.core.caching
@@ -53,9 +55,9 @@ CACHE_FOLDER = _cache_folder()
 setattr(numba.config, "CACHE_DIR", str(CACHE_FOLDER))
 
 
-def nothing_cached() -> bool:
-    """Whether no kernel has been compiled yet; the folders of kernels are there as soon as they are defined."""
-    return not any(CACHE_FOLDER.rglob("*.nbi"))
+def is_cached(kernel: Callable[..., Any]) -> bool:
+    """Whether a `kernel` has been compiled, for whatever arguments; its folder is there as soon as it is defined."""
+    return any(CACHE_FOLDER.rglob(f"*.{kernel.__name__}-*.nbi"))
 
 
 def raised_by_cache(error: BaseException | None) -> bool:

@@ -170,23 +170,23 @@ def run_kernel(folder, home):
 EMPTY_OR_NOT = """
 import sys
 sys.path.insert(0, "")
-from physics._jit import nothing_cached
+from physics._jit import is_cached
 from physics.statics.rest import solve_at
-from physics.response.resampling import read_at
+from physics.statics.stiffness import expected
 import numpy as np
 
-before = nothing_cached()
-read_at(np.zeros((16, 2)), np.zeros(1))
-print(before, nothing_cached())
+before = is_cached(expected)
+expected(np.zeros((4, 2)), 1, 1)
+print(before, is_cached(expected), is_cached(solve_at))
 """
 
 
-def test_a_cache_is_empty_until_a_kernel_is_compiled_not_until_one_is_defined(tmp_path):
+def test_a_kernel_is_cached_once_it_is_compiled_not_once_it_or_another_one_is_defined(tmp_path):
     environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path)}
     done = subprocess.run(
         [sys.executable, "-c", EMPTY_OR_NOT], capture_output=True, text=True, check=True, env=environment
     )
-    assert done.stdout == "True False\n"
+    assert done.stdout == "False True False\n"
 
 
 OUTPUT = {"capture_output": True, "text": True, "check": True}

@@ -1,8 +1,10 @@
 """Kernels compiled beforehand: a worker that makes records has nothing left to compile."""
 
 import contextlib
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -33,6 +35,25 @@ for late in sorted(compiled() - before):
 def test_no_kernel_is_compiled_after_the_warm_up() -> None:
     done = subprocess.run([sys.executable, "-c", MAKE_RECORDS], capture_output=True, text=True, check=True)
     assert done.stdout == ""
+
+
+DRAWN = """
+from datagen.recipes.recipe import load_recipe
+from datagen.scenarios.sampling import draw_scenario
+from physics.warming import is_warm
+
+for record in range(6):
+    draw_scenario(load_recipe("datasets/quickstart"), record)
+print(is_warm())
+"""
+
+
+def test_what_drawing_scenarios_compiles_does_not_pass_for_a_warm_cache(tmp_path: Path) -> None:
+    environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", DRAWN], capture_output=True, text=True, check=True, env=environment)
+    assert done.stdout == "False\n"
+    assert any(tmp_path.rglob("*.nbi"))  # or nothing would have been tried
+    assert warming.is_warm()  # as this process's own cache is, by what was tested before
 
 
 ONE_MARCH = """
@@ -77,7 +98,7 @@ def test_only_a_damaged_cache_is_discarded(damaged, monkeypatch) -> None:
         if done == ["used"]:
             raise ValueError("anything")
 
-    monkeypatch.setattr(warming, "nothing_cached", lambda: False)
+    monkeypatch.setattr(warming, "is_warm", lambda: True)
     monkeypatch.setattr(warming, "raised_by_cache", lambda error: damaged and isinstance(error, ValueError))
     monkeypatch.setattr(warming, "_use_every_kernel", use)
     monkeypatch.setattr(warming, "discard_cache", lambda: done.append("discarded"))

@@ -30,7 +30,7 @@ from datagen.recipes.recipe import Recipe
 from datagen.runs.generate import generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import ShardRow, make_shard
-from datagen.runs.workers import Engine, engaged
+from datagen.runs.workers import Engine, engaged, woken_workers
 
 ALONE = Engine(workers=1)
 Contents = Callable[[Path], dict[int, str]]
@@ -361,6 +361,24 @@ def test_progress_lines_tell_rate_and_remaining_time(capsys: pytest.CaptureFixtu
         "2 of 12 records, 0.50 records/s, 20 s left",
         "12 of 12 records, 1.20 records/s, 0 s left",
     ]
+
+
+@pytest.mark.parametrize("warm", [True, False])
+def test_where_the_physics_is_not_compiled_the_run_says_so_and_wakes_no_workers_before(
+    warm: bool, tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    woken: list[bool] = []
+
+    def noted(function: Callable[[], Any]) -> AbstractContextManager[Callable[[], bool]]:
+        woken.append(True)
+        return woken_workers(function)
+
+    monkeypatch.setattr("physics.warming.is_warm", lambda: warm)
+    monkeypatch.setattr("datagen.runs.task.woken_workers", noted)
+    generate(tiny, tmp_path / "out", limit=1, engine=ALONE, listener=Listener(say=said.append))
+    assert any("compiling the physics" in sentence for sentence in said) is not warm
+    assert bool(woken) is warm
 
 
 def test_a_run_says_beforehand_what_disk_it_needs(

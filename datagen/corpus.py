@@ -81,8 +81,7 @@ class Corpus:
             if variable not in file.variables or file.variables[variable].dimensions[:1] != ("record",):
                 known = ", ".join(name for name, held in file.variables.items() if held.dimensions[:1] == ("record",))
                 raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
-            found: NDArray[Any] = file.variables[variable][position]
-        return found
+            return _values(file, variable, position)
 
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
         """Acceleration (T,) of a record along one axis, float64, m/s²; BadInput if there is no such record or axis."""
@@ -99,7 +98,7 @@ class Corpus:
         """Names of the axes along which the acceleration of a record is stored; BadInput if there is no such record."""
         shard, _ = self._place(record)
         with self._shards.reading(shard) as file:
-            return [str(name) for name in file.variables["axis"][:]]
+            return [str(name) for name in _values(file, "axis", slice(None))]
 
     def has(self, record: int, variable: str) -> bool:
         """Whether that variable of a record is in the corpus; BadInput if there is no such record."""
@@ -199,6 +198,14 @@ class Corpus:
         folds = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
         for train, test in folds.split(record, table[stratify], groups=table["bearing_id"]):
             yield record[train], record[test]
+
+
+def _values(file: netCDF4.Dataset, variable: str, place: int | slice) -> NDArray[Any]:
+    """What an open shard holds at a `place` of a variable; texts are texts, also in a file that xarray has read."""
+    held = file.variables[variable]
+    held.set_auto_chartostring(True)
+    found: NDArray[Any] = held[place]
+    return found
 
 
 def _require_at_its_place(file: netCDF4.Dataset, record: int, position: int, shard: str) -> None:

@@ -1,7 +1,8 @@
 """The shard files that were read last, kept open behind one door: each is open once in a process, whoever reads it.
 
-HDF5 2.2.0 crashes when texts are read from a file that was opened twice, once its first handle is closed: both share
-what belongs to that handle. A process that was forked has the handles of its parent, so none is open during a fork.
+HDF5 2.2.0 crashes when texts of any length, as earlier versions stored them, are read from a file that was opened
+twice, once its first handle is closed: both share what belongs to that handle. A process that was forked has the
+handles of its parent, so none is open during a fork.
 """
 
 from __future__ import annotations

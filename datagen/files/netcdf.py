@@ -3,12 +3,17 @@
 netCDF hands its chunks to zlib, whose fastest level takes longer than the physics. ISA-L makes streams of the same
 format many times as fast and about 6 % longer, and HDF5 takes chunks that are ready. Where h5py or isal is not
 installed, or netCDF does not read what they write, netCDF does it all: the arrays that readers see are the same.
+
+Texts are characters of a fixed length, which xarray and netCDF4 read as texts again. Those of any length lie in a heap
+of the file, and HDF5 2.2.0 crashes when it reads them from a file that was opened twice, once its first handle is
+closed.
 """
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.util import find_spec
 from itertools import product
@@ -26,6 +31,8 @@ if TYPE_CHECKING:
 COMPRESSIONS = ("zlib", "none")
 NO_LZ4 = "netCDF's own lz4 filter fails on signals that do not compress and ends the process"
 LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
+# Texts of more bytes are stored in a chunk each.
+LONG_TEXT = 1024
 IMAGE_BLOCK = 1 << 22
 # The netCDF library crashes when two threads use it. Closing may happen inside writing, when memory is collected.
 ONE_AT_A_TIME = threading.RLock()
@@ -80,73 +87,80 @@ def reads_back() -> bool:
             return False
 
 
-def _is_text(variable: xarray.Variable) -> bool:
-    return variable.dtype.kind in "OUT"
+@dataclass(frozen=True)
+class _Stored:
+    """A variable as the file has it: names of its dimensions, values, and attributes beside its own."""
+
+    dims: tuple[str, ...]
+    values: np.ndarray
+    attributes: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def chunk_shape(self) -> tuple[int, ...]:
+        """A chunk for each record and component of what is long, else one for all."""
+        keeps = [dim in LONG_DIMENSIONS for dim in self.dims]
+        if self.values.dtype.kind == "S":
+            keeps[-1] = self.values.shape[-1] > LONG_TEXT
+        return tuple(size if keep or not any(keeps) else 1 for size, keep in zip(self.values.shape, keeps, strict=True))
+
+
+def _stored(dataset: xarray.Dataset) -> dict[str, _Stored]:
+    return {str(name): _as_stored(variable) for name, variable in dataset.variables.items()}
+
+
+def _as_stored(variable: xarray.Variable) -> _Stored:
+    """Texts become characters, and truth small integers; an attribute tells what they are."""
+    dims, values = tuple(map(str, variable.dims)), np.asarray(variable.values)
+    if values.dtype.kind in "OUT":
+        texts = np.array([str(text).encode() for text in values.ravel()], dtype=np.bytes_)
+        length = texts.dtype.itemsize
+        characters = texts.view("S1").reshape(*values.shape, length)
+        return _Stored((*dims, f"string{length}"), characters, {"_Encoding": "utf-8"})
+    if values.dtype.kind == "b":
+        return _Stored(dims, values.astype(np.int8), {"dtype": "bool"})
+    return _Stored(dims, values)
 
 
 def _laid_out(dataset: xarray.Dataset, compression: str, with_values: bool) -> memoryview:
     """A netCDF file of all dimensions, variables and attributes, and perhaps the values."""
     import netCDF4
 
+    stored = _stored(dataset)
     file = netCDF4.Dataset("shard.nc", mode="w", format="NETCDF4", memory=IMAGE_BLOCK)
     file.setncatts(dataset.attrs)
-    for name, size in dataset.sizes.items():
-        file.createDimension(str(name), size)
-    for name, variable in dataset.variables.items():
-        target = _create(file, str(name), variable, compression)
-        if with_values and variable.size:
-            target[...] = _plain(variable)
+    sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
+    for dim, size in (dict(dataset.sizes) | sizes).items():
+        file.createDimension(str(dim), size)
+    for name, one in stored.items():
+        target = _create(file, name, one, compression)
+        target.setncatts(dict(dataset.variables[name].attrs) | one.attributes)
+        if with_values and one.values.size:
+            target[...] = one.values
     image: memoryview = file.close()
     return image
 
 
-def _create(file: netCDF4.Dataset, name: str, variable: xarray.Variable, compression: str) -> Any:
-    dims = tuple(map(str, variable.dims))
-    target: Any
-    if _is_text(variable):
-        target = file.createVariable(name, str, dims)
-        attributes = dict(variable.attrs)
-    else:
-        values = _plain(variable)
-        storage = _storage(variable, compression) if variable.size else {}
-        target = file.createVariable(name, values.dtype, dims, fill_value=False, **storage)
-        attributes = dict(variable.attrs) | ({"dtype": "bool"} if variable.dtype.kind == "b" else {})
+def _create(file: netCDF4.Dataset, name: str, stored: _Stored, compression: str) -> Any:
+    storage: dict[str, Any] = {}
+    if stored.values.size:
+        storage = {"chunksizes": stored.chunk_shape, "fletcher32": True}
+        storage |= {"zlib": True, "complevel": 1, "shuffle": True} if compression == "zlib" else {}
+    target = file.createVariable(name, stored.values.dtype, stored.dims, fill_value=False, **storage)
     target.set_auto_maskandscale(False)
-    target.setncatts(attributes)
+    target.set_auto_chartostring(False)
     return target
 
 
-def _plain(variable: xarray.Variable) -> np.ndarray:
-    """The values as netCDF knows them: texts as objects, and truth as small integers, told by an attribute."""
-    values = np.asarray(variable.values)
-    if _is_text(variable):
-        return values.astype(object)
-    return values.astype(np.int8) if values.dtype.kind == "b" else values
-
-
-def _storage(variable: xarray.Variable, compression: str) -> dict[str, Any]:
-    settings: dict[str, Any] = {"chunksizes": _chunk_shape(variable), "fletcher32": True}
-    return settings | ({"zlib": True, "complevel": 1, "shuffle": True} if compression == "zlib" else {})
-
-
-def _chunk_shape(variable: xarray.Variable) -> tuple[int, ...]:
-    long = [dim in LONG_DIMENSIONS for dim in variable.dims]
-    return tuple(size if keep or not any(long) else 1 for size, keep in zip(variable.shape, long, strict=True))
-
-
 def _filled(image: memoryview, dataset: xarray.Dataset, compression: str) -> bytes:
-    """The file `image` with the texts and the chunks of `dataset` put in."""
+    """The file `image` with the chunks of `dataset` put in."""
     import h5py
 
     with h5py.File.in_memory(file_image=bytes(image), block_size=IMAGE_BLOCK) as file:
-        for name, variable in dataset.variables.items():
-            target = h5py.h5d.open(file.id, str(name).encode())
-            if not variable.size:
+        for name, stored in _stored(dataset).items():
+            if not stored.values.size:
                 continue
-            if _is_text(variable):
-                h5py.Dataset(target)[...] = _plain(variable)
-                continue
-            for start, chunk in _chunks(_plain(variable), _chunk_shape(variable)):
+            target = h5py.h5d.open(file.id, name.encode())
+            for start, chunk in _chunks(stored.values, stored.chunk_shape):
                 target.write_direct_chunk(start, chunk_bytes(chunk, compression == "zlib"))
         file.flush()
         filled: bytes = file.id.get_file_image()

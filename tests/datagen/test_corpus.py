@@ -45,6 +45,30 @@ def test_a_waveform_is_what_plain_xarray_reads(corpus: Corpus) -> None:
                 assert np.array_equal(corpus.waveform(record, "stiffness"), shard["stiffness"].values[position])
 
 
+OPENED_TWICE = """
+import sys
+from pathlib import Path
+import xarray
+
+paths = sorted(Path(sys.argv[1]).glob("shards/*.nc"))
+kept = [xarray.open_dataset(path) for path in paths]
+again = [xarray.open_dataset(path) for path in paths]
+for shard in again:
+    shard.close()
+with xarray.open_dataset(paths[0]) as shard:
+    print(shard.load().sizes["record"])
+"""
+
+
+def test_a_shard_may_be_opened_twice_and_read_once_one_of_both_is_closed(tiny_corpus: Path) -> None:
+    """Where texts of any length were stored, HDF5 2.2.0 ended the process."""
+    done = subprocess.run(
+        [sys.executable, "-c", OPENED_TWICE, tiny_corpus], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert int(done.stdout) > 0
+
+
 def test_the_dataset_of_a_record_holds_its_own_passes_and_defects_only(corpus: Corpus) -> None:
     total = 0
     for record in corpus.labels["record"]:

@@ -65,7 +65,11 @@ def test_names_types_attributes_chunks_and_filters_are_the_same(
 def test_the_layout_is_that_of_xarray(dataset: xarray.Dataset, compression: str, tmp_path: Path) -> None:
     path, plain = tmp_path / "ours.nc", tmp_path / "xarray.nc"
     path.write_bytes(netcdf_bytes(dataset, compression))
-    dataset.to_netcdf(plain, engine="netcdf4", encoding={name: {"_FillValue": None} for name in dataset.variables})
+    encoding: dict[Any, dict[str, Any]] = {
+        name: {"dtype": "S1"} if variable.dtype.kind in "OU" else {"_FillValue": None}
+        for name, variable in dataset.variables.items()
+    }
+    dataset.to_netcdf(plain, engine="netcdf4", encoding=encoding)
     with netCDF4.Dataset(path) as ours, netCDF4.Dataset(plain) as theirs:
         assert set(ours.variables) == set(theirs.variables)
         for name, variable in theirs.variables.items():

@@ -61,7 +61,7 @@ def _record_of(source: str, record: int) -> Subject:
         allowed = f"{', '.join(NAMES)} (with @3, ~1 or @3~1), {', '.join(shipped)}, or a recipe"
         raise BadInput(field="SCENE", value=source, allowed=allowed + suggestion(source, (*NAMES, *shipped)))
     recipe = load_recipe(Path(source))
-    recipe.place(record)
+    recipe.require(record, "--record")
     scenario = draw_scenario(recipe, record)
     if scenario.duration < SHORTEST:
         raise BadInput(

@@ -107,7 +107,7 @@ def recipe_portrait(source: str | Path, record: int) -> Portrait:
 
     stored = ("acceleration_clean", "acceleration_sensor", "background")
     recipe = load_recipe(source)
-    recipe.place(record)
+    recipe.require(record, "--record")
     require_memory(recipe)
     scenario = draw_scenario(recipe, record)
     require_record_memory(recipe, scenario, stored)

@@ -158,10 +158,14 @@ class Recipe(Table):
         """Number of records of all parts."""
         return sum(part.records for part in self.part)
 
+    def require(self, record: int, asked_by: str = "record") -> None:
+        """Raise BadInput, with `asked_by` as its field, if there is no such `record`."""
+        if not 0 <= record < self.count:
+            raise BadInput("", self.source, asked_by, record, f"0 to {self.count - 1}")
+
     def place(self, record: int) -> Place:
         """Where `record` (0 ≤ record < count) stands in the corpus."""
-        if not 0 <= record < self.count:
-            raise BadInput(file=self.source, field="record", value=record, allowed=f"0 to {self.count - 1}")
+        self.require(record)
         sizes = tuple((part.records, part.records_per_machine) for part in self.part)
         return place_by_part(sizes, record) if self.order == "by_part" else place_interleaved(sizes, record)
 

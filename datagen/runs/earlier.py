@@ -43,7 +43,9 @@ def earlier_runs(folder: Path, identity: Identity) -> Earlier:
     try:
         if manifest_path(folder).exists():
             manifest = read_manifest(folder)
-            _require_same(identity, manifest.identity, folder)
+            if manifest.imported:
+                raise BadInput("this folder holds imported recordings: choose another folder", str(folder), OUT)
+            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}")
             return Earlier(manifest.asked)
         damage = None
     except DamagedManifest as problem:
@@ -73,11 +75,11 @@ def _settled_spans(sidecars: Iterable[Sidecar], identity: Identity, folder: Path
     return add_spans((), ((record, record + 1) for record in settled)), count
 
 
-def _require_same(identity: Identity, found: Identity, folder: Path) -> None:
+def _require_same(identity: Identity, found: Identity, folder: Path, held: str = "the corpus") -> None:
     names = [name for part, name in VERSIONS.items() if getattr(found, part) != getattr(identity, part)]
     if names:
         raise BadInput(
-            f"the corpus in this folder was begun with another version of {' and '.join(names)}, and a corpus never "
+            f"{held} in this folder was begun with another version of {' and '.join(names)}, and a corpus never "
             "mixes versions: choose another folder, or delete this one",
             str(folder),
             OUT,

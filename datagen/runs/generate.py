@@ -25,7 +25,7 @@ from datagen.versions import program_hash
 
 def generate(
     recipe: Recipe,
-    folder: Path,
+    folder: str | Path,
     *,
     limit: int | None = None,
     records: Sequence[int] | None = None,
@@ -39,7 +39,7 @@ def generate(
     KeyboardInterrupt leaves a usable corpus of the shards finished so far. Processes that make records, this one if it
     is the only worker, keep the memory of freed arrays (physics.freed_memory).
     """
-    began = time.monotonic()
+    began, folder = time.monotonic(), Path(folder)
     asked = selection(recipe, limit, records)
     check_compression(recipe.store.compression)
     identity = corpus_identity(recipe)

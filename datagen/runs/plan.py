@@ -145,7 +145,7 @@ def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) 
         if not records:
             raise BadInput("no record is listed", field="--records")
         for record in records:
-            recipe.place(record)
+            recipe.require(record, "--records")
         return add_spans((), ((record, record + 1) for record in records))
     if limit is not None and limit < 1:
         raise BadInput(field="--limit", value=limit, allowed="1 or more")

@@ -175,6 +175,20 @@ def test_a_corpus_of_another_recipe_is_refused_and_left_alone(
     assert (copy / "manifest.json").read_bytes() == before
 
 
+def test_the_refusal_says_what_the_folder_holds(tiny: Recipe, copy: Path) -> None:
+    with pytest.raises(BadInput, match="the corpus tiny in this folder was begun"):
+        generate(Recipe.model_validate(tiny.model_dump(mode="json") | {"name": "other"}), copy, engine=ALONE)
+    content = json.loads((copy / "manifest.json").read_text())
+    (copy / "manifest.json").write_text(json.dumps(content | {"origin": "imported"}))
+    with pytest.raises(BadInput, match="this folder holds imported recordings"):
+        generate(tiny, copy, engine=ALONE)
+
+
+def test_the_folder_may_be_a_text(tiny: Recipe, tmp_path: Path) -> None:
+    assert generate(tiny, str(tmp_path / "out"), limit=1, engine=ALONE).made == 1
+    assert (tmp_path / "out" / "manifest.json").is_file()
+
+
 def test_a_corpus_that_another_run_began_meanwhile_is_refused_and_left_alone(
     tiny: Recipe, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -219,13 +233,19 @@ def test_a_file_in_the_place_of_the_folder_is_refused(tiny: Recipe, tmp_path: Pa
 
 
 @pytest.mark.parametrize(
-    "request_",
-    [{"limit": 0}, {"limit": -3}, {"records": [14]}, {"records": [-1]}, {"records": [1], "limit": 2}],
+    ("request_", "sentence"),
+    [
+        ({"limit": 0}, "--limit = 0; allowed: 1 or more"),
+        ({"limit": -3}, "--limit = -3; allowed: 1 or more"),
+        ({"records": [14]}, "--records = 14; allowed: 0 to 13"),
+        ({"records": [-1]}, "--records = -1; allowed: 0 to 13"),
+        ({"records": [1], "limit": 2}, "give only one of them"),
+    ],
 )
 def test_impossible_requests_are_refused_and_nothing_is_written(
-    tiny: Recipe, tmp_path: Path, request_: dict[str, Any]
+    tiny: Recipe, tmp_path: Path, request_: dict[str, Any], sentence: str
 ) -> None:
-    with pytest.raises(BadInput):
+    with pytest.raises(BadInput, match=sentence):
         generate(tiny, tmp_path / "out", engine=ALONE, **request_)
     assert not (tmp_path / "out").exists()
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -42,44 +42,51 @@ SEED, WORKERS = 20261122, 2
 # Seconds after which a knock has died away.
 RINGS_FOR = 0.02
 Signal = NDArray[np.float64]
-# Samples (T, A), their rate (Hz), and what the stated speed is multiplied by.
-Recorded = tuple[Signal, float, float]
+
+
+class Recorded(NamedTuple):
+    """Samples (T, A), their `rate` (Hz), what the stated speed is multiplied by, and whether it is given as nominal."""
+
+    signal: Signal
+    rate: float
+    speed_factor: float = 1.0
+    nominal: bool = False
 
 
 def cut(signal: Signal, rate: float, random: np.random.Generator, seconds: float) -> Recorded:
     """A stretch of so many seconds, anywhere in the record."""
     size = min(round(seconds * rate), len(signal))
     start = int(random.integers(0, len(signal) - size, endpoint=True))
-    return signal[start : start + size], rate, 1.0
+    return Recorded(signal[start : start + size], rate)
 
 
 def resampled(signal: Signal, rate: float, _: np.random.Generator, to: float) -> Recorded:
     """The record at another rate (Hz)."""
     ratio = Fraction(round(to), round(rate))
-    return resample_poly(signal, ratio.numerator, ratio.denominator, axis=0), to, 1.0
+    return Recorded(resample_poly(signal, ratio.numerator, ratio.denominator, axis=0), to)
 
 
-def misstated(signal: Signal, rate: float, _: np.random.Generator, by: float) -> Recorded:
+def misstated(signal: Signal, rate: float, _: np.random.Generator, by: float, nominal: bool = False) -> Recorded:
     """The record with a wrong speed."""
-    return signal, rate, by
+    return Recorded(signal, rate, by, nominal)
 
 
 def clipped(signal: Signal, rate: float, _: np.random.Generator, at: float) -> Recorded:
     """The record cut off at so many times its RMS."""
     level = at * signal.std(axis=0)
-    return np.clip(signal, -level, level), rate, 1.0
+    return Recorded(np.clip(signal, -level, level), rate)
 
 
 def coarse(signal: Signal, rate: float, _: np.random.Generator, steps: float) -> Recorded:
     """The record in whole steps, so many up to its largest value."""
     step = np.abs(signal).max(axis=0) / steps
-    return np.round(signal / step) * step, rate, 1.0
+    return Recorded(np.round(signal / step) * step, rate)
 
 
 def humming(signal: Signal, rate: float, _: np.random.Generator, hertz: float) -> Recorded:
     """The record with hum of its own RMS at a mains frequency and a third of that at its third harmonic."""
     turn = 2.0 * np.pi * hertz * np.arange(len(signal))[:, None] / rate
-    return signal + signal.std(axis=0) * (np.sqrt(2.0) * np.sin(turn) + np.sin(3.0 * turn) / 3.0), rate, 1.0
+    return Recorded(signal + signal.std(axis=0) * (np.sqrt(2.0) * np.sin(turn) + np.sin(3.0 * turn) / 3.0), rate)
 
 
 def knocking(signal: Signal, rate: float, random: np.random.Generator, hertz: float) -> Recorded:
@@ -92,7 +99,7 @@ def knocking(signal: Signal, rate: float, random: np.random.Generator, hertz: fl
     time = np.arange(0.0, RINGS_FOR, 1.0 / rate)
     ringing = fftconvolve(impulses, np.exp(-500.0 * time) * np.sin(2.0 * np.pi * random.uniform(1e3, 4e3) * time))
     knocks = ringing[: len(signal), None]
-    return signal + signal.std(axis=0) * knocks / knocks.std(), rate, 1.0
+    return Recorded(signal + signal.std(axis=0) * knocks / knocks.std(), rate)
 
 
 DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]] = {
@@ -104,6 +111,8 @@ DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]
     "at 25.6 kHz": partial(resampled, to=25_600.0),
     "speed stated 2 % too high": partial(misstated, by=1.02),
     "speed stated 2 % too low": partial(misstated, by=0.98),
+    "speed stated 4 % too high, as nominal": partial(misstated, by=1.04, nominal=True),
+    "speed stated 4 % too low, as nominal": partial(misstated, by=0.96, nominal=True),
     "clipped at 3 times its RMS": partial(clipped, at=3.0),
     "in 100 steps up to its peak": partial(coarse, steps=100.0),
     "with as much mains hum": partial(humming, hertz=50.0),
@@ -126,10 +135,12 @@ def read(folder: Path, label: pandas.Series[Any], name: str) -> RecordRows:
     with Corpus(folder) as corpus:
         signal = np.asarray(corpus.waveform(int(label["record"])), dtype=np.float64)
     random = np.random.default_rng([SEED, int(label["record"])])
-    signal, rate, factor = DISTURBANCES[name](signal, float(label["rate_hz"]), random)
+    found = DISTURBANCES[name](signal, float(label["rate_hz"]), random)
     disturbed = label.copy()
-    disturbed["rate_hz"], disturbed["speed_rpm"] = rate, factor * float(label["speed_rpm"])
-    return record_rows(signal, disturbed, Reading())
+    disturbed["rate_hz"], disturbed["speed_rpm"] = found.rate, found.speed_factor * float(label["speed_rpm"])
+    if found.nominal:
+        disturbed["speed_basis"] = "nominal"
+    return record_rows(found.signal, disturbed, Reading())
 
 
 def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, CorpusRows]:

@@ -34,7 +34,7 @@ def limited(setting: dict[str, list[float]], rate: float) -> dict[str, list[floa
 def at_rate(recipe: dict[str, Any], rate: float) -> dict[str, Any]:
     """The recipe with short records at that rate (Hz)."""
     changed = deepcopy(recipe)
-    changed["signal"] = {"rate_hz": rate, "duration_s": DURATIONS}
+    changed["signal"] |= {"rate_hz": rate, "duration_s": DURATIONS}
     part = changed["part"][0]
     part["machine"]["resonator_frequency_hz"] = limited(part["machine"]["resonator_frequency_hz"], rate)
     part["chain"]["mounting_cutoff_hz"] = limited(part["chain"]["mounting_cutoff_hz"], rate)

@@ -1,9 +1,9 @@
 """What a run costs beside its records: compiling, starting; how time goes with length and balls, memory with records.
 
 PYTHONPATH=. python tests/benchmarks/costs.py writes docs/costs.json and the tables of docs/pipeline.md. Compiling and
-starting are wall clock of a fresh process, with an empty and with a filled cache of kernels; times of responses are
-processor time, medians of rounds; memory is the largest resident size of a process that makes so many records of
-`gearbox_rig`.
+starting are wall clock of a run that makes one record, with an empty and with a filled cache of kernels; times of
+responses are processor time, medians of rounds; memory is the largest resident size of a process that makes so many
+records of `gearbox_rig`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ from physics.warming import warm_up
 ROOT = Path(__file__).resolve().parents[2]
 RATE, ROUNDS, SLIP_SEED = 65536.0, 5, 1
 LENGTHS, BALLS, RECORDS = (0.5, 1.0, 2.0, 4.0, 8.0), (8, 12, 16, 24, 32), (16, 64, 192)
-STARTING = "from physics.warming import warm_up; warm_up()"
 MAKING = """
 import resource, sys
 from datagen.cli import main
@@ -44,13 +43,14 @@ print(max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, re
 
 
 def starts() -> tuple[float, float]:
-    """Seconds of a process that makes every kernel ready, the first and the second time."""
+    """Seconds of a run of one record, the first and the second time."""
     seconds = []
-    with tempfile.TemporaryDirectory() as cache:
-        for _ in range(2):
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "SPALLGEN_CACHE": str(Path(folder) / "cache")}
+        for out in ("first", "second"):
             begin = time.perf_counter()
-            environment = {**os.environ, "SPALLGEN_CACHE": cache}
-            subprocess.run([sys.executable, "-c", STARTING], check=True, cwd=ROOT, env=environment)
+            command = [sys.executable, "-m", "datagen", "generate", "quickstart", "--limit", "1", "--out"]
+            subprocess.run([*command, Path(folder) / out], check=True, cwd=ROOT, env=environment, capture_output=True)
             seconds.append(time.perf_counter() - begin)
     return seconds[0], seconds[1]
 
@@ -100,8 +100,8 @@ def main() -> None:
     }
     (ROOT / "docs" / "costs.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     lines = [
-        f"- A first start, which compiles every kernel that records need, takes {first:.0f} s, "
-        f"a later one {again:.1f} s.",
+        f"- The first run, of one record, takes {first:.0f} s, as it compiles every kernel that records need; a later "
+        f"one takes {again:.1f} s.",
         "- Milliseconds a second of record, G1 slipping, by length: "
         + ", ".join(f"{1e3 * used / length:.1f} ({length:g} s)" for length, used in lengths.items())
         + ".",

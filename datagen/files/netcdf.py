@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from itertools import product
@@ -56,10 +56,10 @@ def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | memoryvie
     Signals are stored in checksummed chunks, one for each record and component.
     """
     check_compression(compression)
-    fast = has_fast_chunks()
+    fast, stored = has_fast_chunks(), _stored(dataset)
     with ONE_AT_A_TIME:
-        image = _laid_out(dataset, compression, with_values=not fast)
-        return _filled(image, dataset, compression) if fast else image
+        image = _laid_out(stored, dataset.attrs, compression, with_values=not fast)
+        return _filled(image, stored, compression) if fast else image
 
 
 def has_fast_chunks() -> bool:
@@ -80,7 +80,8 @@ def reads_back() -> bool:
     sample = xarray.Dataset({"number": (("record", "time"), numbers.reshape(2, 20)), "text": ("record", texts)})
     with ONE_AT_A_TIME:
         try:
-            content = _filled(_laid_out(sample, "zlib", with_values=False), sample, "zlib")
+            stored = _stored(sample)
+            content = _filled(_laid_out(stored, {}, "zlib", with_values=False), stored, "zlib")
             with netCDF4.Dataset("sample.nc", memory=content) as file:
                 return all(np.array_equal(file[name][...], sample[name].values) for name in ("number", "text"))
         except (OSError, RuntimeError, KeyError, ValueError):  # whichever of the two finds what it cannot read
@@ -89,11 +90,11 @@ def reads_back() -> bool:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A variable as the file has it: names of its dimensions, values, and attributes beside its own."""
+    """A variable as the file has it: names of its dimensions, values and attributes."""
 
     dims: tuple[str, ...]
     values: np.ndarray
-    attributes: dict[str, str] = field(default_factory=dict)
+    attributes: dict[str, Any]
 
     @property
     def chunk_shape(self) -> tuple[int, ...]:
@@ -110,30 +111,31 @@ def _stored(dataset: xarray.Dataset) -> dict[str, _Stored]:
 
 def _as_stored(variable: xarray.Variable) -> _Stored:
     """Texts become characters, and truth small integers; an attribute tells what they are."""
-    dims, values = tuple(map(str, variable.dims)), np.asarray(variable.values)
+    dims, values, attributes = tuple(map(str, variable.dims)), np.asarray(variable.values), dict(variable.attrs)
     if values.dtype.kind in "OUT":
         texts = np.array([str(text).encode() for text in values.ravel()], dtype=np.bytes_)
         length = texts.dtype.itemsize
         characters = texts.view("S1").reshape(*values.shape, length)
-        return _Stored((*dims, f"string{length}"), characters, {"_Encoding": "utf-8"})
+        return _Stored((*dims, f"string{length}"), characters, attributes | {"_Encoding": "utf-8"})
     if values.dtype.kind == "b":
-        return _Stored(dims, values.astype(np.int8), {"dtype": "bool"})
-    return _Stored(dims, values)
+        return _Stored(dims, values.astype(np.int8), attributes | {"dtype": "bool"})
+    return _Stored(dims, values, attributes)
 
 
-def _laid_out(dataset: xarray.Dataset, compression: str, with_values: bool) -> memoryview:
+def _laid_out(
+    stored: dict[str, _Stored], attributes: dict[str, Any], compression: str, with_values: bool
+) -> memoryview:
     """A netCDF file of all dimensions, variables and attributes, and perhaps the values."""
     import netCDF4
 
-    stored = _stored(dataset)
     file = netCDF4.Dataset("shard.nc", mode="w", format="NETCDF4", memory=IMAGE_BLOCK)
-    file.setncatts(dataset.attrs)
+    file.setncatts(attributes)
     sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
-    for dim, size in (dict(dataset.sizes) | sizes).items():
-        file.createDimension(str(dim), size)
+    for dim, size in sizes.items():
+        file.createDimension(dim, size)
     for name, one in stored.items():
         target = _create(file, name, one, compression)
-        target.setncatts(dict(dataset.variables[name].attrs) | one.attributes)
+        target.setncatts(one.attributes)
         if with_values and one.values.size:
             target[...] = one.values
     image: memoryview = file.close()
@@ -151,16 +153,16 @@ def _create(file: netCDF4.Dataset, name: str, stored: _Stored, compression: str)
     return target
 
 
-def _filled(image: memoryview, dataset: xarray.Dataset, compression: str) -> bytes:
-    """The file `image` with the chunks of `dataset` put in."""
+def _filled(image: memoryview, stored: dict[str, _Stored], compression: str) -> bytes:
+    """The file `image` with the chunks of what is `stored` put in."""
     import h5py
 
     with h5py.File.in_memory(file_image=bytes(image), block_size=IMAGE_BLOCK) as file:
-        for name, stored in _stored(dataset).items():
-            if not stored.values.size:
+        for name, one in stored.items():
+            if not one.values.size:
                 continue
             target = h5py.h5d.open(file.id, name.encode())
-            for start, chunk in _chunks(stored.values, stored.chunk_shape):
+            for start, chunk in _chunks(one.values, one.chunk_shape):
                 target.write_direct_chunk(start, chunk_bytes(chunk, compression == "zlib"))
         file.flush()
         filled: bytes = file.id.get_file_image()

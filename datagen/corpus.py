@@ -201,11 +201,11 @@ class Corpus:
 
 
 def _values(file: netCDF4.Dataset, variable: str, place: int | slice) -> NDArray[Any]:
-    """What an open shard holds at a `place` of a variable; texts are texts, also in a file that xarray has read."""
+    """What an open shard holds at a `place` of a variable; a single text is a `str`."""
     held = file.variables[variable]
-    held.set_auto_chartostring(True)
+    held.set_auto_chartostring(True)  # xarray turns that off in a file that it has read
     found: NDArray[Any] = held[place]
-    return found
+    return found[()] if found.dtype.kind == "U" else found
 
 
 def _require_at_its_place(file: netCDF4.Dataset, record: int, position: int, shard: str) -> None:

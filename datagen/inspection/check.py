@@ -90,6 +90,7 @@ class _Check:
         self.folder, self.manifest = folder, manifest
         self.problems: list[str] = []
         self.damaged: list[str] = []
+        self.wrong_index = False
         self.sidecars: list[Sidecar] = []
         self.records: set[int] = set()
         self.remade: list[int] = []
@@ -103,6 +104,7 @@ class _Check:
             return read_index(self.folder)
         except BadInput as problem:
             self.problems.append(str(problem))
+            self.wrong_index = True
             return None
 
     def files(self) -> None:
@@ -170,6 +172,7 @@ class _Check:
         rows = self.index.iloc[self._rows_of_shard.get(name, [])].sort_values("position")
         stated = {c: [None if value != value else value for value in rows[c].tolist()] for c in LABEL_COLUMNS}
         if stated != sidecar.labels or rows["position"].tolist() != list(range(len(sidecar.records))):
+            self.wrong_index = True
             yield "index.csv disagrees about its records"
 
     @cached_property
@@ -188,12 +191,13 @@ class _Check:
                 return
 
     def remedy(self) -> str:
-        """How to mend the damaged shards, empty if there are none."""
-        if not self.damaged:
+        """How to mend damaged shards and a wrong index, empty if there are none."""
+        wrong = [*self.damaged, *(["index.csv"] if self.wrong_index else [])]
+        if not wrong:
             return ""
         if self.manifest.imported:
             return "to mend it, delete this folder and import the recordings again"
-        there = [name for name in self.damaged if (self.folder / name).exists()]
+        there = [name for name in wrong if (self.folder / name).exists()]
         first = f"delete {', '.join(there)} and " if there else ""
         same_program = self.manifest.identity.program_hash == program_hash()
         version = "" if same_program else ", by the version of spallgen that made this corpus"
@@ -214,6 +218,7 @@ class _Check:
         if self.index is None:
             return
         if set(self.index["record"]) != self.records or not self.index["record"].is_unique:
+            self.wrong_index = True
             self.problems.append("index.csv does not list every record of the shards exactly once")
         known = self.index[self.index["bearing_id"] != UNKNOWN]
         splits = known.groupby("bearing_id")["split"].nunique()

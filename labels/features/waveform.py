@@ -19,9 +19,7 @@ KURTOGRAM = "Antoni 2007, Mech. Syst. Signal Process. 21 (fast kurtogram)"
 MOST_KURTOSIS = 5.0
 
 ROWS = (
-    Feature(
-        "kurtosis", "ln", "ln of the kurtosis of the waveform above half a turn, 5 at most; ln 3 for noise.", DYER
-    ),
+    Feature("kurtosis", "ln", "ln of the kurtosis of the waveform above half a turn, 5 at most; ln 3 for noise.", DYER),
     Feature("skewness", "1", "Size of the waveform's skewness, cut at 5.", SHAPES),
     Feature("crest_factor", "ln", "ln of the 99.99 % quantile of the size over the RMS.", DYER),
     Feature("shape_factor", "ln", "ln of the RMS over the mean size.", SHAPES),

@@ -105,3 +105,15 @@ def test_going_on_with_a_whole_corpus_says_that_only_sizes_were_compared(copy: P
     code, _, message = run("generate", tiny_recipe, "--out", copy, "--workers", 1)
     assert code == 0
     assert "in files of the right size; `spallgen check` reads them" in message
+
+
+def test_check_says_how_to_mend_a_wrong_index_and_that_mends_it(copy: Path, tiny_recipe: Path) -> None:
+    index = copy / "index.csv"
+    index.write_text("\n".join(index.read_text().splitlines()[:-1]) + "\n")
+    code, _, message = run("check", copy)
+    assert code == 1
+    again = f"run `spallgen generate` again with the same recipe and --out {copy}\n"
+    assert message.endswith(f"to mend it, delete index.csv and {again}")
+    index.unlink()
+    assert run("generate", tiny_recipe, "--out", copy, "--workers", 1)[0] == 0
+    assert check_corpus(copy, remake=0).sound

@@ -66,8 +66,8 @@ def grow(size: int) -> int:
 def test_a_worker_may_grow_by_what_long_records_take(recwarn: pytest.WarningsRecorder) -> None:
     pytest.importorskip("psutil", reason="loky looks at the memory of workers only where psutil is installed")
     with engaged(Engine(workers=2)):
-        first = set(run_tasks(grow, [(0,)] * 2))
-        assert set(run_tasks(grow, [(400 << 20,)] * 4)) == first
+        first, later = (set(run_tasks(grow, tasks)) for tasks in ([(0,)] * 2, [(400 << 20,)] * 4))
+    assert len(first | later) <= 2  # none was replaced
     assert not recwarn.list
 
 

@@ -167,7 +167,7 @@ def run_kernel(folder, home):
     return done.stdout.splitlines()
 
 
-EMPTY_OR_NOT = """
+CACHED_OR_NOT = """
 import sys
 sys.path.insert(0, "")
 from physics._jit import is_cached
@@ -184,7 +184,7 @@ print(before, is_cached(expected), is_cached(solve_at))
 def test_a_kernel_is_cached_once_it_is_compiled_not_once_it_or_another_one_is_defined(tmp_path):
     environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path)}
     done = subprocess.run(
-        [sys.executable, "-c", EMPTY_OR_NOT], capture_output=True, text=True, check=True, env=environment
+        [sys.executable, "-c", CACHED_OR_NOT], capture_output=True, text=True, check=True, env=environment
     )
     assert done.stdout == "False True False\n"
 

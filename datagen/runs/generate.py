@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity, format_hash
@@ -18,8 +18,7 @@ from datagen.runs.earlier import earlier_runs
 from datagen.runs.plan import plan_shards, selection
 from datagen.runs.requirements import require_memory, require_possible_rates, require_room
 from datagen.runs.run import Run, Summary
-from datagen.runs.task import kernels_loading_in_workers
-from datagen.runs.workers import Engine, engaged, none_woken
+from datagen.runs.workers import Engine, engaged
 from datagen.versions import program_hash
 
 
@@ -46,15 +45,10 @@ def generate(
     earlier = earlier_runs(folder, identity).asked
     require_memory(recipe)
     require_possible_rates(recipe, asked)
-    engine = (engine or Engine()).for_tasks(sum(stop - start for start, stop in asked))
-    with (
-        ExitStack() as once_workers_are_gone,
-        engaged(engine),
-        nullcontext(none_woken) if earlier else kernels_loading_in_workers() as are_ready,
-    ):
-        # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
-        planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)), listener.say)
-        require_room(recipe, planned, folder)
+    # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
+    planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)), listener.say)
+    require_room(recipe, planned, folder)
+    with ExitStack() as once_workers_are_gone, engaged((engine or Engine()).for_tasks(len(planned))):
         _make_folder(folder)
         once_workers_are_gone.enter_context(locked(folder))
         found = earlier_runs(folder, identity)  # again: another run may have been here since
@@ -62,7 +56,7 @@ def generate(
             listener.say(found.lost)
         run = Run(recipe, folder, identity, add_spans(found.asked, asked), asked, listener)
         once_workers_are_gone.callback(run.finish)
-        run.make(planned, are_ready)
+        run.make(planned)
     return run.summary(time.monotonic() - began)
 
 

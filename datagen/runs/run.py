@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -20,7 +20,7 @@ from datagen.files.byte_counts import bytes_text
 from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
-from datagen.runs.task import make_shard, warm_kernels
+from datagen.runs.task import compile_kernels, make_shard
 from datagen.runs.workers import WorkerLost, run_tasks
 from datagen.versions import program_versions
 
@@ -80,14 +80,11 @@ class Run:
         self.done = 0
         self.problem = ""
 
-    def make(self, planned: Sequence[PlannedShard], workers_are_ready: Callable[[], bool]) -> None:
-        """Make every planned shard that is not finished; what cannot be made is remembered, not raised.
-
-        `workers_are_ready` waits for workers that are starting, and says whether they have loaded their kernels.
-        """
+    def make(self, planned: Sequence[PlannedShard]) -> None:
+        """Make every planned shard that is not finished; what cannot be made is remembered, not raised."""
         try:
             self._begin()
-            self._make_missing(planned, workers_are_ready)
+            self._make_missing(planned)
         except OSError as problem:
             if problem.errno not in NO_SPACE:
                 raise
@@ -101,7 +98,7 @@ class Run:
         self.made_before = self._made()
         write_manifest(self.folder, self.manifest)
 
-    def _make_missing(self, planned: Sequence[PlannedShard], workers_are_ready: Callable[[], bool]) -> None:
+    def _make_missing(self, planned: Sequence[PlannedShard]) -> None:
         todo = self._unfinished(planned)
         self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
         if not todo:
@@ -110,8 +107,7 @@ class Run:
             )
             return
         self._announce(todo)
-        if not workers_are_ready():
-            warm_kernels(self.listener.say)
+        compile_kernels(self.listener.say)
         self.listener.advance(self.done, len(self.wanted))
         self._make_persistently(todo)
 

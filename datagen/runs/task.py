@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity, to_dataset
@@ -17,7 +16,6 @@ from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
 from datagen.runs.redraws import counted_redraws
-from datagen.runs.workers import none_woken, woken_workers
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from physics.freed_memory import keep_freed_memory
@@ -35,22 +33,21 @@ class ShardRow:
     error: str = ""
 
 
-def warm_kernels(say: Say) -> None:
+def compile_kernels(say: Say) -> None:
     """Compile every kernel before workers start, so that they find it in the cache."""
     from physics.warming import is_warm, warm_up
 
     if not is_warm():
         say("compiling the physics; this is done once for each version of it")
+        warm_up()
+
+
+@cache
+def load_kernels() -> None:
+    """Load every kernel into this process; those that the cache of this machine lacks, or has damaged, are compiled."""
+    from physics.warming import warm_up
+
     warm_up()
-
-
-@contextmanager
-def kernels_loading_in_workers() -> Iterator[Callable[[], bool]]:
-    """Local workers start and load compiled kernels, if there are any, while the block goes on; see `woken_workers`."""
-    from physics.warming import is_warm, warm_up
-
-    with woken_workers(warm_up) if is_warm() else nullcontext(none_woken) as are_ready:
-        yield are_ready
 
 
 def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
@@ -60,6 +57,7 @@ def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Id
     """
     keep_freed_memory()
     try:
+        load_kernels()
         return _make_shard(recipe, folder, planned, identity)
     except Exception as problem:
         if isinstance(problem, OSError) and problem.errno in NO_SPACE:

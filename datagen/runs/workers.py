@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -43,8 +43,9 @@ class Engine:
             raise BadInput("a scheduler needs --backend dask", field="--scheduler", value=self.scheduler)
 
     def for_tasks(self, count: int) -> Engine:
-        """The same with no more workers than there are tasks."""
-        return self if self.workers is None else replace(self, workers=min(self.workers, max(count, 1)))
+        """The same with no more workers than there are tasks: a single task is done by this process, without waiting
+        for another to start."""
+        return replace(self, workers=min(self.workers or _workers_unless_told(), max(count, 1)))
 
 
 class WorkerLost(RuntimeError):
@@ -74,14 +75,23 @@ def _exit_with(parent: int) -> None:
     os._exit(1)
 
 
+def _workers_unless_told() -> int:
+    """As many as the caller's `joblib.parallel_config` asks for, or one on every processor."""
+    from joblib import cpu_count, effective_n_jobs
+    from joblib.parallel import get_active_backend
+
+    _, asked = get_active_backend()
+    return cpu_count() if asked is None else effective_n_jobs(asked)
+
+
 @contextmanager
 def engaged(engine: Engine) -> Iterator[None]:
     """joblib works with `engine` in this context; raises BadInput if Dask is not there."""
-    from joblib import cpu_count, parallel_config
+    from joblib import parallel_config
     from joblib.parallel import get_active_backend
     from threadpoolctl import threadpool_limits
 
-    callers, callers_workers = get_active_backend()
+    callers, _ = get_active_backend()
     if engine.backend == "dask":
         with _dask_client(engine) as client, parallel_config(backend="dask", client=client, n_jobs=-1):
             yield
@@ -93,7 +103,7 @@ def engaged(engine: Engine) -> Iterator[None]:
             threadpool_limits(limits=1),
             parallel_config(
                 backend="loky",
-                n_jobs=engine.workers or callers_workers or cpu_count(),
+                n_jobs=engine.workers or _workers_unless_told(),
                 inner_max_num_threads=1,
                 max_nbytes=None,
                 initializer=_begin_worker,
@@ -101,42 +111,6 @@ def engaged(engine: Engine) -> Iterator[None]:
             ),
         ):
             yield
-
-
-def none_woken() -> bool:
-    """That no workers are ready: what `woken_workers` gives where there are none to wake."""
-    return False
-
-
-@contextmanager
-def woken_workers(function: Callable[[], Any]) -> Iterator[Callable[[], bool]]:
-    """The worker processes of this machine start, each to call `function`, while the block goes on.
-
-    The block gets what waits for them and says whether they did: not if this process does the work, or Dask. Its end
-    waits for them too.
-    """
-    from joblib import Parallel, delayed, effective_n_jobs
-    from joblib.externals.loky.process_executor import BrokenProcessPool
-    from joblib.parallel import get_active_backend
-
-    count = effective_n_jobs(None)
-    if type(get_active_backend()[0]).__name__ != "LokyBackend" or count == 1:
-        yield none_woken
-        return
-    calls = Parallel(return_as="generator_unordered", batch_size=1)(delayed(function)() for _ in range(count))
-
-    def are_ready() -> bool:
-        try:
-            return len(list(calls)) == count
-        except BrokenProcessPool:
-            return False
-
-    try:
-        yield are_ready
-    finally:
-        # Left to the garbage collector, these calls might end at any time and in any thread, even during the next run.
-        with suppress(Exception):
-            are_ready()
 
 
 def run_tasks(
@@ -176,8 +150,6 @@ def _cause(problem: BaseException) -> str:
 
 
 def _dask_client(engine: Engine) -> Any:
-    from joblib import cpu_count
-
     try:
         from distributed import Client
     except ImportError as problem:
@@ -189,7 +161,7 @@ def _dask_client(engine: Engine) -> Any:
     # A default client would outlive its closing in Dask's configuration, and xarray would ask for it when writing.
     if engine.scheduler is None:
         return Client(
-            n_workers=engine.workers or cpu_count(),
+            n_workers=engine.workers or _workers_unless_told(),
             threads_per_worker=1,
             dashboard_address=":0",
             set_as_default=False,

@@ -6,7 +6,7 @@ import os
 import shutil
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
@@ -30,7 +30,7 @@ from datagen.recipes.recipe import Recipe
 from datagen.runs.generate import generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import ShardRow, make_shard
-from datagen.runs.workers import Engine, engaged, woken_workers
+from datagen.runs.workers import Engine, engaged
 
 ALONE = Engine(workers=1)
 Contents = Callable[[Path], dict[int, str]]
@@ -293,7 +293,7 @@ def test_a_limit_of_files_or_a_quota_is_not_called_a_full_disk(
     assert " 0.0 MB" not in run.problem
 
 
-def test_a_run_has_no_more_workers_than_records_to_make(
+def test_a_run_has_no_more_workers_than_shards_to_make(
     tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     engines: list[Engine] = []
@@ -303,9 +303,9 @@ def test_a_run_has_no_more_workers_than_records_to_make(
         return engaged(replace(engine, workers=1))
 
     monkeypatch.setattr("datagen.runs.generate.engaged", noted)
-    generate(tiny, tmp_path / "out", limit=3, engine=Engine(workers=1000))
-    generate(tiny, tmp_path / "out", limit=3, engine=Engine(workers=2))
-    assert [engine.workers for engine in engines] == [3, 2]
+    generate(tiny, tmp_path / "one", limit=1, engine=Engine(workers=1000))
+    generate(tiny, tmp_path / "three", limit=3, engine=Engine(workers=1000))
+    assert [engine.workers for engine in engines] == [1, 2]  # three records in shards of two
 
 
 def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
@@ -384,21 +384,22 @@ def test_progress_lines_tell_rate_and_remaining_time(capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("warm", [True, False])
-def test_where_the_physics_is_not_compiled_the_run_says_so_and_wakes_no_workers_before(
+def test_where_the_physics_is_not_compiled_the_run_says_so_and_compiles_it_before_workers_start(
     warm: bool, tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     said: list[str] = []
-    woken: list[bool] = []
+    steps: list[str] = []
 
-    def noted(function: Callable[[], Any]) -> AbstractContextManager[Callable[[], bool]]:
-        woken.append(True)
-        return woken_workers(function)
+    def tasks(*_: object) -> Iterator[ShardRow]:
+        steps.append("tasks")
+        yield from ()
 
     monkeypatch.setattr("physics.warming.is_warm", lambda: warm)
-    monkeypatch.setattr("datagen.runs.task.woken_workers", noted)
-    generate(tiny, tmp_path / "out", limit=1, engine=ALONE, listener=Listener(say=said.append))
+    monkeypatch.setattr("physics.warming.warm_up", lambda: steps.append("compile"))
+    monkeypatch.setattr("datagen.runs.run.run_tasks", tasks)
+    generate(tiny, tmp_path / "out", limit=1, engine=Engine(workers=2), listener=Listener(say=said.append))
     assert any("compiling the physics" in sentence for sentence in said) is not warm
-    assert bool(woken) is warm
+    assert steps == (["tasks"] if warm else ["compile", "tasks"])
 
 
 def test_a_run_says_beforehand_what_disk_it_needs(

@@ -1,19 +1,18 @@
 from __future__ import annotations
 
-import gc
 import os
 import socket
 import sys
 import threading
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import pytest
+from joblib import parallel_config
 
 from datagen.errors import BadInput
-from datagen.runs.workers import Engine, WorkerLost, engaged, run_tasks, woken_workers
+from datagen.runs.workers import Engine, WorkerLost, engaged, run_tasks
 
 
 def results(engine: Engine, function: Callable[..., Any], tasks: list[tuple[Any, ...]]) -> list[Any]:
@@ -30,30 +29,14 @@ def test_several_workers_are_processes_of_their_own_and_one_is_this_process() ->
     assert os.getpid() not in results(Engine(workers=2), os.getpid, [()] * 3)
 
 
-def test_workers_that_were_woken_do_the_tasks_and_may_have_died_meanwhile() -> None:
-    with engaged(Engine(workers=2)):
-        with woken_workers(os.getpid) as are_ready:
-            assert are_ready()
-            assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
-        with woken_workers(partial(os._exit, 3)) as are_ready:
-            assert not are_ready()
-            assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
-
-
-def test_workers_that_nobody_waited_for_leave_nothing_to_the_garbage_collector(
-    recwarn: pytest.WarningsRecorder,
+def test_unless_told_there_are_as_many_workers_as_processors_or_as_the_caller_asks_for_and_never_more_than_tasks(
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    with engaged(Engine(workers=2)):
-        with pytest.raises(BadInput), woken_workers(partial(time.sleep, 0.1)):
-            raise BadInput("found while they start")
-        gc.collect()
-        assert sorted(run_tasks(pow, [(3, 2), (4, 2)])) == [9, 16]
-    assert not recwarn.list
-
-
-def test_there_is_nobody_to_wake_where_this_process_does_the_work() -> None:
-    with engaged(Engine(workers=1)), woken_workers(partial(os._exit, 3)) as are_ready:
-        assert not are_ready()
+    monkeypatch.setattr("joblib.cpu_count", lambda: 8)
+    assert [Engine().for_tasks(tasks).workers for tasks in (0, 1, 5, 20)] == [1, 1, 5, 8]
+    assert [Engine(workers=3).for_tasks(tasks).workers for tasks in (1, 2, 20)] == [1, 2, 3]
+    with parallel_config("loky", n_jobs=4):
+        assert [Engine().for_tasks(tasks).workers for tasks in (2, 20)] == [2, 4]
 
 
 def grow(size: int) -> int:

@@ -29,6 +29,7 @@ from physics.integrators.trial import Trial
 from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import race_depth
+from physics.recursive_filter import filtered
 from physics.response.kinks import known_kinks
 from physics.response.resampling import decimate, read_at, read_repeated
 from physics.response.single_march import empty_output
@@ -130,6 +131,7 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     ball_load(scene, time, 1, np.ones(1, np.int16))
     race_depth(scene, 1, time)
     contact_events(_no_changes(scene), 1, np.ones(1, np.int16), time, time)
+    filtered(still, [((1.0, 0.0, 0.0), (0.0, 0.0))])
     tones(np.ones(1), np.ones(1), np.zeros((1, 2)), 1, RATE)
 
 

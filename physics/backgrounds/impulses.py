@@ -9,6 +9,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.checks import require, require_below_nyquist, require_between, require_not_negative, require_positive
+from physics.recursive_filter import filtered
 
 MOST_PER_SECOND = 10_000.0
 
@@ -83,8 +84,6 @@ def impulses(generator: np.random.Generator, layer: Impulses, samples: int, rate
 
 def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int, rate: float) -> Array:
     """Decaying sines (T, 2) that start at `instant` (N,) s with `strength` (N, 2), exact at the samples."""
-    from scipy.signal import lfilter
-
     turn = 2.0 * math.pi * resonance.frequency / rate
     decay = math.exp(-resonance.damping * turn)
     first = np.ceil(instant * rate).astype(np.int64)
@@ -93,7 +92,7 @@ def _ringing(resonance: Resonance, instant: Array, strength: Array, samples: int
     drive = np.zeros((samples + 2, 2))
     np.add.at(drive, first, started[0])
     np.add.at(drive, first + 1, started[1] - 2.0 * decay * math.cos(turn) * started[0])
-    return np.asarray(lfilter([1.0], [1.0, -2.0 * decay * math.cos(turn), decay**2], drive[:samples], axis=0))
+    return filtered(drive[:samples], [((1.0, 0.0, 0.0), (-2.0 * decay * math.cos(turn), decay**2))])
 
 
 def _sine(resonance: Resonance, since: Array) -> Array:

@@ -43,11 +43,9 @@ def decimate(signal: Array, factor: int) -> Array:
 @lru_cache(maxsize=FILTERS_KEPT)
 def _low_pass(factor: int) -> Array:
     """The weights (24 · factor + 1,) of the sample in the middle and of those ever farther from it, on either side."""
-    from scipy.signal import firwin
-
     half = HALF_LENGTH_SAMPLES * factor
-    taps = firwin(2 * half + 1, HALVED_SHARE / factor, window=("kaiser", KAISER_BETA))
-    return np.ascontiguousarray(taps[half:])
+    taps = np.sinc(HALVED_SHARE / factor * np.arange(half + 1)) * np.kaiser(2 * half + 1, KAISER_BETA)[half:]
+    return taps / (2.0 * taps.sum() - taps[0])
 
 
 @njit_lean

@@ -5,6 +5,8 @@ import json
 import os
 import shutil
 import signal
+import subprocess
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
@@ -400,6 +402,20 @@ def test_where_the_physics_is_not_compiled_the_run_says_so_and_compiles_it_befor
     generate(tiny, tmp_path / "out", limit=1, engine=Engine(workers=2), listener=Listener(say=said.append))
     assert any("compiling the physics" in sentence for sentence in said) is not warm
     assert steps == (["tasks"] if warm else ["compile", "tasks"])
+
+
+@pytest.mark.parametrize("name", ["quickstart", "corpus"])
+def test_a_run_loads_no_package_that_is_slow_to_load_and_that_it_does_not_need(name: str, tmp_path: Path) -> None:
+    script = (
+        "import sys\n"
+        "from datagen.recipes.recipe_files import find_recipe\n"
+        "from datagen.recipes.recipe import load_recipe\n"
+        "from datagen.runs.generate import generate\n"
+        f"assert generate(load_recipe(find_recipe({name!r})), {str(tmp_path / name)!r}, limit=1).complete\n"
+        "print([name for name in ('scipy.signal', 'matplotlib', 'sklearn') if name in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
 
 
 def test_a_run_says_beforehand_what_disk_it_needs(

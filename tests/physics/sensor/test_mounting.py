@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.signal import butter, sosfilt
 
 from physics.checks import InvalidParameter
 from physics.sensor.mounting import Mounting, mounted
@@ -55,3 +56,10 @@ def test_the_mounting_is_causal_and_delays_low_frequencies_by_51_microseconds():
 def test_an_impossible_mounting_is_refused_with_its_number(make, message):
     with pytest.raises(InvalidParameter, match=message):
         make()
+
+
+@pytest.mark.parametrize("order", range(1, 13))
+def test_every_order_filters_as_scipys_butterworth_does(order):
+    signal = np.random.default_rng(order).standard_normal((4000, 2))
+    expected = sosfilt(butter(order, 9000.0, fs=RATE, output="sos"), signal, axis=0)
+    assert mounted(Mounting(9000.0, order), signal, RATE) == pytest.approx(expected, rel=1e-9, abs=1e-9)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.records.layers import Layers, background_layers, noise_along_y
-from datagen.records.profile_grid import PROFILE_POINTS, profile_grid
+from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.accuracy import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -20,11 +20,10 @@ from labels.envelope import band_envelope
 from labels.noise import signal_to_noise
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
-from physics.paths.profile import race_depth
+from physics.paths.profile import race_depths
 from physics.request import Accurate, LeadIn
 from physics.response.lead_in import from_start
 from physics.rms import rms
-from physics.scene import Scene
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.recorder import recorded
 from physics.simulate import simulate
@@ -113,7 +112,7 @@ def _optional_signals(
         "acceleration_sensor": lambda: signal.astype(np.float32),
         "background": lambda: _stacked(layers, signal.shape),
         "cage_angle": lambda: scenario.scene.cage.angle(trace.time),
-        "profile_depth": lambda: _profile_depth(scenario.scene),
+        "profile_depth": lambda: race_depths(scenario.scene, PROFILE_POINTS).astype(np.float32),
         "contact_force": lambda: np.asarray(trace.contact_force, dtype=np.float32),
     }
 
@@ -141,11 +140,6 @@ def _stacked(layers: Layers, shape: tuple[int, ...]) -> Rounded:
     """All layers (L, T, 2) in the order of the schema, zeros where one is absent."""
     absent = np.zeros(shape)
     return np.stack([layers.get(name, absent) for name in LAYERS]).astype(np.float32)
-
-
-def _profile_depth(scene: Scene) -> Rounded:
-    grid = profile_grid(PROFILE_POINTS)
-    return np.stack([race_depth(scene, row + 1, grid) for row in range(scene.rig.bearing.rows)]).astype(np.float32)
 
 
 def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:

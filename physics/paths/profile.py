@@ -10,6 +10,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.bearing import Bearing
+from physics.imperfections import Waviness
 from physics.paths.corners import Branches
 from physics.paths.depth_path import DepthPath, hermite_path
 from physics.paths.rolling import deep_gap_drop, hanging_reach, roll, smooth_branches
@@ -62,15 +63,39 @@ def race_depth(scene: Scene, row: int, angle: Array) -> Array:
 
     Spalls and the waviness of that race, on `row` (1 or 2).
     """
-    total = np.zeros(np.shape(angle))
+    total = _spall_depth(scene, row, np.asarray(angle, dtype=np.float64))
+    for wave in _waves(scene):
+        total += wave.amplitude * np.cos(wave.order * np.asarray(angle) + wave.phase)
+    return total
+
+
+def race_depths(scene: Scene, points: int) -> Array:
+    """What `race_depth` tells of every row, (rows, points), at the angles −π + 2πk / `points`; ValueError if these are
+    too few for the finest wave."""
+    start = np.zeros(points // 2 + 1, dtype=np.complex128)
+    for wave in _waves(scene):
+        if 2 * wave.order >= points:
+            raise ValueError(f"{points} points are too few for {wave.order} waves a turn")
+        start[wave.order] += wave.amplitude * np.exp(1j * (wave.phase - wave.order * math.pi))
+    waves = np.fft.irfft(0.5 * points * start, points)
+    angle = -math.pi + 2.0 * math.pi / points * np.arange(points)
+    return np.stack([_spall_depth(scene, row + 1, angle) + waves for row in range(scene.rig.bearing.rows)])
+
+
+def _spall_depth(scene: Scene, row: int, angle: Array) -> Array:
+    total = np.zeros(angle.shape)
     for spall in scene.spalls:
         if spall.row == row:
-            arc = spall.travel_sign * wrap(np.asarray(angle) - spall.angle)
-            total += build_path(spall, scene.rig.bearing).depth(arc)
-    for wave in scene.imperfections.waviness:
-        if wave.race == scene.defective_race:
-            total += wave.amplitude * np.cos(wave.order * np.asarray(angle) + wave.phase)
+            path = build_path(spall, scene.rig.bearing)
+            arc = spall.travel_sign * wrap(angle - spall.angle)
+            on_path = (path.breaks[0] <= arc) & (arc <= path.breaks[-1])
+            total[on_path] += path.depth(arc[on_path])
     return total
+
+
+def _waves(scene: Scene) -> list[Waviness]:
+    """The waviness that belongs to the path: that of the defective race."""
+    return [wave for wave in scene.imperfections.waviness if wave.race == scene.defective_race]
 
 
 def wrap(angle: Array) -> Array:

@@ -11,7 +11,7 @@ from measures import hanging
 
 from physics.imperfections import Imperfections, Waviness
 from physics.paths.depth_path import hermite_cubics
-from physics.paths.profile import build_path, race_depth, wrap
+from physics.paths.profile import build_path, race_depth, race_depths, wrap
 from physics.paths.spall_surface import window
 from physics.spall import Spall
 
@@ -247,6 +247,25 @@ def test_the_waviness_of_the_defective_race_belongs_to_the_path_and_that_of_the_
     wave = 1e-6 * np.cos(7 * angle + 0.3) if race == "outer" else 2e-6 * np.cos(12 * angle + 0.8)
     for row in (1, 2):
         assert np.allclose(race_depth(scene, row, angle) - race_depth(smooth, row, angle), wave, atol=1e-18)
+
+
+@RACES
+def test_all_around_the_race_every_row_has_the_path_that_single_angles_have(gearbox, build_scene, race):
+    waves = (Waviness("outer", 7, 1e-6, 0.3), Waviness("inner", 12, 2e-6, 0.8), Waviness("inner", 499, 1e-7, 2.0))
+    spalls = tukey(race, angle=3.13), tukey(race, angle=1.0, row=2, depth=7e-6)
+    scene = build_scene(gearbox, *spalls, imperfections=Imperfections(waviness=waves))
+    around = race_depths(scene, 1000)
+    angle = np.linspace(-math.pi, math.pi, 1001)[:-1]
+    assert around.max() > 10e-6
+    for row in (1, 2):
+        assert np.allclose(around[row - 1], race_depth(scene, row, angle), rtol=0, atol=1e-17)
+
+
+def test_a_wave_that_the_points_around_the_race_cannot_show_is_refused(gearbox, build_scene):
+    scene = build_scene(gearbox, tukey(), imperfections=Imperfections(waviness=(Waviness("outer", 4, 1e-6),)))
+    assert race_depths(scene, 9).shape == (2, 9)
+    with pytest.raises(ValueError, match="8 points are too few for 4 waves a turn"):
+        race_depths(scene, 8)
 
 
 def test_hermite_cells_have_the_values_and_slopes_of_their_nodes():

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.bearing import Bearing
 from physics.imperfections import Waviness
 from physics.paths.corners import Branches
@@ -63,7 +63,10 @@ def race_depth(scene: Scene, row: int, angle: Array) -> Array:
 
     Spalls and the waviness of that race, on `row` (1 or 2).
     """
-    total = _spall_depth(scene, row, np.asarray(angle, dtype=np.float64))
+    total = np.zeros(np.shape(angle))
+    for spall in scene.spalls:
+        if spall.row == row:
+            total += _spall_depth(spall, scene.rig.bearing, np.asarray(angle))
     for wave in _waves(scene):
         total += wave.amplitude * np.cos(wave.order * np.asarray(angle) + wave.phase)
     return total
@@ -77,20 +80,25 @@ def race_depths(scene: Scene, points: int) -> Array:
         if 2 * wave.order >= points:
             raise ValueError(f"{points} points are too few for {wave.order} waves a turn")
         start[wave.order] += wave.amplitude * np.exp(1j * (wave.phase - wave.order * math.pi))
-    waves = np.fft.irfft(0.5 * points * start, points)
-    angle = -math.pi + 2.0 * math.pi / points * np.arange(points)
-    return np.stack([_spall_depth(scene, row + 1, angle) + waves for row in range(scene.rig.bearing.rows)])
-
-
-def _spall_depth(scene: Scene, row: int, angle: Array) -> Array:
-    total = np.zeros(angle.shape)
+    depths = np.tile(np.fft.irfft(0.5 * points * start, points), (scene.rig.bearing.rows, 1))
     for spall in scene.spalls:
-        if spall.row == row:
-            path = build_path(spall, scene.rig.bearing)
-            arc = spall.travel_sign * wrap(angle - spall.angle)
-            on_path = (path.breaks[0] <= arc) & (arc <= path.breaks[-1])
-            total[on_path] += path.depth(arc[on_path])
-    return total
+        near = _points_near(build_path(spall, scene.rig.bearing), spall.angle, points)
+        angle = np.asarray(-math.pi + 2.0 * math.pi / points * near, dtype=np.float64)
+        depths[spall.row - 1, near] += _spall_depth(spall, scene.rig.bearing, angle)
+    return depths
+
+
+def _spall_depth(spall: Spall, bearing: Bearing, angle: Array) -> Array:
+    return build_path(spall, bearing).depth(spall.travel_sign * wrap(angle - spall.angle))
+
+
+def _points_near(path: DepthPath, angle: float, points: int) -> Index:
+    """The numbers of all points around a race that a path with its middle at `angle` can reach, each once."""
+    pace = points / (2.0 * math.pi)
+    reach = math.ceil(pace * np.max(np.abs(path.breaks))) + 1
+    if 2 * reach >= points:
+        return np.arange(points)
+    return (round((angle + math.pi) * pace) + np.arange(-reach, reach + 1)) % points
 
 
 def _waves(scene: Scene) -> list[Waviness]:

@@ -75,17 +75,25 @@ def race_depth(scene: Scene, row: int, angle: Array) -> Array:
 def race_depths(scene: Scene, points: int) -> Array:
     """What `race_depth` tells of every row, (rows, points), at the angles −π + 2πk / `points`; ValueError if these are
     too few for the finest wave."""
-    start = np.zeros(points // 2 + 1, dtype=np.complex128)
-    for wave in _waves(scene):
-        if 2 * wave.order >= points:
-            raise ValueError(f"{points} points are too few for {wave.order} waves a turn")
-        start[wave.order] += wave.amplitude * np.exp(1j * (wave.phase - wave.order * math.pi))
-    depths = np.tile(np.fft.irfft(0.5 * points * start, points), (scene.rig.bearing.rows, 1))
+    depths = np.tile(_waves_around(scene, points), (scene.rig.bearing.rows, 1))
     for spall in scene.spalls:
         near = _points_near(build_path(spall, scene.rig.bearing), spall.angle, points)
         angle = np.asarray(-math.pi + 2.0 * math.pi / points * near, dtype=np.float64)
         depths[spall.row - 1, near] += _spall_depth(spall, scene.rig.bearing, angle)
     return depths
+
+
+def _waves_around(scene: Scene, points: int) -> Array:
+    """The waviness of the path (points,), by one inverse Fourier transform."""
+    waves = _waves(scene)
+    if not waves:
+        return np.zeros(points)
+    spectrum = np.zeros(points // 2 + 1, dtype=np.complex128)
+    for wave in waves:
+        if 2 * wave.order >= points:
+            raise ValueError(f"{points} points are too few for {wave.order} waves a turn")
+        spectrum[wave.order] += 0.5 * points * wave.amplitude * np.exp(1j * (wave.phase - wave.order * math.pi))
+    return np.fft.irfft(spectrum, points)
 
 
 def _spall_depth(spall: Spall, bearing: Bearing, angle: Array) -> Array:

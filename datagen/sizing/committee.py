@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.trees import Trees
+from labels.spall_size.estimation.trees import Trees
 from physics.arrays import Array
 
 FOLDS = 3

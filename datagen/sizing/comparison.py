@@ -15,9 +15,9 @@ from datagen.sizing.scored_record import NO_SCORES, NOT_ASKED, Answer, ScoredRec
 from datagen.sizing.sized_records import SizedRecord, UnsizedRecord
 from datagen.sizing.stored_record import nominal_period
 from labels.event_scores import EventScores, match_events, tolerance_of_arc
+from labels.spall_size.estimation.rules import EnvelopeLagRule
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected
-from labels.spall_size.rules import EnvelopeLagRule
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import Bounds, SizeEstimate, SizeOutcome
 from labels.spall_size.static_release import arc_with_static_release

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.sizing.user_estimator import UserEstimator
 from datagen.user_code import FIELD, load_user_code
-from labels.spall_size.calibration import Calibration
-from labels.spall_size.estimator import SizeEstimator
+from labels.spall_size.estimation.calibration import Calibration
+from labels.spall_size.estimation.estimator import SizeEstimator
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate
 

@@ -31,11 +31,18 @@ from datagen.sizing.fit_stages import fit_doubt, fit_guess, fit_pair_score, fit_
 from datagen.sizing.training_rows import Trial, trials
 from datagen.sizing.trial_columns import TrialColumns
 from datagen.versions import measured_on, program_hash
-from labels.spall_size.calibration import Calibration, Judgement
+from labels.spall_size.estimation.calibration import Calibration, Judgement
 from physics.arrays import Array
 
 SPLITS = ("train", "validation")
-FEATURE_CODE = ("labels", "labels/spall_size", "labels/spall_size/columns", "labels/spall_size/signal")
+FEATURE_CODE = (
+    "labels",
+    "labels/spall_size",
+    "labels/spall_size/columns",
+    "labels/spall_size/estimation",
+    "labels/spall_size/events",
+    "labels/spall_size/signal",
+)
 LEARNED_WITH = ("numpy", "scipy", "scikit-learn")
 
 

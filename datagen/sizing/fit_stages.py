@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from datagen.sizing.committee import FOLDS, Committee
 from datagen.sizing.training_rows import Trial
 from datagen.sizing.trial_columns import TrialColumns
-from labels.spall_size.calibration import SMALLEST_SPREAD, Guess
-from labels.spall_size.measurement import LeadingPairs, leading_order, leading_pairs, measure
-from labels.spall_size.trees import Trees
+from labels.spall_size.estimation.calibration import SMALLEST_SPREAD, Guess
+from labels.spall_size.estimation.measurement import LeadingPairs, leading_order, leading_pairs, measure
+from labels.spall_size.estimation.trees import Trees
 from physics.arrays import Array
 
 Bearings = NDArray[np.str_]

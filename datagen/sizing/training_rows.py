@@ -15,11 +15,11 @@ from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, SHOR
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from datagen.sizing.stored_record import nominal_period
 from labels.noise import with_white_noise
-from labels.spall_size.estimator import ONSET
+from labels.spall_size.estimation.estimator import ONSET
+from labels.spall_size.estimation.gathering import gather_evidence
 from labels.spall_size.event_truth import EventTruth
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.gathering import gather_evidence
-from labels.spall_size.pairs import LONGEST_LAG
+from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.pairs import LONGEST_LAG
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
 

@@ -16,22 +16,35 @@ ABOUT_FILES = {"xarray", "netCDF4", "pathlib", "io", "shutil", "tempfile", "pand
 # Compiled kernels are cached in a folder; this is the one place of physics that knows of folders.
 NUMBA_DOOR = ROOT / "physics" / "_jit"
 CACHE_DOOR = NUMBA_DOOR / "cache.py"
-# The rooms of physics: each may import from those before it, itself or by way of physics' own files, and from no other.
-ROOMS = (
-    "_jit",
-    "paths",
-    "contact",
-    "statics",
-    "integrators",
-    "integrators.modal",
-    "integrators.reference",
-    "integrators.rivals",
-    "response",
-    "sensor",
-    "ladder",
-    "catalog",
-    "backgrounds",
-)
+# The rooms of physics and of labels: each may import from those before it, itself or by way of the package's own files,
+# and from no other.
+ROOMS = {
+    "physics": (
+        "_jit",
+        "paths",
+        "contact",
+        "statics",
+        "integrators",
+        "integrators.modal",
+        "integrators.reference",
+        "integrators.rivals",
+        "response",
+        "sensor",
+        "ladder",
+        "catalog",
+        "backgrounds",
+    ),
+    "labels": (
+        "features",
+        "classifier",
+        "spall_size",
+        "spall_size.signal",
+        "spall_size.events",
+        "spall_size.columns",
+        "spall_size.estimation",
+    ),
+}
+PLACES = [(package, room) for package, rooms in ROOMS.items() for room in rooms]
 # The floors of datagen, packages and lone files: each may import from itself and from those before it.
 FLOORS = (
     (
@@ -112,44 +125,54 @@ def test_modules_with_a_private_name_are_imported_by_their_own_package_alone(pac
                 assert not (ours and any(name.startswith("_") for name in names)), path
 
 
-def room_of(module):
-    """The room of physics in which a module lies, e.g. integrators.modal; empty for one of physics' own files."""
-    return module.removeprefix("physics").rpartition(".")[0].lstrip(".")
+def room_of(package, module):
+    """The room that a module is or lies in, e.g. integrators.modal; empty for one of the package's own files."""
+    folder = module if ROOT.joinpath(*module.split(".")).is_dir() else module.rpartition(".")[0]
+    return folder.removeprefix(package).lstrip(".")
 
 
-def modules_imported(module):
-    """Modules of physics that one of them imports, anywhere in it."""
+def modules_imported(package, module):
+    """Modules of a package that one of them imports, anywhere in it."""
     path = ROOT.joinpath(*module.split("."))
     path = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
     tree = ast.parse(path.read_text(encoding="utf-8"))
     named = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
-    return {name for name in named if name.startswith("physics.")}
+    return {name for name in named if name.startswith(f"{package}.")}
 
 
-def rooms_reached(module):
-    """Rooms from which a module imports, itself or by way of physics' own files."""
-    rooms, ahead, seen = set(), modules_imported(module), set()
+def rooms_reached(package, module):
+    """Rooms from which a module imports, itself or by way of the package's own files."""
+    rooms, ahead, seen = set(), modules_imported(package, module), set()
     while ahead:
         found = ahead.pop()
-        if room_of(found):
-            rooms.add(room_of(found))
+        if room_of(package, found):
+            rooms.add(room_of(package, found))
         elif found not in seen:
             seen.add(found)
-            ahead |= modules_imported(found)
+            ahead |= modules_imported(package, found)
     return rooms
 
 
-def test_every_room_of_physics_has_its_place():
-    folders = {".".join(path.parent.relative_to(ROOT / "physics").parts) for path in files("physics")}
-    assert folders - {""} == set(ROOMS)
+def modules_in(folder):
+    return [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(folder.glob("*.py"))]
 
 
-@pytest.mark.parametrize("room", ROOMS)
-def test_rooms_of_physics_import_only_from_those_before_them(room):
-    allowed = set(ROOMS[: ROOMS.index(room) + 1])
-    for path in (ROOT / "physics").joinpath(*room.split(".")).glob("*.py"):
-        module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
-        assert rooms_reached(module) <= allowed, path
+@pytest.mark.parametrize("package", ROOMS)
+def test_every_room_has_its_place(package):
+    folders = {".".join(path.parent.relative_to(ROOT / package).parts) for path in files(package)}
+    assert folders - {""} == set(ROOMS[package])
+
+
+@pytest.mark.parametrize(("package", "room"), PLACES)
+def test_rooms_import_only_from_those_before_them(package, room):
+    allowed = set(ROOMS[package][: ROOMS[package].index(room) + 1])
+    for module in modules_in((ROOT / package).joinpath(*room.split("."))):
+        assert rooms_reached(package, module) <= allowed, module
+
+
+def test_own_files_of_labels_import_from_no_room():
+    for module in modules_in(ROOT / "labels"):
+        assert not rooms_reached("labels", module), module
 
 
 def datagen_imported(path):

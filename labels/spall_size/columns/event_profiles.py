@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from labels.spall_size.leading import LeadingView
-from labels.spall_size.pairs import EVENTS
+from labels.spall_size.events.leading import LeadingView
+from labels.spall_size.events.pairs import EVENTS
 from labels.spall_size.signal.mean_pass import Channel
 from labels.spall_size.signal.running_energy import RunningEnergy
 from physics.arrays import Array

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from labels.spall_size.pairs import EVENTS, PairView
+from labels.spall_size.events.pairs import EVENTS, PairView
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
 from labels.spall_size.signal.running_energy import ENERGY_FLOOR, RunningEnergy
 from physics.arrays import Array

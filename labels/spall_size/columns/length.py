@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from labels.spall_size.leading import LeadingView
+from labels.spall_size.events.leading import LeadingView
 from physics.arrays import Array
 
 NAMES = ("length_in_balls", "lag_arc")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.pairs import EVENTS, PairView
+from labels.spall_size.events.pairs import EVENTS, PairView
 from labels.spall_size.signal.mean_pass import Channel
 from physics.arrays import Array
 

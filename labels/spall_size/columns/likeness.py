@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.pairs import EVENTS, PairView
+from labels.spall_size.events.pairs import EVENTS, PairView
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
 from labels.spall_size.signal.running_energy import ENERGY_FLOOR
 from physics.arrays import Array

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from labels.spall_size.leading import LeadingView
+from labels.spall_size.events.leading import LeadingView
 from labels.spall_size.signal.mean_pass import Channel
 from labels.spall_size.static_release import release_arc, static_compression
 from physics.arrays import Array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from labels.spall_size.pairs import PairView
+from labels.spall_size.events.pairs import PairView
 from labels.spall_size.signal.mean_pass import MeanPass
 from physics.arrays import Array
 

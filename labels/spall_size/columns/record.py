@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from labels.spall_size.pairs import PairView
+from labels.spall_size.events.pairs import PairView
 from physics.arrays import Array
 
 NAMES = (

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.leading import LeadingView
-from labels.spall_size.pairs import Pairs
+from labels.spall_size.events.leading import LeadingView
+from labels.spall_size.events.pairs import Pairs
 from physics.arrays import Array
 
 # Logarithm of the ratio of two lags up to which they count as equal.

@@ -20,8 +20,8 @@ from labels.spall_size.columns import (
     record,
     rivals,
 )
-from labels.spall_size.leading import LeadingView
-from labels.spall_size.pairs import PairView
+from labels.spall_size.events.leading import LeadingView
+from labels.spall_size.events.pairs import PairView
 from physics.arrays import Array
 
 PAIR_GROUPS = (record, levels, likeness, motion, event_shapes)

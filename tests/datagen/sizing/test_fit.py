@@ -20,8 +20,8 @@ from datagen.sizing.fit_limits import most_doubt, reach
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.training_rows import trials
 from datagen.sizing.trial_columns import TrialColumns
-from labels.spall_size.calibration import Calibration
-from labels.spall_size.estimator import SizeEstimator
+from labels.spall_size.estimation.calibration import Calibration
+from labels.spall_size.estimation.estimator import SizeEstimator
 from labels.spall_size.size_estimate import SizeOutcome
 
 

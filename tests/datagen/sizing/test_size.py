@@ -29,7 +29,7 @@ from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import wrong_speed
 from datagen.sizing.tables import known_size_sentence
-from labels.spall_size.calibration import Calibration
+from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from datagen.sizing.sized_records import SizedRecord
 from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Excerpt, in_noise_of_the_ladder, trial
+from labels.spall_size.estimation.gathering import gather_evidence
 from labels.spall_size.event_truth import EventTruth
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.gathering import gather_evidence
+from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.situation import Situation
 
 Array = NDArray[np.float64]

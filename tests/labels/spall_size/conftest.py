@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from labels.spall_size.trees import Trees
+from labels.spall_size.estimation.trees import Trees
 
 RATE = 65536.0
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from datagen.sizing.estimators import default_estimator
-from labels.spall_size.calibration import (
+from labels.spall_size.columns.table import PAIR_COLUMNS
+from labels.spall_size.estimation.calibration import (
     FITTED_ON,
     SMALLEST_SPREAD,
     Calibration,
@@ -14,8 +15,7 @@ from labels.spall_size.calibration import (
     Judgement,
     MisfitCalibration,
 )
-from labels.spall_size.columns.table import PAIR_COLUMNS
-from labels.spall_size.trees import Trees
+from labels.spall_size.estimation.trees import Trees
 
 
 @pytest.mark.parametrize(("spread", "expected"), [(0.2, 0.2 + SMALLEST_SPREAD), (-0.5, SMALLEST_SPREAD)])

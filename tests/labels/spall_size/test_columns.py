@@ -15,10 +15,10 @@ from labels.spall_size.columns.table import (
     leading_rows,
     pair_rows,
 )
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.leading import LeadingView
-from labels.spall_size.measurement import leading_pairs, measure
-from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
+from labels.spall_size.estimation.measurement import leading_pairs, measure
+from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.leading import LeadingView
+from labels.spall_size.events.pairs import Pairs, RecordFacts, all_pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
 from labels.spall_size.signal.pass_track import PassTrack

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from labels.spall_size.calibration import SMALLEST_SPREAD, Calibration, Guess, Judgement
 from labels.spall_size.columns.table import PAIR_COLUMNS
-from labels.spall_size.estimator import ONSET, SizeEstimator
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.pairs import Pairs
+from labels.spall_size.estimation.calibration import SMALLEST_SPREAD, Calibration, Guess, Judgement
+from labels.spall_size.estimation.estimator import ONSET, SizeEstimator
+from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.pairs import Pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
 from labels.spall_size.signal.pass_track import PassTrack

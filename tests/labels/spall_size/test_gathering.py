@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from labels.spall_size.candidates import candidate_places
 from labels.spall_size.columns.event_shapes import event_shapes
 from labels.spall_size.columns.table import PAIR_COLUMNS
-from labels.spall_size.gathering import gather_evidence, predictability
+from labels.spall_size.estimation.gathering import gather_evidence, predictability
+from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.signal.alignment import Alignment, aligned
 from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
 from labels.spall_size.signal.pass_track import CELLS, PassTrack, track_passes

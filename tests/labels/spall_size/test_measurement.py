@@ -3,8 +3,8 @@
 import numpy as np
 
 from labels.spall_size.columns.choice import LEADING
-from labels.spall_size.measurement import DISTINCT, leading_order
-from labels.spall_size.pairs import Pairs
+from labels.spall_size.estimation.measurement import DISTINCT, leading_order
+from labels.spall_size.events.pairs import Pairs
 
 
 def _pairs(lag):

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from labels.spall_size.rules import EnvelopeLagRule, envelope_lag
+from labels.spall_size.estimation.rules import EnvelopeLagRule, envelope_lag
 from labels.spall_size.situation import Situation
 
 RATE = 65536.0

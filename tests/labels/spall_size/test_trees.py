@@ -3,7 +3,7 @@ import pytest
 from sklearn.ensemble import HistGradientBoostingRegressor
 
 from datagen.sizing.committee import mean_of, to_trees
-from labels.spall_size.trees import Trees
+from labels.spall_size.estimation.trees import Trees
 
 
 def rows_and_aim():

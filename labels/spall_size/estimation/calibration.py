@@ -18,7 +18,7 @@ from labels.spall_size.columns.table import (
     ROW_COLUMNS,
     ROW_COLUMNS_WITH_LOAD,
 )
-from labels.spall_size.trees import Trees
+from labels.spall_size.estimation.trees import Trees
 from physics.arrays import Array
 
 Arrays = dict[str, NDArray[Any]]

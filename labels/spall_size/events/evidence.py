@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from labels.spall_size.pairs import Pairs
+from labels.spall_size.events.pairs import Pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
 from labels.spall_size.signal.pass_track import PassTrack

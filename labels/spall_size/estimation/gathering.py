@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from labels.spall_size.candidates import candidate_places
 from labels.spall_size.columns.table import pair_rows
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.pairs import Pairs, RecordFacts, all_pairs
+from labels.spall_size.events.candidates import candidate_places
+from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.pairs import Pairs, RecordFacts, all_pairs
 from labels.spall_size.signal.alignment import aligned
 from labels.spall_size.signal.mean_pass import mean_pass
 from labels.spall_size.signal.noise_floor import log_noise_share

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import find_peaks, hilbert
 
-from labels.spall_size.estimator import LOAD_AXIS
+from labels.spall_size.estimation.estimator import LOAD_AXIS
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics.arrays import Array

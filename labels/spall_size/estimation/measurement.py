@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from labels.spall_size.columns.choice import LEADING
 from labels.spall_size.columns.table import chosen_row, leading_rows
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.leading import LeadingView
-from labels.spall_size.pairs import Pairs
+from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.leading import LeadingView
+from labels.spall_size.events.pairs import Pairs
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
 

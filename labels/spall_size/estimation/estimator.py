@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from labels.spall_size.calibration import Calibration, Judgement
-from labels.spall_size.evidence import Evidence
-from labels.spall_size.gathering import gather_evidence
-from labels.spall_size.measurement import Measurement, leading_pairs, measure
+from labels.spall_size.estimation.calibration import Calibration, Judgement
+from labels.spall_size.estimation.gathering import gather_evidence
+from labels.spall_size.estimation.measurement import Measurement, leading_pairs, measure
+from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from labels.spall_size.evidence import Evidence
+from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
 

@@ -12,7 +12,7 @@ from datagen.commands.progress_display import show_steps
 from datagen.files.places import require_results_folder
 
 if TYPE_CHECKING:
-    from datagen.sizing.corpus_run import SizeScores
+    from datagen.sizing.size_scores import SizeScores
 
 Estimator = Annotated[
     str | None, typer.Option("--estimator", metavar="MODULE:NAME", help="Another estimator: a class or a function.")

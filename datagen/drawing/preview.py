@@ -132,12 +132,12 @@ def corpus_portrait(folder: Path, record: int) -> Portrait:
     """What a sheet shows of a record of the simulated corpus in `folder`; raises BadInput if it is not there."""
     from datagen.corpus import Corpus
     from datagen.drawing.portrait import Portrait
-    from datagen.scenarios.scenario import Scenario
+    from datagen.scenarios.scenario_text import scenario_of
 
     with Corpus(folder) as corpus:
         found = corpus.dataset(record)
     labels = {label.name: _plain(found[label.name].values) for label in LABELS}
-    scenario = Scenario.from_json(str(found["scenario"].values))
+    scenario = scenario_of(str(found["scenario"].values))
     sensor, background = _sensor_and_background(found, scenario)
     return Portrait(
         corpus=str(found.attrs.get("id", folder.name)),

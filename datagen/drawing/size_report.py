@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from datagen.sizing.corpus_run import SizeScores
+    from datagen.sizing.size_scores import SizeScores
     from datagen.sizing.size_summary import ErrorRow, SizeSummary
 
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)

@@ -182,11 +182,12 @@ class _Check:
 
     def _wrong_scenarios(self, dataset: xarray.Dataset) -> Iterator[str]:
         from datagen.scenarios.sampling import draw_scenario
+        from datagen.scenarios.scenario_text import scenario_json
 
         if self.recipe is None or not self.recipe.drawable or self.manifest.identity.program_hash != program_hash():
             return
         for record, text in zip(dataset["record"].values.tolist(), dataset["scenario"].values, strict=True):
-            if draw_scenario(self.recipe, record).to_json() != str(text):
+            if scenario_json(draw_scenario(self.recipe, record)) != str(text):
                 yield f"the recipe gives record {record} another scenario than the stored one"
                 return
 

@@ -27,13 +27,13 @@ class Remade:
 def remake_record(corpus: Corpus, record: int) -> Remade:
     """Simulate a `record` of the `corpus` again from its stored scenario."""
     from datagen.records.record import make_record
-    from datagen.scenarios.scenario import Scenario
+    from datagen.scenarios.scenario_text import scenario_of
     from physics.outcome import SimulationFailed
     from physics.rms import relative_error
 
     stored = corpus.waveform(record).astype(np.float64)
     try:
-        again = make_record(Scenario.from_json(str(corpus.waveform(record, "scenario")))).acceleration
+        again = make_record(scenario_of(str(corpus.waveform(record, "scenario")))).acceleration
     except (BadInput, SimulationFailed) as problem:
         return Remade(None, (f"record {record} cannot be simulated again from its scenario: {problem}",))
     difference = relative_error(again.astype(np.float64), stored)

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from datagen.records.layers import Layers, background_layers, noise_along_y
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
-from datagen.scenarios.accuracy import allowed_error
+from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_json
 from labels.description import label_values
 from labels.envelope import band_envelope
 from labels.noise import signal_to_noise
@@ -87,7 +88,7 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
         passes=ball_passes(scenario.scene, trace.changes, scenario.duration),
         spalls=scenario.scene.spalls,
         labels={label.name: labels[label.name] for label in LABELS},
-        scenario=scenario.to_json(),
+        scenario=scenario_json(scenario),
         **{name: optional[name]() for name in stored},
     )
 

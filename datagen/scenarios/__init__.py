@@ -3,7 +3,7 @@
 - `sampling`: from a recipe to one `scenario`, in which every number is fixed
 - where numbers come from: `streams`, `design` (spread evenly), `turns` (exact counts), `draw` (one attempt), `picker`
 - what is drawn: `machine`, with `drawn_rig`, `imperfections`, `chain` and `drawn_background` (a `background`);
-  `defect`; `accuracy`
+  `defect`; `accuracy`, and the `allowed_error` that follows from it
 - what cannot be: `feasibility`, `redraw`; `intended_kind`: what is not drawn again; `deciders`: the settings that it
   follows from
 - as text: `scenario_text`, `sampling_text`, `sensor_text`

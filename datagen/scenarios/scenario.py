@@ -108,16 +108,3 @@ class Scenario:
         """The stream of one purpose of this record, such as "white_noise"."""
         seeds = self.seeds
         return stream(seeds.recipe, "record", seeds.record, purpose, seeds.record_attempt, item)
-
-    def to_json(self) -> str:
-        """The scenario as JSON text, every float exact."""
-        from datagen.scenarios.scenario_text import to_json
-
-        return to_json(self)
-
-    @classmethod
-    def from_json(cls, text: str) -> Scenario:
-        """The scenario that gave this text; raises BadInput if none did."""
-        from datagen.scenarios.scenario_text import from_json
-
-        return from_json(text)

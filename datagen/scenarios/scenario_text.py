@@ -122,13 +122,13 @@ SETTLED_START = (
 )
 
 
-def to_json(scenario: Scenario) -> str:
+def scenario_json(scenario: Scenario) -> str:
     """One JSON object; the same scenario always gives the same text."""
     return json.dumps(_to_data(scenario), allow_nan=False, separators=(",", ":"))
 
 
-def from_json(text: str) -> Scenario:
-    """The scenario of a text written by `to_json`; raises BadInput if it is not one."""
+def scenario_of(text: str) -> Scenario:
+    """The scenario of a text written by `scenario_json`; raises BadInput if it is not one."""
     try:
         data = json.loads(text)
         found = data["format"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
@@ -19,7 +18,8 @@ from datagen.sizing.flat_rows import flat_summary
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.size_summary import SizeSummary, StatedSizes
+from datagen.sizing.size_scores import SizeScores
+from datagen.sizing.size_summary import StatedSizes
 from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 from datagen.versions import program_versions
@@ -27,23 +27,6 @@ from labels.schema import SPLITS
 
 ALL = "all"
 NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
-
-
-@dataclass(frozen=True)
-class SizeScores:
-    """`summary` is None where no record's ball passes are known, as in imported recordings; `stated` is what is scored
-    of those by what their SPEC states, None if it states nothing. `load_given` counts the records whose load and Hertz
-    factor the estimator was given."""
-
-    folder: str
-    estimator: str
-    split: str
-    load_known: bool
-    records: list[ScoredRecord]
-    summary: SizeSummary | None
-    known_sizes: list[KnownSize]
-    stated: StatedSizes | None = None
-    load_given: int = 0
 
 
 def score_sizes(

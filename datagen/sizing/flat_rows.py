@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import asdict, fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_scores import SizeScores
 from datagen.sizing.size_summary import Figure
 from labels.interval import Interval
-
-if TYPE_CHECKING:
-    from datagen.sizing.corpus_run import SizeScores
 
 
 def flat_scores(scores: SizeScores) -> dict[str, Any]:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from datagen.files.atomic import write_results
 from datagen.files.plain import plain_json
-from datagen.sizing.corpus_run import SizeScores
 from datagen.sizing.flat_rows import flat_row, flat_scores
+from datagen.sizing.size_scores import SizeScores
 
 LISTS = ("candidates", "candidates_deg", "candidates_mm")
 

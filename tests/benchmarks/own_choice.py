@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from datagen.charts.contestants import ACCURACIES, SUBSTEPS
 from datagen.recipes.recipe import load_recipe
-from datagen.scenarios.accuracy import allowed_error
+from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import measured_on
 from physics.freed_memory import keep_freed_memory

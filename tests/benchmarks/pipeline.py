@@ -45,7 +45,7 @@ STAGES = {
     "truth of every ball pass": ("ball_passes",),
     "sensor path and background": ("sensed", "background_layers", "sensor_labels"),
     "envelope": ("band_envelope",),
-    "text of the scenario": ("to_json",),
+    "text of the scenario": ("scenario_json",),
     "lay out the file": ("to_dataset",),
     "compress and write": ("write_shard",),
 }

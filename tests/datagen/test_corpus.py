@@ -19,7 +19,7 @@ from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -85,7 +85,7 @@ def test_the_dataset_of_a_record_holds_its_own_passes_and_defects_only(corpus: C
 
 def test_the_scenario_of_a_record_reads_back(corpus: Corpus) -> None:
     assert corpus.scenario(3)["record"] == 3
-    assert Scenario.from_json(str(corpus.waveform(3, "scenario"))).record == 3
+    assert scenario_of(str(corpus.waveform(3, "scenario"))).record == 3
 
 
 def test_contact_force_is_stored_of_the_first_record_of_each_rig_and_condition(corpus: Corpus) -> None:

@@ -10,6 +10,7 @@ from reference_scenes import FAN, GEARBOX, REFERENCE_SCENES, reference_scene_jso
 from replay import march, replay
 
 from datagen.scenarios.scenario import Scenario, Seeds
+from datagen.scenarios.scenario_text import scenario_json
 from physics.cage import CagePath, draw_slip_knots
 from physics.catalog import rig
 from physics.imperfections import Imperfections, Waviness
@@ -103,16 +104,18 @@ SCENES = {
 
 
 def text_of(made, rate, **fields):
-    return Scenario(
-        scene=made,
-        rate=rate,
-        seeds=Seeds(recipe=1, record=0, record_attempt=0, machine=0, machine_attempt=0),
-        part="reference",
-        bearing_id="B0",
-        split="train",
-        envelope_band=(1e3, 2e3),
-        **fields,
-    ).to_json()
+    return scenario_json(
+        Scenario(
+            scene=made,
+            rate=rate,
+            seeds=Seeds(recipe=1, record=0, record_attempt=0, machine=0, machine_attempt=0),
+            part="reference",
+            bearing_id="B0",
+            split="train",
+            envelope_band=(1e3, 2e3),
+            **fields,
+        )
+    )
 
 
 def distance(found, expected):

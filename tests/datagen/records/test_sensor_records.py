@@ -18,7 +18,7 @@ from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.background import Background, NoiseTarget
 from datagen.scenarios.sampling import draw_scenario
-from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_of
 from labels.noise import signal_to_noise
 from labels.schema import LAYERS
 
@@ -160,7 +160,7 @@ def test_the_whole_corpus_checks_and_is_remade_from_its_scenarios(folder: Path, 
 
 
 def test_the_text_gives_sensor_signal_and_layers_again_without_recipe_and_recording(corpus: Corpus) -> None:
-    scenario = Scenario.from_json(str(corpus.waveform(1, "scenario")))
+    scenario = scenario_of(str(corpus.waveform(1, "scenario")))
     again = make_record(scenario, ("acceleration_sensor", "background"))
     assert np.array_equal(again.acceleration_sensor, corpus.waveform(1, "acceleration_sensor"))
     assert np.array_equal(again.background, corpus.waveform(1, "background"))

@@ -15,6 +15,7 @@ from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.records.record import Record, make_record
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_of
 from physics.request import LeadIn
 from physics.sensor.chain import SensorChain, sensed
 from physics.sensor.mode import SensorMode
@@ -118,7 +119,7 @@ def test_the_chain_has_settled_too(scenario: Scenario) -> None:
 
 
 def test_the_text_of_a_settled_record_gives_it_again_bit_for_bit(record: Record) -> None:
-    again = make_record(Scenario.from_json(record.scenario), STORED)
+    again = make_record(scenario_of(record.scenario), STORED)
     assert np.array_equal(again.acceleration, record.acceleration)
     assert np.array_equal(again.passes.release_time, record.passes.release_time, equal_nan=True)
     assert str(again.labels) == str(record.labels)

@@ -5,10 +5,11 @@ from dataclasses import replace
 import pytest
 
 from datagen.recipes.recipe import load_recipe
-from datagen.scenarios.accuracy import Accuracy, allowed_error
+from datagen.scenarios.accuracy import Accuracy
+from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.background import Background, NoiseTarget
 from datagen.scenarios.sampling import draw_scenario
-from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_json, scenario_of
 from physics.sensor.chain import SensorChain
 from physics.sensor.mode import SensorMode
 
@@ -46,8 +47,8 @@ def test_a_ratio_over_a_band_or_of_tones_alone_allows_nothing(scenario):
 
 
 def test_the_accuracy_is_part_of_the_scenarios_text_and_older_texts_mean_the_usual_one(scenario):
-    text = scenario.to_json()
-    assert Scenario.from_json(text).accuracy == Accuracy(2e-3, 20.0)
+    text = scenario_json(scenario)
+    assert scenario_of(text).accuracy == Accuracy(2e-3, 20.0)
     older = text.replace('"accuracy":{"relative":0.002,"below_noise_db":20.0},', "")
     assert older != text
-    assert Scenario.from_json(older).accuracy == Accuracy()
+    assert scenario_of(older).accuracy == Accuracy()

@@ -12,6 +12,7 @@ import pytest
 from datagen.recipes.recipe import parse_recipe
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_json, scenario_of
 from physics import catalog
 from physics.hertz import load_deflection_factor, roller_load_deflection_factor
 from physics.modes import modes, rated_matrices
@@ -164,7 +165,7 @@ def test_drawn_balls_that_do_not_fit_are_redrawn_and_counted() -> None:
 
 def test_a_drawn_machine_comes_back_from_the_text_of_its_scenario() -> None:
     (scenario,) = draw(1, **BEARING, **RIG)
-    assert Scenario.from_json(scenario.to_json()) == scenario
+    assert scenario_of(scenario_json(scenario)) == scenario
 
 
 def test_factors_of_the_diameters_scale_those_of_the_catalogue() -> None:

@@ -18,6 +18,7 @@ from datagen.scenarios.background import Background, NoiseTarget, Stretch
 from datagen.scenarios.redraw import Redraw
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario, Seeds
+from datagen.scenarios.scenario_text import scenario_json, scenario_of
 from datagen.scenarios.streams import PURPOSES, SCOPES
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance
@@ -106,10 +107,10 @@ def leaves(value: Any, path: str = "") -> list[tuple[str, Any]]:
 
 def test_a_scenario_with_every_field_set_comes_back_equal() -> None:
     scenario = full_scenario()
-    again = Scenario.from_json(scenario.to_json())
+    again = scenario_of(scenario_json(scenario))
     assert dict(leaves(again)) == dict(leaves(scenario))
     assert again == scenario
-    assert again.to_json() == scenario.to_json()
+    assert scenario_json(again) == scenario_json(scenario)
 
 
 def test_no_field_of_the_full_scenario_is_left_at_its_default() -> None:
@@ -130,12 +131,12 @@ def test_a_missing_stagger_stays_missing_and_its_value_is_still_told() -> None:
     bearing = dataclasses.replace(scenario.scene.rig.bearing, row_offset=None)
     rig = dataclasses.replace(scenario.scene.rig, bearing=bearing)
     scenario = dataclasses.replace(scenario, scene=dataclasses.replace(scenario.scene, rig=rig, second_cage=None))
-    assert Scenario.from_json(scenario.to_json()) == scenario
-    assert json.loads(scenario.to_json())["parameters"]["row_offset"] == math.pi / 11
+    assert scenario_of(scenario_json(scenario)) == scenario
+    assert json.loads(scenario_json(scenario))["parameters"]["row_offset"] == math.pi / 11
 
 
 def test_the_flat_parameters_carry_the_symbols_of_the_model_in_si_units() -> None:
-    data = json.loads(full_scenario().to_json())
+    data = json.loads(scenario_json(full_scenario()))
     parameters = data["parameters"]
     assert set(parameters) == set(KEYS.split())
     assert (parameters["K"], parameters["W"], parameters["omega_s"], parameters["Nb"]) == (5.3e9, 345.6, 43.21, 11)
@@ -143,14 +144,14 @@ def test_the_flat_parameters_carry_the_symbols_of_the_model_in_si_units() -> Non
 
 
 def test_the_flat_parameters_describe_the_largest_spall() -> None:
-    parameters = json.loads(full_scenario().to_json())["parameters"]
+    parameters = json.loads(scenario_json(full_scenario()))["parameters"]
     assert (parameters["extent"], parameters["phi_f"], parameters["depth"]) == (0.2, 2.3, 1.7e-5)
 
 
 def test_the_parameters_of_a_healthy_scenario_have_a_defect_of_zeros() -> None:
     scenario = full_scenario()
     healthy = dataclasses.replace(scenario, scene=dataclasses.replace(scenario.scene, spalls=()))
-    data = json.loads(healthy.to_json())
+    data = json.loads(scenario_json(healthy))
     names = ("phi_f", "extent", "depth", "entry_taper", "exit_taper", "roughness")
     assert [data["parameters"][name] for name in names] == [0.0] * 6
     assert (data["condition"], data["location"], data["defects"]) == ("healthy", "none", [])
@@ -162,7 +163,7 @@ def test_the_parameters_of_a_healthy_scenario_have_a_defect_of_zeros() -> None:
 def test_the_text_tells_the_raised_rate_and_the_filter_that_lowers_it(rate: float, modes: int, factor: int) -> None:
     scenario = full_scenario()
     chain = dataclasses.replace(scenario.chain, modes=scenario.chain.modes[:modes], mounting=None)
-    sampling = json.loads(dataclasses.replace(scenario, rate=rate, chain=chain).to_json())["sampling"]
+    sampling = json.loads(scenario_json(dataclasses.replace(scenario, rate=rate, chain=chain)))["sampling"]
     assert sampling["oversampling"] == factor  # 14 times 8765.4 Hz, or 4 times 10.3 kHz, over the rate; 3 with modes
     if factor == 1:
         assert sampling["lowering"] is None
@@ -180,7 +181,7 @@ def test_the_text_tells_the_raised_rate_and_the_filter_that_lowers_it(rate: floa
 
 
 def test_the_text_tells_how_to_remake_the_record() -> None:
-    data = json.loads(full_scenario().to_json())
+    data = json.loads(scenario_json(full_scenario()))
     assert data["format"] == "spallgen scenario 2"
     assert data["sampling"]["samples"] == 5120
     assert data["sampling"]["settle_s"] == 0.05
@@ -203,12 +204,12 @@ def test_the_text_tells_how_to_remake_the_record() -> None:
 
 
 def test_the_rule_of_a_tapered_spall_says_what_the_film_makes_of_a_step() -> None:
-    rules = [defect["rule"] for defect in json.loads(full_scenario().to_json())["defects"]]
+    rules = [defect["rule"] for defect in json.loads(scenario_json(full_scenario()))["defects"]]
     assert "a zero taper is a step of no slope: the film damping c_d feels nothing of it" in rules[0]
 
 
 def test_the_rule_of_the_seeds_names_each_number_as_the_text_does() -> None:
-    seeds = json.loads(full_scenario().to_json())["seeds"]
+    seeds = json.loads(scenario_json(full_scenario()))["seeds"]
     rule = seeds["rule"]
     assert "SeedSequence(recipe, spawn_key=(scope, index, purpose, attempt, item))" in rule
     for said in ("index record", "attempt record_attempt", "item 0", "scope 'record'", "places in the lists"):
@@ -217,7 +218,7 @@ def test_the_rule_of_the_seeds_names_each_number_as_the_text_does() -> None:
 
 
 def test_no_rule_of_a_settled_record_lets_a_filter_begin_at_its_first_sample() -> None:
-    text = json.loads(dataclasses.replace(full_scenario(), settle=0.01).to_json())
+    text = json.loads(scenario_json(dataclasses.replace(full_scenario(), settle=0.01)))
     modes, mounting = text["chain"]["rules"]["modes"], text["chain"]["rules"]["mounting"]
     assert "at rest where the simulated instants begin (t = 0, or -settle_s" in modes
     assert "at rest where the simulated instants begin" in mounting
@@ -226,7 +227,7 @@ def test_no_rule_of_a_settled_record_lets_a_filter_begin_at_its_first_sample() -
 
 def test_the_seeds_in_the_text_open_the_records_noise_without_our_code() -> None:
     scenario = full_scenario()
-    seeds = json.loads(scenario.to_json())["seeds"]
+    seeds = json.loads(scenario_json(scenario))["seeds"]
     purpose = seeds["purposes"].index("white_noise")
     key = (seeds["scopes"].index("record"), seeds["record"], purpose, seeds["record_attempt"], 0)
     expected = np.random.default_rng(np.random.SeedSequence(seeds["recipe"], spawn_key=key)).standard_normal(4)
@@ -237,7 +238,7 @@ def test_the_seeds_in_the_text_open_the_records_noise_without_our_code() -> None
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"format": "spallgen scenario 1"}', '{"format": "other"}'])
 def test_a_text_that_is_no_scenario_is_refused(text: str) -> None:
     with pytest.raises(BadInput):
-        Scenario.from_json(text)
+        scenario_of(text)
 
 
 def recording(data: Any) -> Any:
@@ -258,20 +259,20 @@ def recording(data: Any) -> Any:
     ids=["truncated content", "a number for content", "no starts", "layers in a list", "half a band", "empty band"],
 )
 def test_a_damaged_text_of_a_scenario_is_refused(spoil: Callable[[Any], None]) -> None:
-    data = json.loads(full_scenario().to_json())
+    data = json.loads(scenario_json(full_scenario()))
     spoil(data)
     with pytest.raises(BadInput, match="not the text of a scenario"):
-        Scenario.from_json(json.dumps(data))
+        scenario_of(json.dumps(data))
 
 
 def test_a_format_of_the_future_is_refused_by_name() -> None:
     allowed = "spallgen scenario 1, spallgen scenario 2"
     with pytest.raises(BadInput, match=f'format = "spallgen scenario 3"; allowed: {allowed}'):
-        Scenario.from_json(full_scenario().to_json().replace("scenario 2", "scenario 3"))
+        scenario_of(scenario_json(full_scenario()).replace("scenario 2", "scenario 3"))
 
 
 def test_the_text_of_a_record_that_begins_at_rest_is_of_the_first_format() -> None:
-    data = json.loads(dataclasses.replace(full_scenario(), settle=0.0).to_json())
+    data = json.loads(scenario_json(dataclasses.replace(full_scenario(), settle=0.0)))
     assert data["format"] == "spallgen scenario 1"
     assert "settle_s" not in data["sampling"]
     assert data["rules"]["start"].startswith("at rest in equilibrium under the load vector of t = 0, velocities zero")
@@ -282,4 +283,4 @@ def test_drawn_scenarios_come_back_equal(name: str) -> None:
     recipe = load_recipe(name)
     for record in range(0, recipe.count, 7):
         scenario = draw_scenario(recipe, record)
-        assert Scenario.from_json(scenario.to_json()) == scenario
+        assert scenario_of(scenario_json(scenario)) == scenario

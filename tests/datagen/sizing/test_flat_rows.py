@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from datagen.files.plain import plain_json
-from datagen.sizing.corpus_run import SizeScores
 from datagen.sizing.flat_rows import flat_row, flat_scores
 from datagen.sizing.report_files import estimates_csv
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_scores import SizeScores
 from labels.event_scores import EventScores
 
 BEFORE_THE_EVENTS = [

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from datagen.drawing.size_report import draw_size_report
 from datagen.drawing.style import house_style
 from datagen.sizing.aggregation import summarise
-from datagen.sizing.corpus_run import SizeScores
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_scores import SizeScores
 
 
 def drawn(records: list[ScoredRecord]) -> Figure:

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -125,6 +126,32 @@ def test_modules_with_a_private_name_are_imported_by_their_own_package_alone(pac
                 assert not (ours and any(name.startswith("_") for name in names)), path
 
 
+def run(tree):
+    """Every node of a module but those that only a type checker reads."""
+    ahead = [tree]
+    while ahead:
+        node = ahead.pop()
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            ahead += node.orelse
+        else:
+            yield node
+            ahead += ast.iter_child_nodes(node)
+
+
+def module_of(path):
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    ours = {module_of(path): path for package in MAY_IMPORT for path in files(package)}
+    arrows = {}
+    for module, path in ours.items():
+        found = [node for node in run(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)]
+        named = {(node.module, f"{node.module}.{alias.name}") for node in found for alias in node.names}
+        arrows[module] = {inner if inner in ours else outer for outer, inner in named} & set(ours)
+    TopologicalSorter(arrows).prepare()
+
+
 def room_of(package, module):
     """The room that a module is or lies in, e.g. integrators.modal; empty for one of the package's own files."""
     folder = module if ROOT.joinpath(*module.split(".")).is_dir() else module.rpartition(".")[0]
@@ -154,7 +181,7 @@ def rooms_reached(package, module):
 
 
 def modules_in(folder):
-    return [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(folder.glob("*.py"))]
+    return [module_of(path) for path in sorted(folder.glob("*.py"))]
 
 
 @pytest.mark.parametrize("package", ROOMS)

@@ -63,9 +63,8 @@ class _Streams:
         return np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=key))
 
 
-def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients | None = None) -> Train:
+def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients) -> Train:
     """The record with that number of a virtual machine; the same numbers always give the same record."""
-    ingredients = ingredients or Ingredients()
     streams = _Streams(seed, machine, record)
     of_machine, of_record = streams.of_machine, streams.of_record
     rate, duration = 25_600.0, float(of_record("duration").choice(DURATIONS, p=SHARES))

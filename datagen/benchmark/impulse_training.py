@@ -14,7 +14,7 @@ from datagen.benchmark.record_rows import feature_rows, signal_rows
 from datagen.benchmark.rows import joined
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
-from datagen.progress import Count, ignore
+from datagen.progress import Count
 from labels.classifier.classes import HEALTHY
 from labels.schema import LOCATIONS
 
@@ -40,7 +40,7 @@ def ingredients_of(train: Path) -> Ingredients | None:
 
 
 def impulse_training(
-    ingredients: Ingredients, reading: Reading, workers: int, records: int | None = None, count: Count = ignore
+    ingredients: Ingredients, reading: Reading, workers: int, records: int | None, count: Count
 ) -> TrainingSet:
     """Rows of about that many `records` (720 if None): of each machine a healthy one and a spall on either race.
 

@@ -32,10 +32,10 @@ def benchmark_of(
     train: Path,
     tests: tuple[Path, ...],
     options: Options,
-    learning_curve: bool = False,
-    workers: int = 2,
-    out: Path | None = None,
-    save: Path | None = None,
+    learning_curve: bool,
+    workers: int,
+    out: Path | None,
+    save: Path | None,
 ) -> Benchmark:
     """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be."""
     learning, scoring = options.learning, options.scoring

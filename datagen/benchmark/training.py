@@ -163,7 +163,7 @@ def _fitted(name: str, training: TrainingSet) -> SpallClassifier:
     )
 
 
-def copy_of(estimator: Any, given: str = "") -> Any:
+def copy_of(estimator: Any, given: str) -> Any:
     """An unfitted copy of the user's estimator; raises BadInput, which names it as `given`, if it cannot be copied."""
     from sklearn.base import clone
 

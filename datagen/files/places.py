@@ -35,12 +35,12 @@ def require_folder(folder: Path, field: str = OUT) -> None:
         )
 
 
-def require_results_folder(folder: Path, field: str = OUT) -> None:
+def require_results_folder(folder: Path) -> None:
     """Raise BadInput if results cannot be put into `folder`, or would be mixed with the files of a corpus there."""
-    require_folder(folder, field)
+    require_folder(folder)
     if (folder / MANIFEST).is_file():
         problem = "this is the folder of a corpus, and results would be mixed with its files"
-        raise BadInput(problem, field=field, value=str(folder), allowed="a folder of its own")
+        raise BadInput(problem, field=OUT, value=str(folder), allowed="a folder of its own")
 
 
 def refuse_other_than_file(path: Path, allowed: str) -> None:

@@ -47,8 +47,8 @@ class Verdict:
     remade: tuple[int, ...]
     largest_difference: float
     problems: tuple[str, ...]
-    damaged: tuple[str, ...] = ()
-    remedy: str = ""
+    damaged: tuple[str, ...]
+    remedy: str
 
     @property
     def sound(self) -> bool:

@@ -36,7 +36,7 @@ class Stiffness:
 
     cage: Array
     row: Array
-    half: float = 0.0
+    half: float
 
     @property
     def total(self) -> Array:

@@ -109,15 +109,11 @@ def titled(found: Sequence[Outcome], title: str) -> Outcome:
     raise ValueError(f'no profile "{title}" among the {len(found)} searched')
 
 
-def profiles(
-    shortest_waves: Sequence[float] = SHORTEST_WAVES_MM,
-    deviations: Sequence[float] = DEVIATIONS_UM,
-    depths: Sequence[float] = MEAN_DEPTHS_UM,
-) -> Iterator[Profile]:
+def profiles() -> Iterator[Profile]:
     """The whole grid; everything stays between the race and 15 µm below it, but for the reference profile."""
     yield from smooth_profiles()
     yield from waved_profiles()
-    yield from rough_profiles(shortest_waves, deviations, depths)
+    yield from rough_profiles(SHORTEST_WAVES_MM, DEVIATIONS_UM, MEAN_DEPTHS_UM)
     draws = tuple(reference_extended_spall(seed) for seed in range(ROUGH_SEEDS))
     yield Profile("reference", REFERENCE, draws)
 

@@ -76,9 +76,9 @@ def sidebands(acceleration: Array, orders: tuple[int, ...] = (1,)) -> Array:
     return np.asarray(np.max(beside_it, axis=0) - carrier)
 
 
-def strongest_of_all(condition: str, draws: int = DRAWS) -> Array:
-    """Strongest of the first five cage sidebands of the sixth harmonic, dB (draws,): shown deviation, no slip."""
-    states = (machine_state(condition, SHOWN_DEVIATION, seed, False) for seed in range(draws))
+def strongest_of_all(condition: str) -> Array:
+    """Strongest of the first five cage sidebands of the sixth harmonic, dB (DRAWS,): shown deviation, no slip."""
+    states = (machine_state(condition, SHOWN_DEVIATION, seed, False) for seed in range(DRAWS))
     return np.array([sidebands(signal(state), (1, 2, 3, 4, 5))[SIXTH - 1] for state in states])
 
 

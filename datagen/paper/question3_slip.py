@@ -31,6 +31,8 @@ COLOURS = dict(zip(SLIPS, (INK, BLUE, ORANGE, VERMILLION), strict=True))
 SEEDS = 12
 BAND_SHARE = 0.1
 HARMONICS = 20
+# Instants of the analysed time between which the predicted phase is compared.
+INSTANTS = 400
 TABLED = (1, 2, 5, 10, 20)
 FIRST_JUDGED = 5
 FADED = -10.0  # dB
@@ -79,7 +81,7 @@ def measure(rig: str, slips: tuple[float, ...] = SLIPS, seeds: int = SEEDS) -> S
     return Smearing(rig, found)
 
 
-def predicted_drop(rig: str, slip: float, harmonics: int = HARMONICS, points: int = 400) -> Array:
+def predicted_drop(rig: str, slip: float) -> Array:
     """Drop (20,) in dB of the RMS line at k · BPFO that a phase wandering with the cage alone causes.
 
     The cage's angle strays by a variance 2 (σ ωc τ)² (t/τ − 1 + exp(−t/τ)) within t, τ one ball pass, σ the slip; the
@@ -88,11 +90,11 @@ def predicted_drop(rig: str, slip: float, harmonics: int = HARMONICS, points: in
     bearing = machine(rig).bearing
     cage = bearing.cage_speed(machine(rig).rated_speed)
     correlation = bearing.spacing / cage
-    time = (np.arange(points) + 0.5) / points * ANALYSED
+    time = (np.arange(INSTANTS) + 0.5) / INSTANTS * ANALYSED
     window = 1.0 - np.cos(2.0 * np.pi * time / ANALYSED)
     apart = np.abs(time[:, None] - time) / correlation
     variance = 2.0 * (slip * cage * correlation) ** 2 * (apart - 1.0 + np.exp(-apart))
-    order = (bearing.balls * np.arange(1, harmonics + 1))[:, None, None]
+    order = (bearing.balls * np.arange(1, HARMONICS + 1))[:, None, None]
     power = np.einsum("i,kij,j->k", window, np.exp(-(order**2) * variance / 2.0), window) / window.sum() ** 2
     return np.asarray(10.0 * np.log10(power))
 

@@ -114,7 +114,7 @@ class Source:
         """Which samples of a variable are not finite numbers."""
         return np.flatnonzero(~np.isfinite(choose(self.arrays, wish, self.path, field)))
 
-    def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str, allowed: str = "") -> BadInput:
+    def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str, allowed: str) -> BadInput:
         name, places = chosen(self.arrays, wish, self.path, field)
         if isinstance(self.arrays, Columns) and places is None:
             line, text = self.arrays.odd[name]

@@ -68,9 +68,7 @@ DECIDERS: dict[str, tuple[str, ...]] = {
 }
 
 
-def deciders(
-    recipe: Recipe, part: int, parameter: str, kind: Combination | None = None
-) -> list[tuple[Location, object]]:
+def deciders(recipe: Recipe, part: int, parameter: str, kind: Combination | None) -> list[tuple[Location, object]]:
     """Where the recipe says something that decides the `parameter` of the part with that index, and what, as in TOML.
 
     The likeliest to be wrong comes first. Of what is said of spalls only that which holds for the `kind` counts, if one

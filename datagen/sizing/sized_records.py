@@ -72,7 +72,7 @@ def sized_records(
                 yield _sized(stored, {str(key): value for key, value in labels.items()}, load_known, seed)
 
 
-def unsized_records(folder: Path, splits: tuple[str, ...] | None = None) -> list[UnsizedRecord]:
+def unsized_records(folder: Path, splits: tuple[str, ...] | None) -> list[UnsizedRecord]:
     """The records of a corpus that cannot be sized, in order; BadInput if all are like that."""
     rows = [{str(key): value for key, value in row.items()} for row in _rows(folder, splits).to_dict("records")]
     reasons = [reason_against(labels) for labels in rows]
@@ -82,7 +82,7 @@ def unsized_records(folder: Path, splits: tuple[str, ...] | None = None) -> list
     raise BadInput(f"none of its {len(rows)} records can be sized: {counts}", str(folder))
 
 
-def count_records(folder: Path, splits: tuple[str, ...] | None = None) -> int:
+def count_records(folder: Path, splits: tuple[str, ...] | None) -> int:
     """How many records there are to be sized or not."""
     return len(_rows(folder, splits))
 

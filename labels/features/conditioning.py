@@ -32,7 +32,7 @@ class Conditioned:
     step: float
     bandwidth: float
     samples: int
-    turning: Turning | None = None
+    turning: Turning | None
 
     @property
     def duration(self) -> float:

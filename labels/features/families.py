@@ -23,6 +23,8 @@ HARMONICS = 4
 STANDS_OUT = 4.0
 # Nats beyond which a line counts with its logarithm, so that a lone tone (mains) does not decide alone.
 KNEE = 12.0
+# Harmonics of a fundamental beside which sidebands are looked for.
+SIDEBAND_CARRIERS = 2
 # Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so.
 WIDTHS = (0.0, 0.02, 0.06)
 HANN_BINS = 1.5
@@ -221,11 +223,11 @@ def _stronger(old: Family, new: Family) -> Family:
     )
 
 
-def sideband_evidence(lines: Lines, fundamental: Array, spacing: float, shaft_hz: float, harmonics: int = 2) -> Array:
-    """Evidence (B,) of the first sidebands, `spacing` (Hz) apart from the harmonics of one fundamental a band."""
+def sideband_evidence(lines: Lines, fundamental: Array, spacing: float, shaft_hz: float) -> Array:
+    """Evidence (B,) of the first sidebands, `spacing` (Hz) apart from the first harmonics of one fundamental a band."""
     half = max(0.02 * shaft_hz, 0.75 * lines.step)
     components = max(2.0 * half / lines.step / HANN_BINS, 1.0)
-    places = [k * fundamental + sign * spacing for k in range(1, harmonics + 1) for sign in (-1.0, 1.0)]
+    places = [k * fundamental + sign * spacing for k in range(1, SIDEBAND_CARRIERS + 1) for sign in (-1.0, 1.0)]
     bands = np.arange(fundamental.size)
     ratio = lines.means(np.array(places), np.full(len(places), half))[:, bands, bands]
     return np.asarray(evidence(ratio, components).sum(axis=0))

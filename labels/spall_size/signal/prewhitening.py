@@ -29,7 +29,7 @@ class Prewhitened:
     unit: float
 
 
-def prewhitened(signal: Array, order: int = ORDER) -> Prewhitened:
+def prewhitened(signal: Array) -> Prewhitened:
     """The residual of a linear prediction of `signal` (T,) from its past.
 
     A predictor by least squares would also learn the echo of a spall's exit after its entry; weights that fall with
@@ -41,19 +41,19 @@ def prewhitened(signal: Array, order: int = ORDER) -> Prewhitened:
     if scale == 0.0:
         return Prewhitened(np.zeros_like(x), 0.0)
     x = x / scale
-    coefficients = _least_squares_start(x, order)
+    coefficients = _least_squares_start(x)
     for _ in range(REWEIGHTINGS):
-        coefficients = _reweighted(x, coefficients, order)
+        coefficients = _reweighted(x, coefficients)
     residual = _residual(x, coefficients)
     unit = max(float(np.median(np.abs(residual))), 1e-300)
     return Prewhitened(residual / unit, unit * scale)
 
 
-def _least_squares_start(x: Array, order: int) -> Array:
+def _least_squares_start(x: Array) -> Array:
     spectrum = np.fft.rfft(x, 2 * x.size)
-    covariance = np.fft.irfft(np.abs(spectrum) ** 2)[: order + 1]
+    covariance = np.fft.irfft(np.abs(spectrum) ** 2)[: ORDER + 1]
     covariance[0] *= 1.0 + RIDGE
-    return np.asarray(solve_toeplitz(covariance[:order], covariance[1:]))
+    return np.asarray(solve_toeplitz(covariance[:ORDER], covariance[1:]))
 
 
 def _residual(x: Array, coefficients: Array) -> Array:
@@ -62,16 +62,16 @@ def _residual(x: Array, coefficients: Array) -> Array:
     return whole
 
 
-def _reweighted(x: Array, coefficients: Array, order: int) -> Array:
+def _reweighted(x: Array, coefficients: Array) -> Array:
     power = _residual(x, coefficients) ** 2
     weight = 1.0 / (power + FLOOR_SHARE * power.mean() + 1e-300)
-    # Of the products of a sample and its `order` predecessors, the last column is that of the sample itself.
-    products = np.zeros((order + 1, order + 1))
-    past = np.lib.stride_tricks.sliding_window_view(x, order + 1)
-    root = np.sqrt(weight[order:, None])
+    # Of the products of a sample and its ORDER predecessors, the last column is that of the sample itself.
+    products = np.zeros((ORDER + 1, ORDER + 1))
+    past = np.lib.stride_tricks.sliding_window_view(x, ORDER + 1)
+    root = np.sqrt(weight[ORDER:, None])
     for start in range(0, past.shape[0], BLOCK):
         rows = root[start : start + BLOCK] * past[start : start + BLOCK]
         products += rows.T @ rows
-    gram, target = products[:order, :order], products[:order, order]
-    gram[np.diag_indices(order)] += RIDGE * np.trace(gram) / order
+    gram, target = products[:ORDER, :ORDER], products[:ORDER, ORDER]
+    gram[np.diag_indices(ORDER)] += RIDGE * np.trace(gram) / ORDER
     return np.asarray(solve(gram, target, assume_a="pos"))[::-1]

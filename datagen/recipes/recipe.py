@@ -27,7 +27,7 @@ from datagen.recipes.signal_settings import Signal
 from datagen.recipes.split_settings import Split
 from datagen.recipes.store_settings import Store
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import OneOf, Table, refuse
+from datagen.settings.table import OneOf, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 from physics.words import CONTACT_LAWS
 
@@ -122,10 +122,7 @@ class Recipe(Table):
 
     @model_validator(mode="after")
     def _distinct_names(self) -> Recipe:
-        names = [part.name for part in self.part]
-        twice = next((name for name in names if names.count(name) > 1), None)
-        if twice is not None:
-            raise refuse(f'two parts are called "{twice}"', "part", "a different name for each part")
+        named_differently(self.part, "part")
         return self
 
     def chain_of(self, part: Part) -> ChainSettings:

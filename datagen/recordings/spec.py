@@ -12,7 +12,7 @@ from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import Table, refuse
+from datagen.settings.table import Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 
 Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
@@ -99,10 +99,7 @@ class Spec(Table):
 
     @model_validator(mode="after")
     def _distinct_names(self) -> Spec:
-        names = [recording.name for recording in self.recording]
-        twice = next((name for name in names if names.count(name) > 1), None)
-        if twice is not None:
-            raise refuse(f'two recordings are called "{twice}"', "recording", "a different name for each recording")
+        named_differently(self.recording, "recording")
         return self
 
     @property

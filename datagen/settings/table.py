@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -201,6 +201,14 @@ def rising(orders: tuple[int, int]) -> tuple[int, int]:
     if orders[0] > orders[1]:
         raise refuse("the first order comes first", allowed="[first order, last order]")
     return orders
+
+
+def named_differently(tables: Iterable[Any], setting: str) -> None:
+    """Raise PydanticCustomError if two of the `tables` of a `setting` have the same `name`."""
+    names = [table.name for table in tables]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise refuse(f'two {setting}s are called "{twice}"', setting, f"a different name for each {setting}")
 
 
 def at_most_one(table: BaseModel, *fields: str) -> None:

@@ -118,6 +118,45 @@ def test_passes_over_several_spalls_are_listed_by_time_and_not_spall_by_spall(ma
     assert np.all(np.diff(table.entry_time) >= 0.0)
 
 
+def test_balls_that_enter_at_the_same_instant_are_listed_by_row(make_scene):
+    scene = make_scene(Spall("outer", 2, 4.5, 0.03, 9e-6), Spall("outer", 1, 4.5, 0.03, 9e-6))
+    in_line = replace(scene, rig=replace(scene.rig, bearing=replace(scene.rig.bearing, row_offset=0.0)))
+    table = ball_passes(in_line, None, DURATION)
+    assert np.array_equal(table.entry_time[::2], table.entry_time[1::2])
+    assert np.array_equal(table.row, np.tile([1, 2], len(table) // 2))
+    assert np.array_equal(table.defect, np.tile([1, 0], len(table) // 2))
+
+
+@pytest.mark.parametrize("share", [0.0005, 0.5, 0.9995])
+@pytest.mark.parametrize("instant", [0.0, 0.3])
+def test_a_ball_anywhere_in_a_spall_at_an_end_of_the_record_has_its_whole_pass(make_scene, share, instant):
+    spall = Spall("outer", 1, 4.71, 0.2, 4e-6)
+    scene = make_scene(spall, duration=0.3)
+    speed = scene.cage.nominal_speed
+    start = spall.angle + (share - 0.5) * spall.extent - speed * instant
+    table = ball_passes(replace(scene, cage=replace(scene.cage, start_angle=start)), None, 0.3)
+    under_way = (table.entry_time <= instant) & (table.exit_time >= instant)
+    assert table.ball[under_way] == [1]
+    crossing = spall.extent / speed
+    assert table.entry_time[under_way] == pytest.approx(instant - share * crossing, abs=1e-12)
+    assert table.deepest_time[under_way] == pytest.approx(instant + (0.5 - share) * crossing, abs=1e-12)
+    assert table.exit_time[under_way] == pytest.approx(instant + (1.0 - share) * crossing, abs=1e-12)
+
+
+def test_a_ball_that_has_just_left_a_spall_when_the_record_begins_has_no_pass(make_scene):
+    spall = Spall("outer", 1, 4.71, 0.2, 4e-6)
+    scene = make_scene(spall)
+    left = replace(scene.cage, start_angle=spall.angle + 0.5005 * spall.extent)
+    assert ball_passes(replace(scene, cage=left), None, DURATION).entry_time[0] > 0.0
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_spall_that_only_rises_is_deepest_where_it_is_entered(make_scene, race):
+    table = ball_passes(make_scene(Spall(race, 1, 4.0, 0.05, 9e-6, 0.0, 0.05), slip=True), None, DURATION)
+    assert len(table) > 10
+    assert np.allclose(table.deepest_time, table.entry_time, rtol=0.0, atol=1e-12)  # rounding
+
+
 def test_a_healthy_scene_has_no_pass(make_scene):
     table = ball_passes(make_scene(), None, DURATION)
     assert len(table) == 0

@@ -1,6 +1,7 @@
 """The signal processing on pulse trains of known lag through a known resonator."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -110,6 +111,18 @@ def test_both_ends_of_a_rumble_are_candidates():
     # The least blur puts an edge one sample inside the rumble, a coarser one further.
     assert np.abs(places - 20).min() < 1.5
     assert np.abs(places + 60).min() < 1.5
+
+
+def test_candidates_may_be_as_near_as_1_6_samples_and_no_nearer():
+    generator, apart = np.random.default_rng(0), []
+    for _ in range(30):
+        mean = mean_of_steps(-60, 20)
+        rough = np.exp(generator.standard_normal(mean.energy.shape))
+        places = candidate_places(replace(mean, energy=mean.energy * rough))
+        assert places.size == 18
+        apart += np.diff(places).tolist()
+    # Of some five hundred distances many fall just above the least one that is allowed.
+    assert 1.6 <= min(apart) < 1.65
 
 
 def test_levels_beside_a_candidate_tell_on_which_side_it_is_quiet():

@@ -21,6 +21,23 @@ def test_a_constant_signal_has_no_envelope_lag():
     assert math.isnan(envelope_lag(np.zeros(5000), RATE, 0.01))
 
 
+@pytest.mark.parametrize(("middle", "lag"), [(0.55, 100), (0.45, 300)])
+def test_the_first_peak_counts_that_is_half_as_marked_as_the_highest(middle, lag):
+    # Bursts of energy 1, `middle` and 1: their squared envelope repeats by `middle` after 100 and 200, by 1 after 300.
+    time = np.arange(6000.0)
+    bursts = [math.sqrt(size) * np.exp(-(((time - place) / 8.0) ** 2)) for place, size in ((2000, 1.0), (2300, 1.0))]
+    bursts.append(math.sqrt(middle) * np.exp(-(((time - 2100) / 8.0) ** 2)))
+    assert envelope_lag(np.cos(1.3 * time) * sum(bursts), 1.0, 400.0) == lag
+
+
+@pytest.mark.parametrize(("beat", "lag"), [(3.0, 3), (9.0 / 4.0, 7)])
+def test_a_lag_of_three_samples_is_the_shortest(beat, lag):
+    # Two tones beat; a beat of 9/4 samples nearly repeats after two samples and, as nearly, after seven.
+    time = np.arange(4200.0)
+    signal = np.cos(0.2 * time) + np.cos((0.2 + 2.0 * math.pi / beat) * time)
+    assert envelope_lag(signal, 1.0, 20.0) == lag
+
+
 def test_the_half_size_rule_says_twice_the_arc_of_the_plain_one(pulse_train):
     train = pulse_train(100.0 / RATE, GEARBOX.pass_periods()["outer"])
     plain, half = (EnvelopeLagRule(share).estimate(train.signal, RATE, GEARBOX) for share in (1.0, 2.0))

@@ -20,9 +20,9 @@ from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
-from labels.features.families import races_in_mains
 from labels.features.glitches import without_glitches
 from labels.features.kinematics import Kinematics
+from labels.features.known_lines import races_in_mains
 from labels.features.shocks import without_shocks
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning

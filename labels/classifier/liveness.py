@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from labels.features.analysis import Analysis
 from labels.features.conditioning import FEWEST_BINS, Spectrum, over_floor
-from labels.features.families import find_family, lines_in, near_mains
+from labels.features.families import find_family
+from labels.features.known_lines import near_mains
+from labels.features.lines import lines_in
 from labels.features.speed import SPECTRUM_FLOOR_ORDERS
 from physics.arrays import Array
 

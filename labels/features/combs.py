@@ -10,19 +10,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.stats import binom
 
-from labels.features.families import (
-    SHAFT_MARGIN,
-    STANDS_OUT,
-    WIDEST_MARGIN,
-    Lines,
-    find_family,
-    harmonic_evidence,
-    lines_in,
-    multiple_margin,
-    near_multiples,
-    tempered,
-)
+from labels.features.families import STANDS_OUT, find_family, harmonic_evidence, tempered
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
+from labels.features.known_lines import SHAFT_MARGIN, WIDEST_MARGIN, multiple_margin, near_multiples
+from labels.features.lines import Lines, lines_in
 from physics.arrays import Array, Flags
 
 # Orders between which a comb's rate is looked for.

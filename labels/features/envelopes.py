@@ -10,7 +10,7 @@ from scipy import fft
 
 from labels.band_tree import band_edges
 from labels.features.conditioning import Conditioned, Spectrum, over_floor
-from labels.features.families import mains_components
+from labels.features.known_lines import mains_components
 from labels.features.turning import Turning
 from physics.arrays import Array
 

@@ -9,14 +9,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from labels.features.kinematics import Kinematics
+from labels.features.lines import Lines
 from physics.arrays import Array
-from physics.compiled import njit_inline, njit_lean
 
 HARMONICS = 4
 # Nats that noise gives one line in 500.
@@ -28,129 +25,6 @@ SIDEBAND_CARRIERS = 2
 # Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so.
 WIDTHS = (0.0, 0.02, 0.06)
 HANN_BINS = 1.5
-MAINS = (50.0, 60.0)
-# Share by which mains (0.4 % in an interconnected grid, EN 50160) and a stated rate may be off together, and the most
-# (Hz) that is allowed for it: high multiples are weak, and their margins would cover the axis.
-MAINS_SPREAD, MAINS_REACH = 0.006, 0.8
-# The share that is allowed for at every multiple.
-STEADY_MAINS = 0.001
-COARSEST_STEP = 1.3
-# Components so near (in orders) to a multiple of the shaft speed are not counted for a defect family.
-SHAFT_MARGIN = 0.025
-# The most orders around each multiple in which components are left out: more would take a large part of the axis.
-WIDEST_MARGIN = 0.12
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Spectra over their floor, ready to be read between components: cumulated excess (B, F + 1), `step` apart."""
-
-    cumulated: Array
-    step: float
-
-    def means(self, centres: Array, half_widths: Array) -> Array:
-        """Mean excess (H, B, N) over `centres` (H, N) ± `half_widths` (H,), in the unit of `step`; 0 beyond the end."""
-        found = np.empty((len(centres), len(self.cumulated), centres.shape[1]))
-        _read_means(self.cumulated, self.step, centres, half_widths, found)
-        return found
-
-
-@njit_lean
-def _read_means(cumulated: Array, step: float, centres: Array, half_widths: Array, found: Array) -> None:
-    """Fill `found` (H, B, N) as `Lines.means` says."""
-    size = cumulated.shape[1]
-    end = step * (size - 1.5)
-    for k in range(centres.shape[0]):
-        half = half_widths[k]
-        scale = step / (2.0 * half)
-        for n in range(centres.shape[1]):
-            if not centres[k, n] + half <= end:  # what is no number lies nowhere
-                found[k, :, n] = 0.0
-                continue
-            first, early = _place((centres[k, n] - half) / step, size)
-            last, late = _place((centres[k, n] + half) / step, size)
-            for band in range(cumulated.shape[0]):
-                low = cumulated[band, first] * (1.0 - early) + cumulated[band, first + 1] * early
-                high = cumulated[band, last] * (1.0 - late) + cumulated[band, last + 1] * late
-                found[k, band, n] = (high - low) * scale
-
-
-@njit_inline
-def _place(component: float, size: int) -> tuple[int, float]:
-    """Entry of `size` cumulated sums at or below a `component`, and how far beyond it lies towards the next.
-
-    Component j covers (j − 1/2 … j + 1/2) steps; the cumulated sum at its left edge is entry j.
-    """
-    inside = min(max(component + 0.5, 0.0), size - 1.0)
-    entry = min(int(inside), size - 2)
-    return entry, inside - entry
-
-
-def lines_in(excess: Array, step: float) -> Lines:
-    """Lines of spectra over their floor (B, F)."""
-    zero = np.zeros((*excess.shape[:-1], 1))
-    return Lines(np.concatenate([zero, np.cumsum(excess, axis=-1)], axis=-1), step)
-
-
-def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
-    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1."""
-    return np.where(shaft_components(excess.shape[-1], step, shaft_hz), 1.0, excess)
-
-
-def shaft_components(count: int, step: float, shaft_hz: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, count as the shaft's.
-
-    None in a record of so few turns that the margin would cover a large part of the axis.
-    """
-    margin = multiple_margin(step, shaft_hz)
-    if margin > WIDEST_MARGIN * shaft_hz:
-        return np.zeros(count, dtype=bool)
-    return near_multiples(count, step, shaft_hz, margin)
-
-
-def multiple_margin(step: float, shaft_hz: float) -> float:
-    """How near (Hz) to a multiple of a rotating part's rate a component of the envelope counts as one."""
-    return max(SHAFT_MARGIN * shaft_hz, 1.01 * step)
-
-
-def near_multiples(count: int, step: float, rate: float, margin: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, lie within `margin` (Hz) of a multiple of `rate` (Hz)."""
-    order = np.arange(count) * step / rate
-    return np.asarray((np.abs(order - np.round(order)) * rate <= margin) & (order > 0.5))
-
-
-def mains_components(count: int, step: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, count as mains of 50 or 60 Hz: none if too far apart.
-
-    Motors and their supplies modulate at twice the mains frequency, often near a ball-pass frequency.
-    """
-    if step > COARSEST_STEP:
-        return np.zeros(count, dtype=bool)
-    return _taken_for_mains(np.arange(count) * step, step)
-
-
-def races_in_mains(kinematics: Kinematics, step: float) -> tuple[str, ...]:
-    """The races whose ball pass frequency counts as mains in a spectrum of components `step` (Hz) apart: with all its
-    harmonics it is left out, and a fault of that race is hardly seen."""
-    if step > COARSEST_STEP:
-        return ()
-    orders = {"outer": kinematics.bpfo, "inner": kinematics.bpfi}
-    hidden = _taken_for_mains(np.array([*orders.values()], dtype=np.float64) * kinematics.shaft_hz, step)
-    return tuple(race for race, is_hidden in zip(orders, hidden, strict=True) if is_hidden)
-
-
-def _taken_for_mains(frequency: NDArray[Any], step: float) -> NDArray[np.bool_]:
-    """Which frequencies (F,), Hz, count as mains in a spectrum of components `step` (Hz) apart."""
-    margin = np.maximum(np.minimum(MAINS_SPREAD * frequency, MAINS_REACH), STEADY_MAINS * frequency)
-    return near_mains(frequency, 1.01 * step + margin)
-
-
-def near_mains(frequency: NDArray[Any], margin: NDArray[Any]) -> NDArray[np.bool_]:
-    """True where a frequency (F,) lies within its `margin` (F,), both in Hz, of a multiple of 50 or 60 Hz."""
-    near = np.zeros(frequency.size, dtype=bool)
-    for mains in MAINS:
-        near |= np.abs(frequency - mains * np.maximum(np.round(frequency / mains), 1.0)) <= margin
-    return near
 
 
 def evidence(ratio: Array, components: Array | float) -> Array:

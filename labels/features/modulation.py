@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from labels.features.analysis import Analysis
-from labels.features.families import Lines, find_family, sideband_evidence
+from labels.features.families import find_family, sideband_evidence
 from labels.features.feature import Feature
+from labels.features.lines import Lines
 from physics.arrays import Array
 
 SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope spectrum)"

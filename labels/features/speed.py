@@ -8,8 +8,9 @@ import numpy as np
 
 from labels.features.conditioning import FEWEST_BINS, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
-from labels.features.families import STANDS_OUT, Lines, find_family, harmonic_evidence, lines_in, tempered
+from labels.features.families import STANDS_OUT, find_family, harmonic_evidence, tempered
 from labels.features.kinematics import MEASURED_WITHIN, Kinematics
+from labels.features.lines import Lines, lines_in
 from physics.arrays import Array, Flags
 
 SHAFT_HARMONICS = 8

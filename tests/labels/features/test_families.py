@@ -7,15 +7,9 @@ import pytest
 
 from labels.features.conditioning import condition, local_mean_power
 from labels.features.envelopes import envelope_spectra
-from labels.features.families import (
-    Lines,
-    evidence,
-    find_family,
-    harmonic_evidence,
-    lines_in,
-    mains_components,
-    without_shaft,
-)
+from labels.features.families import evidence, find_family, harmonic_evidence
+from labels.features.known_lines import mains_components, without_shaft
+from labels.features.lines import Lines, lines_in
 from labels.features.modulation import line_strength
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
-from labels.features.families import lines_in
 from labels.features.kinematics import MEASURED_WITHIN, NOMINAL_WITHIN, bearing_kinematics
+from labels.features.lines import lines_in
 from labels.features.speed import families_term, sharpened, unambiguous_harmonics
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)

@@ -65,18 +65,6 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         `records` (N,) are the records that the rows are of, each its own if None, and `axes` (N,) their axes, one for
         all if None; `noisy` (N,) marks rows of a record to which noise was added.
         """
-        with threadpool_limits(1):  # trees this small are fitted faster alone than by threads that wait for each other
-            return self._fit(X, y, groups, records, noisy, axes)
-
-    def _fit(
-        self,
-        X: Array,
-        y: NDArray[Any],
-        groups: NDArray[Any] | None,
-        records: NDArray[np.int64] | None,
-        noisy: NDArray[np.bool_] | None,
-        axes: NDArray[np.int64] | None,
-    ) -> SpallClassifier:
         X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
         records = np.arange(len(y)) if records is None else np.asarray(records)
@@ -84,23 +72,25 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         axes = np.zeros(len(y), dtype=np.int64) if axes is None else np.asarray(axes)
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
-        self.spall_ = self._stage(SIGNS, DIVISIONS).fit(_spall_columns(X), faulty, groups, noisy)
-        self.alarm_ = fit_alarm(
-            self.spall_.held_out[~faulty],
-            X[~faulty],
-            records[~faulty],
-            noisy[~faulty],
-            axes[~faulty],
-            self.false_alarms,
-        )
-        faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
-        inner = _ends_with(y[faulty], "inner")
-        self.race_ = self._stage().fit(_race_columns(faults), inner, fault_groups, fault_noisy)
-        extended = np.char.startswith(y[faulty].astype(str), "extended")
-        # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
-        asked = extended.any() and not extended.all()
-        self.length_ = self._stage().fit(faults, extended, fault_groups, fault_noisy) if asked else None
-        self.always_extended_ = bool(extended.all())
+        with threadpool_limits(1):  # trees this small are fitted faster alone than by threads that wait for each other
+            self.spall_ = self._stage(SIGNS, DIVISIONS).fit(_spall_columns(X), faulty, groups, noisy)
+            self.alarm_ = fit_alarm(
+                self.spall_.held_out[~faulty],
+                X[~faulty],
+                records[~faulty],
+                noisy[~faulty],
+                axes[~faulty],
+                self.false_alarms,
+            )
+            faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
+            name = y[faulty].astype(str)
+            inner = np.char.endswith(name, "inner")
+            self.race_ = self._stage().fit(_race_columns(faults), inner, fault_groups, fault_noisy)
+            extended = np.char.startswith(name, "extended")
+            # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
+            asked = extended.any() and not extended.all()
+            self.length_ = self._stage().fit(faults, extended, fault_groups, fault_noisy) if asked else None
+            self.always_extended_ = bool(extended.all())
         return self
 
     def predict_proba(self, X: Array) -> Array:
@@ -128,7 +118,3 @@ def _race_columns(table: Array) -> Array:
 
 def _spall_columns(table: Array) -> Array:
     return np.asarray(table)[:, [FEATURE_NAMES.index(name) for name in SPALL_NAMES]]
-
-
-def _ends_with(names: NDArray[Any], ending: str) -> NDArray[np.bool_]:
-    return np.asarray(np.char.endswith(names.astype(str), ending))

@@ -1,4 +1,5 @@
 """From a scenario to one record: simulated, given its background, described by labels and exact truth.
 
-`record`: the whole; `layers`: its background; `stiffness_axis`, `profile_grid`: where stiffness and depth are stored.
+- `record`: the whole; `layers`: its background; `response_warnings`: what its reader must know of its simulation
+- `stiffness_axis`, `profile_grid`: where stiffness and depth are stored
 """

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.records.layers import Layers, background_layers, noise_along_y
 from datagen.records.profile_grid import PROFILE_POINTS
+from datagen.records.response_warnings import response_warnings
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -34,8 +35,6 @@ from physics.trace import Kept, Trace
 
 Rounded = NDArray[np.float32]
 RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
-# Inputs that agree to 1e-4 leave responses within half a per cent up to so many times.
-SENSITIVE = 50.0
 
 
 @dataclass(frozen=True)
@@ -146,7 +145,7 @@ def _stacked(layers: Layers, shape: tuple[int, ...]) -> Rounded:
 def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:
     """Labels of scene, run and place in the corpus."""
     values = label_values(scenario.scene)
-    warnings = [str(values["validity"]), _chaos(trace), _sensitive(trace), _missed(scenario, trace), _unlocated(trace)]
+    warnings = [str(values["validity"]), *response_warnings(scenario, trace)]
     return values | {
         "validity": "; ".join(filter(None, warnings)),
         "record": scenario.record,
@@ -165,48 +164,6 @@ def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[st
         "tension_share": trace.tension_share,
         "stiffness_error": stiffness_error,
     }
-
-
-def _chaos(trace: Trace) -> str:
-    """What a chaotic response means for its reader; empty if it is not."""
-    if not trace.chaotic:
-        return ""
-    return (
-        f"bouncing balls multiply errors {trace.sensitivity:.0f} times, and finer steps lead to other responses: it is "
-        "chaotic, and its spectra hold but not its single points"
-    )
-
-
-def _sensitive(trace: Trace) -> str:
-    """What it means for the reader that the response multiplies errors; empty if it does so little, or is chaotic."""
-    if trace.chaotic or not trace.sensitivity > SENSITIVE:
-        return ""
-    return (
-        f"contacts multiply errors {trace.sensitivity:.0f} times: single points may move if a path of the ball is "
-        "computed otherwise by less than a nanometre, so compare them with this program only, and spectra with others"
-    )
-
-
-def _missed(scenario: Scenario, trace: Trace) -> str:
-    """That the response may be less exact than was asked for; empty if it is not, or chaotic."""
-    accuracy, least = allowed_error(scenario)
-    if trace.chaotic or not trace.error_estimate > accuracy:
-        return ""
-    size = rms(trace.acceleration)
-    allowed = max(accuracy, least / size if size > 0.0 else 0.0)
-    if trace.error_estimate <= allowed:
-        return ""
-    return f"the accuracy asked for, {allowed:.2g}, was not reached: it may be {trace.error_estimate:.2g} off"
-
-
-def _unlocated(trace: Trace) -> str:
-    """What changes of contact that were not located mean for the reader; empty if there are none."""
-    if trace.unlocated_changes == 0:
-        return ""
-    return (
-        f"{trace.unlocated_changes} changes of contact could not be located and were taken at the ends of their steps: "
-        "release and regain are that much less sure there"
-    )
 
 
 def sensor_labels(scenario: Scenario, signal: NDArray[np.float64], layers: Layers, clipped: float) -> dict[str, Any]:

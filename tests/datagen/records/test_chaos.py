@@ -131,5 +131,7 @@ def test_an_error_below_what_noise_hides_is_no_missed_accuracy(monkeypatch):
         lambda *scene, **choices: replace(simulate(*scene, **choices), error_estimate=0.02),
     )
     for hidden, warned in ((0.03, False), (0.01, True), (0.0, True)):
-        monkeypatch.setattr("datagen.records.record.allowed_error", lambda _, least=hidden * level: (1e-3, least))
+        monkeypatch.setattr(
+            "datagen.records.response_warnings.allowed_error", lambda _, least=hidden * level: (1e-3, least)
+        )
         assert ("was not reached: it may be 0.02 off" in make_record(tame).labels["validity"]) is warned

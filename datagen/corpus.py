@@ -78,8 +78,8 @@ class Corpus:
         shard, position = self._place(record)
         with self._shards.reading(shard) as file:
             _require_at_its_place(file, record, position, shard)
-            if variable not in file.variables or file.variables[variable].dimensions[:1] != ("record",):
-                known = ", ".join(name for name, held in file.variables.items() if held.dimensions[:1] == ("record",))
+            if not _is_of_records(file, variable):
+                known = ", ".join(name for name in file.variables if _is_of_records(file, name))
                 raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
             return _values(file, variable, position)
 
@@ -104,7 +104,7 @@ class Corpus:
         """Whether that variable of a record is in the corpus; BadInput if there is no such record."""
         shard, _ = self._place(record)
         with self._shards.reading(shard) as file:
-            return variable in file.variables and file.variables[variable].dimensions[:1] == ("record",)
+            return _is_of_records(file, variable)
 
     def _place(self, record: int) -> tuple[str, int]:
         if isinstance(record, bool | np.bool_) or not _is_whole(record):
@@ -198,6 +198,11 @@ class Corpus:
         folds = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
         for train, test in folds.split(record, table[stratify], groups=table["bearing_id"]):
             yield record[train], record[test]
+
+
+def _is_of_records(file: netCDF4.Dataset, variable: str) -> bool:
+    """Whether an open shard has that variable, with a value for each of its records."""
+    return variable in file.variables and file.variables[variable].dimensions[:1] == ("record",)
 
 
 def _values(file: netCDF4.Dataset, variable: str, place: int | slice) -> NDArray[Any]:

@@ -21,8 +21,8 @@ from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve, resample_poly
 
-from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.corpus_rows import CorpusRows, rows_of_records
+from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordRows, record_rows
 from datagen.benchmark.summary import race_balance

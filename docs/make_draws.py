@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.machines import learned_machines, unseen_records
+from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Tested, judge

@@ -1,6 +1,7 @@
 """Benchmarks of classifiers: features of corpora, training, scoring, reports.
 
-- `options`: what was asked; `request`: that checked; `classify`: the run from training to report
+- `options`: what was asked; `request`: that checked, as a `plan`
+- `classify`: the run from training to report, in two halves, `run_learning` and `run_scoring`
 - `known`: what may be known of a record; `fitness`: whether it can be judged
 - `rows`: the table that is learned from; `reading_policy`, `record_rows`, `corpus_rows`: how records become rows of
   features; `windows`: raw pieces for other people's estimators

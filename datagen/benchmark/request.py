@@ -7,9 +7,9 @@ import os
 from dataclasses import fields
 from pathlib import Path
 
-from datagen.benchmark.classify import Benchmark
 from datagen.benchmark.impulse_training import NAME, ingredients_of
 from datagen.benchmark.options import FEATURES, SPEED_ERROR, WINDOWS, Learning, Options, Scoring
+from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus

@@ -15,8 +15,8 @@ from datagen.commands.progress_display import show_steps
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
-    from datagen.benchmark.classify import Benchmark
     from datagen.benchmark.model_scores import Scores
+    from datagen.benchmark.plan import Benchmark
     from datagen.benchmark.results import CorpusResults, Results
     from labels.interval import Interval
 

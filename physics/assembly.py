@@ -9,7 +9,7 @@ import numpy as np
 
 from physics.arrays import Array, Index
 from physics.cage import CagePath
-from physics.contact.forces import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, LANES, PLACE, SINE, Contacts, Law
+from physics.contact.forces import BALL_ROWS, COSINE, FRAME_COLUMNS, GAP, PLACE, SINE, WHOLE_VECTOR, Contacts, Law
 from physics.contact.track import (
     ANGLE,
     CAGE,
@@ -52,7 +52,7 @@ def ball_numbers(scene: Scene) -> tuple[Index, Index]:
     """Row and ball (G · M,), from 0, in every column of the balls of G cages; −1 for padding."""
     bearing, cages = scene.rig.bearing, len(scene.cages)
     size = bearing.balls * (bearing.rows if cages == 1 else 1)
-    row, ball = np.full((2, cages, size + -size % LANES), -1)
+    row, ball = np.full((2, cages, size + -size % WHOLE_VECTOR), -1)
     for r in range(bearing.rows):
         cage, place = (0, r) if cages == 1 else (r, 0)
         here = slice(place * bearing.balls, (place + 1) * bearing.balls)

@@ -7,8 +7,8 @@ spall need the depth of their path.
 
 Kernels take few arrays: each array handed to a compiled function costs reference counting, which would cost more than
 the mechanics. What belongs to one ball is therefore one column of `balls` (G, 11, M), G cages of M balls each, padded
-to whole lanes; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the compiler
-know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
+to whole vectors; what belongs to one cage is one row of `frames`. Loops run from zero because only then does the
+compiler know that no index is negative, and vectorises. Where one number names a ball, it is cage · M + place.
 """
 
 from __future__ import annotations
@@ -46,7 +46,10 @@ from physics.paths.depth_path import path_at
 # its angle in the cage (rad).
 BALL_ROWS = 11
 COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING, PLACE = range(BALL_ROWS)
-# The balls of a cage are padded to a multiple of this: the four sums of `_sum_lanes`.
+# The balls of a cage are padded to a multiple of the widest vector of today's processors: what is left behind whole
+# vectors goes one by one, and four single balls take longer than eight at once.
+WHOLE_VECTOR = 8
+# The sums of `_sum_lanes`; a divisor of the above.
 LANES = 4
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
 FRAME_COLUMNS = 3

@@ -54,10 +54,10 @@ def test_rows_of_one_cage_lie_side_by_side_and_rows_of_two_cages_apart(gearbox, 
     scene = build_scene(gearbox)
     apart = dataclasses.replace(scene, second_cage=scene.cage)
     assert assemble(scene).balls.shape == (1, BALL_ROWS, 24)
-    assert assemble(apart).balls.shape == (2, BALL_ROWS, 12)
+    assert assemble(apart).balls.shape == (2, BALL_ROWS, 16)  # padded to whole vectors of eight
     for row, ball in (ball_numbers(scene), ball_numbers(apart)):
-        assert row.tolist() == [0] * 12 + [1] * 12
-        assert ball.tolist() == [*range(12), *range(12)]
+        assert row[row >= 0].tolist() == [0] * 12 + [1] * 12
+        assert ball[row >= 0].tolist() == [*range(12), *range(12)]
     assert net_force(scene) == pytest.approx(net_force(apart), rel=1e-12)
 
 

@@ -136,7 +136,8 @@ def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSt
 
 def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:
     """The first `samples` of a trace at `rate`, a `factor` below the one it was marched at."""
-    time = np.arange(samples) / rate
+    known = trace.rate == rate and trace.time.size == samples
+    time = trace.time if known else np.arange(samples) / rate
     raised = rate * factor
     if factor == 1:
         return replace(trace, rate=rate, time=time, outer_rate=raised)

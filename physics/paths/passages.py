@@ -36,26 +36,24 @@ def crossings(scene: Scene, spall_index: int, arcs: Array, start: float, stop: f
     bearing = scene.rig.bearing
     cage, race_speed = scene.cage_of(spall.row), scene.race_speed(spall.race)
     sign = float(spall.travel_sign)
-    path = cage.polynomial
-    travel = PPoly(sign * path.c, path.x, extrapolate=True)
+    path, breaks = sign * cage.polynomial.c, cage.polynomial.x
     # The race's own turning is taken off piece by piece: t = (t − x) + x inside the piece that starts at x.
-    travel.c[-2] -= sign * race_speed
-    travel.c[-1] -= sign * race_speed * path.x[:-1]
+    path[-2] -= sign * race_speed
+    path[-1] -= sign * race_speed * breaks[:-1]
+    # Not checked again: to check a path takes as long as to find the crossings.
+    travel = PPoly.construct_fast(path, breaks, extrapolate=True)
     speed = sign * (cage.mean_speed - race_speed)
-    reached = [_extended(travel, speed, scene.duration, t) for t in (start, stop)]
+    asked = np.array([start, stop])
+    inside = np.clip(asked, 0.0, scene.duration)
+    first_angle, last_angle = (travel(inside) + speed * (asked - inside)).tolist()
     turns, targets = [], []
     for arc in arcs:
         offset = sign * (spall.angle - (spall.row - 1) * bearing.stagger) + arc
         first, last = (
-            math.ceil((reached[0] - offset) / bearing.spacing),
-            math.floor((reached[1] - offset) / bearing.spacing),
+            math.ceil((first_angle - offset) / bearing.spacing),
+            math.floor((last_angle - offset) / bearing.spacing),
         )
         turns.append(np.arange(first, last + 1))
         targets.append(offset + turns[-1] * bearing.spacing)
     time = crossing_times(travel, speed, scene.duration, np.concatenate(targets))
     return Passages(time, (-sign * np.concatenate(turns)).astype(np.int64) % bearing.balls + 1)
-
-
-def _extended(travel: PPoly, speed: float, duration: float, time: float) -> float:
-    inside = min(max(time, 0.0), duration)
-    return float(travel(inside)) + speed * (time - inside)

@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
 from physics.integrators.method_table import MODAL
 from physics.integrators.output import STEPS, Grid, Output
 from physics.response.attempts import confirm_doubtful, to_accuracy
@@ -99,9 +101,10 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
 def _louder_later(output: Output, pilot: int) -> bool:
     """Whether the signal of some later stretch as long as the `pilot` is LOUDER than what that saw: of such a response
     it does not know what errors do."""
-    stretches = range(0, output.acceleration.shape[0], pilot)
-    beginning, *later = (rms(output.acceleration[first : first + pilot]) for first in stretches)
-    return max(later, default=0.0) > LOUDER * beginning
+    values = output.acceleration.reshape(-1)
+    first = np.arange(0, values.size, 2 * pilot)
+    squares = np.add.reduceat(np.square(values), first) / np.diff(first, append=values.size)
+    return bool(squares[1:].max(initial=0.0) > LOUDER**2 * squares[0])
 
 
 class Beginning(NamedTuple):

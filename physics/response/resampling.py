@@ -97,10 +97,13 @@ def read_repeated(signal: Array, period: int, pace: float, count: int) -> Array:
 @njit_lean
 def _read_repeated(signal: Array, end: int, period: int, pace: float, values: Array) -> None:
     """As `read_repeated`, of a `signal` that goes on behind its `end` by as many samples as are read there."""
+    back = 0.0
     for k in range(values.shape[0]):
-        place = k * pace
-        if place >= end:
-            place -= math.floor((place - end) / period + 1.0) * period
+        place = k * pace - back
+        # Counted up, as a division for every sample would take a third of the time.
+        while place >= end:
+            back += period
+            place = k * pace - back
         _read_one(signal, place, _first_point(place), values, k)
 
 

@@ -22,9 +22,12 @@ def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
     if not speed > 0.0:
         return None
     known = _kinematics_at(labels, speed)
-    if known is None or labels.get("speed_basis") != "nominal":
-        return known
-    return replace(known, speed_within=NOMINAL_WITHIN)
+    return replace(known, speed_within=NOMINAL_WITHIN) if known and is_nominal(labels) else known
+
+
+def is_nominal(labels: Mapping[str, Any]) -> bool:
+    """Whether the speed is what stands on a plate or was set, and not what the shaft did."""
+    return labels.get("speed_basis") == "nominal"
 
 
 def _kinematics_at(labels: Mapping[str, Any], speed: float) -> Kinematics | None:

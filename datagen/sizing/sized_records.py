@@ -14,7 +14,7 @@ import numpy as np
 from datagen.corpus_files.index import read_index
 from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
-from datagen.sizing.stated_situation import reason_against, situation_of, wrong_speed
+from datagen.sizing.stated_situation import reason_against, situation_of, speed_found, wrong_speed
 from datagen.sizing.stored_record import StoredRecord, stored_record
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
@@ -59,7 +59,7 @@ def sized_records(
     """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
 
     The stated shaft speed of simulated records is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean
-    on it; that of recordings is as wrong as it is.
+    on it; that of recordings is as wrong as it is, but looked for in the signal where it is nominal.
     """
     table = _rows(folder, splits)
     able = [not reason_against(labels) for labels in table.to_dict("records")]
@@ -94,6 +94,7 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
 
 def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
     record, contact = int(labels["record"]), stored.contact_stiffness() if load_known else None
+    factor = wrong_speed(seed, record) if stored.simulated else speed_found(labels, stored.acceleration[:, -1])
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),
@@ -101,7 +102,7 @@ def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool, seed:
         clean=stored.clean,
         labels=labels,
         situation=replace(
-            situation_of(labels, contact, wrong_speed(seed, record) if stored.simulated else 1.0),
+            situation_of(labels, contact, factor),
             polarity_known=stored.simulated,  # no recording says which way its sensor looked
         ),
         truth=stored.truth(labels),

@@ -6,9 +6,12 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from datagen.benchmark.known import is_nominal, known_kinematics
 from datagen.benchmark.options import SPEED_ERROR
 from datagen.scenarios.streams import stream
+from labels.features.analysis import analyse
 from labels.spall_size.situation import Situation
+from physics.arrays import Array
 from physics.checks import InvalidParameter
 from physics.operation import RPM
 
@@ -38,6 +41,18 @@ def reason_against(labels: Mapping[str, Any]) -> str:
 def wrong_speed(seed: int, record: int) -> float:
     """Stated over true speed of a record, within ±2 % of 1."""
     return 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
+
+
+def speed_found(labels: Mapping[str, Any], signal: Array) -> float:
+    """The shaft's speed over the one stated: 1 unless that is nominal, and then what harmonics of the shaft and ball
+    passes in the `signal` (T,) say, as the classifiers find it."""
+    known = known_kinematics(labels)
+    if known is None or not is_nominal(labels):
+        return 1.0
+    try:
+        return analyse(signal, float(labels["rate_hz"]), known).speed.shaft_hz / known.shaft_hz
+    except ValueError:  # too short, or nothing in it: for the estimator to say
+        return 1.0
 
 
 def situation_of(

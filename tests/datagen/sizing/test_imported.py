@@ -16,7 +16,7 @@ from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.sized_records import sized_records
-from datagen.sizing.stated_situation import reason_against
+from datagen.sizing.stated_situation import reason_against, speed_found
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics import catalog
@@ -128,6 +128,33 @@ def test_the_speed_stated_with_a_recording_is_taken_as_it_is(tmp_path: Path) -> 
     assert one.situation.shaft_speed == pytest.approx(2.0 * math.pi * 20.0, rel=1e-12)  # 1200 rpm
     assert one.situation.load is None
     assert not one.situation.polarity_known
+
+
+def knocks(shaft_hz: float) -> np.ndarray:
+    """A second in which every ball that passes the outer race knocks, and the shaft is unbalanced."""
+    time = np.arange(20000) / 20000.0
+    passing = catalog.bearing("koyo_1205").bpfo * shaft_hz
+    since = (time * passing) % 1.0 / passing
+    ringing = np.exp(-since / 1e-3) * np.sin(2.0 * np.pi * 3000.0 * since)
+    return ringing + 0.3 * np.sin(2.0 * np.pi * shaft_hz * time) + 0.05 * noise(5)
+
+
+@pytest.mark.parametrize(("key", "expected"), [("nominal_speed_rpm", 0.962), ("speed_rpm", 1.0)])
+def test_a_nominal_speed_is_looked_for_and_another_one_is_not(key: str, expected: float, tmp_path: Path) -> None:
+    spec = SPEC.replace("speed_rpm", key)
+    (record,) = sized_records(imported(tmp_path, spec, knocks=knocks(0.962 * 20.0)), load_known=True)
+    assert record.situation.shaft_speed == pytest.approx(expected * 1200.0 * math.pi / 30.0, rel=2e-3)
+
+
+KNOWN = {
+    "balls": 12, "pitch_diameter": 38e-3, "ball_diameter": 8e-3, "contact_angle": 0.0, "speed_rpm": 1200.0,
+    "rate_hz": 2e4, "speed_basis": "nominal",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("signal", [np.zeros(20000), np.arange(50.0)])
+def test_where_a_signal_says_nothing_of_a_nominal_speed_it_is_taken_as_it_is(signal: np.ndarray) -> None:
+    assert speed_found(KNOWN, signal) == 1.0
 
 
 def test_geometry_that_no_bearing_can_have_is_a_reason_and_no_crash() -> None:

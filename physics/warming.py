@@ -56,8 +56,11 @@ def warm_up() -> None:
     """
     if not is_warm() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():
+            scene = _scene()
+            # It shares nothing with the march, which meanwhile compiles what it has in common with the location.
+            carried(scene, np.zeros(1))
             compile_location()
-            _use_kernels_beside_the_march(_scene())
+            _use_kernels_beside_the_march(scene)
     try:
         _use_every_kernel()
     except Exception as error:

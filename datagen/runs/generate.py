@@ -18,6 +18,7 @@ from datagen.runs.earlier import earlier_runs
 from datagen.runs.plan import plan_shards, selection
 from datagen.runs.requirements import require_memory, require_possible_rates, require_room
 from datagen.runs.run import Run, Summary
+from datagen.runs.task import compile_kernels
 from datagen.runs.workers import Engine, engaged
 from datagen.versions import program_hash
 
@@ -44,6 +45,8 @@ def generate(
     identity = corpus_identity(recipe)
     earlier = earlier_runs(folder, identity).asked
     require_memory(recipe)
+    # First of all, and by two processes: to draw a scenario takes some of the kernels.
+    compile_kernels(listener.say)
     require_possible_rates(recipe, asked)
     # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
     planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)), listener.say)

@@ -20,7 +20,7 @@ from datagen.files.byte_counts import bytes_text
 from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
-from datagen.runs.task import compile_kernels, make_shard
+from datagen.runs.task import make_shard
 from datagen.runs.workers import WorkerLost, run_tasks
 from datagen.versions import program_versions
 
@@ -107,7 +107,6 @@ class Run:
             )
             return
         self._announce(todo)
-        compile_kernels(self.listener.say)
         self.listener.advance(self.done, len(self.wanted))
         self._make_persistently(todo)
 

@@ -34,7 +34,7 @@ class ShardRow:
 
 
 def compile_kernels(say: Say) -> None:
-    """Compile every kernel before workers start, so that they find it in the cache."""
+    """Compile every kernel, unless that is done, so that workers find them in the cache."""
     from physics.warming import is_warm, warm_up
 
     if not is_warm():

@@ -10,5 +10,6 @@
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
 - what all of them use: `errors` (what a person wrote, refused), `progress` (how far a command has got),
-  `exits` (how programs end), `user_code` (what users bring), `versions`, `scored_runs` (their log)
+  `exits` (how programs end), `garbage` (looked for seldom), `user_code` (what users bring), `versions`, `scored_runs`
+  (their log)
 """

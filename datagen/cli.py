@@ -22,6 +22,7 @@ from datagen.commands import (
 )
 from datagen.commands.program import app
 from datagen.exits import OUTPUT_CLOSED
+from datagen.garbage import collect_seldom
 from physics.freed_memory import keep_freed_memory
 
 COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
@@ -31,8 +32,9 @@ def main() -> None:
     """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input), 130 (Ctrl-C), 141 (nobody reads
     the output any more) or 143 (SIGTERM).
 
-    The process keeps the memory of freed arrays (physics.freed_memory).
+    The process keeps the memory of freed arrays (physics.freed_memory) and looks seldom for garbage.
     """
+    collect_seldom()
     keep_freed_memory()
     if sys.stdout is None:  # closed by whoever started the program
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115

@@ -14,6 +14,7 @@ from datagen.cards.toml_text import toml_text
 from datagen.distributions.distribution import Distribution
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.recipe_schema import recipe_schema
+from datagen.settings.docstrings import setting_docstrings
 from datagen.settings.table import Table
 
 PAGE = Path(__file__).with_name("recipe_keys.md")
@@ -61,16 +62,18 @@ def _fields(table: type[BaseModel]) -> dict[str, FieldInfo]:
 
 def _section(table: type[BaseModel], paths: list[str]) -> str:
     stated = {name: field for name, field in _fields(table).items() if name in table.__annotations__}
+    meanings = setting_docstrings(table)
     rows = [
-        f"| `{name}` | {_kind(table, name)} | {_default(field)} | {_text(field)} |" for name, field in stated.items()
+        f"| `{name}` | {_kind(table, name)} | {_default(field)} | {_text(meanings[name])} |"
+        for name, field in stated.items()
     ]
     said = " ".join((table.__doc__ or "").split())
     heading = "\n".join(["", f"## {', '.join(paths)}", "", said, "", "| key | takes | default | meaning |"])
     return "\n".join([heading, "|---|---|---|---|", *rows, ""])
 
 
-def _text(field: FieldInfo) -> str:
-    return " ".join((field.description or "").split()).replace("|", "\\|")
+def _text(meaning: str) -> str:
+    return " ".join(meaning.split()).replace("|", "\\|")
 
 
 def _default(field: FieldInfo) -> str:

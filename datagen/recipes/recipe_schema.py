@@ -6,17 +6,26 @@ import json
 import re
 from typing import Any
 
-from pydantic.json_schema import GenerateJsonSchema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+from pydantic_core import core_schema
 
 from datagen.distributions.distribution import Distribution
 from datagen.recipes.recipe import Recipe
+from datagen.settings.docstrings import setting_docstrings
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 NULL = {"type": "null"}
 
 
 class _AsWritten(GenerateJsonSchema):
-    """Defaults as a recipe writes them."""
+    """Defaults as a recipe writes them, and every setting with what is said of it."""
+
+    def model_schema(self, schema: core_schema.ModelSchema) -> JsonSchemaValue:
+        table = super().model_schema(schema)
+        shown = table["properties"]
+        said = setting_docstrings(schema["cls"])
+        shown |= {name: {"description": said[name]} | shown[name] for name in said.keys() & shown.keys()}
+        return table
 
     def encode_default(self, dft: Any) -> Any:
         return dft.to_toml() if isinstance(dft, Distribution) else super().encode_default(dft)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.garbage import collect_seldom
 
 BACKENDS = ("loky", "dask")
 MOST_WORKERS = 1024  # more are a slip of the finger, and would bring the machine to a halt
@@ -61,10 +62,11 @@ def watch_parent(parent: int) -> None:
 
 
 def _begin_worker(parent: int) -> None:
-    """What every worker process on this machine does first: watch its `parent`, and let itself grow."""
+    """What every worker process on this machine does first: watch its `parent`, start fast, and let itself grow."""
     from joblib.externals.loky import process_executor
 
     watch_parent(parent)
+    collect_seldom()
     # No setting of loky's has this bound; where a version of it has another name, workers are replaced as before.
     process_executor._MAX_MEMORY_LEAK_SIZE = GROWTH
 

@@ -25,7 +25,7 @@ from physics.spelling import suggestion
 class Table(BaseModel):
     """A table of a recipe: unknown keys are refused and nothing changes after reading."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class _Setting:

@@ -51,6 +51,7 @@ FLOORS = (
     (
         "errors",
         "exits",
+        "garbage",
         "progress",
         "scored_runs",
         "user_code",

@@ -51,7 +51,7 @@ CLAIMS = (
     Claim("{} % again with each of five draws", "draws", ("cwru_de12k", LEARNERS), FOUND, ALL, 100.0),
     Claim("without learning finds {} %", "scores", ("cwru_de12k", "rule"), FOUND, FIRST, 100.0),
     Claim("{} % with each draw", "draws", ("cwru_de12k", "rule"), FOUND, ALL, 100.0),
-    Claim("machines {} to {} of 132", "scores", ("transfer", LEARNERS), "false alarms", OF_132),
+    Claim("({} to {} of the 132 in its split", "scores", ("transfer", LEARNERS), "false alarms", OF_132),
     Claim("{} to {} of 78", "scores", ("corpus", LEARNERS), "false alarms", OF_78),
     Claim("{} to {} % of clean records", "size ladder", ("no estimate, load given",), "clean", FIRST),
     Claim("{} to {} % of noisy ones", "size ladder", ("no estimate, load given",), NOISY, FIRST),

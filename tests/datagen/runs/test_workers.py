@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gc
 import os
 import socket
 import sys
@@ -37,6 +38,11 @@ def test_unless_told_there_are_as_many_workers_as_processors_or_as_the_caller_as
     assert [Engine(workers=3).for_tasks(tasks).workers for tasks in (1, 2, 20)] == [1, 2, 3]
     with parallel_config("loky", n_jobs=4):
         assert [Engine().for_tasks(tasks).workers for tasks in (2, 20)] == [2, 4]
+
+
+def test_workers_look_seldom_for_garbage() -> None:
+    # Python's own is 700: https://docs.python.org/3.11/library/gc.html#gc.set_threshold
+    assert all(youngest >= 10_000 for youngest, *_ in results(Engine(workers=2), gc.get_threshold, [()] * 2))
 
 
 def grow(size: int) -> int:

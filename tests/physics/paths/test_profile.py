@@ -254,8 +254,8 @@ def test_all_around_the_race_every_row_has_the_path_that_single_angles_have(gear
     waves = (Waviness("outer", 7, 1e-6, 0.3), Waviness("inner", 12, 2e-6, 0.8), Waviness("inner", 499, 1e-7, 2.0))
     spalls = tukey(race, angle=3.13), tukey(race, angle=1.0, row=2, depth=7e-6)
     scene = build_scene(gearbox, *spalls, imperfections=Imperfections(waviness=waves))
-    around = race_depths(scene, 1000)
-    angle = np.linspace(-math.pi, math.pi, 1001)[:-1]
+    around = race_depths(scene, 20000)
+    angle = np.linspace(-math.pi, math.pi, 20001)[:-1]
     assert around.max() > 10e-6
     for row in (1, 2):
         assert np.allclose(around[row - 1], race_depth(scene, row, angle), rtol=0, atol=1e-17)

@@ -1,6 +1,6 @@
 """Signals through recursive filters of order two, section after section.
 
-Not SciPy's, whose `scipy.signal` takes 0.3 s to load: a tenth of the start of every process that makes records.
+Not SciPy's, as `scipy.signal` takes 0.3 s to load, and every process that makes records would have to.
 """
 
 from __future__ import annotations

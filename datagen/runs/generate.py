@@ -45,7 +45,7 @@ def generate(
     identity = corpus_identity(recipe)
     earlier = earlier_runs(folder, identity).asked
     require_memory(recipe)
-    # First of all, and by two processes: to draw a scenario takes some of the kernels.
+    # First of all, as to draw a scenario takes some of the kernels: compiled here by two processes, or mended.
     compile_kernels(listener.say)
     require_possible_rates(recipe, asked)
     # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.

@@ -34,10 +34,12 @@ class ShardRow:
 
 
 def compile_kernels(say: Say) -> None:
-    """Compile every kernel, unless that is done, so that workers find them in the cache."""
+    """Compile every kernel, so that workers find them in the cache, or find that it holds them undamaged."""
     from physics.warming import is_warm, warm_up
 
-    if not is_warm():
+    if is_warm():
+        load_kernels()
+    else:
         say("compiling the physics; this is done once for each version of it")
         warm_up()
 

@@ -101,11 +101,9 @@ def _spall_depth(spall: Spall, bearing: Bearing, angle: Array) -> Array:
 
 
 def _points_near(path: DepthPath, angle: float, points: int) -> Index:
-    """The numbers of all points around a race that a path with its middle at `angle` can reach, each once."""
+    """The numbers of all points around a race that a path with its middle at `angle` can reach."""
     pace = points / (2.0 * math.pi)
     reach = math.ceil(pace * np.max(np.abs(path.breaks))) + 1
-    if 2 * reach >= points:
-        return np.arange(points)
     return (round((angle + math.pi) * pace) + np.arange(-reach, reach + 1)) % points
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import joblib
+import numba
 import pytest
 
 import datagen.corpus_files.index
@@ -31,7 +32,7 @@ from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.generate import generate
 from datagen.runs.plan import plan_shards
-from datagen.runs.task import ShardRow, make_shard
+from datagen.runs.task import ShardRow, load_kernels, make_shard
 from datagen.runs.workers import Engine, engaged
 
 ALONE = Engine(workers=1)
@@ -386,7 +387,7 @@ def test_progress_lines_tell_rate_and_remaining_time(capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("warm", [True, False])
-def test_where_the_physics_is_not_compiled_the_run_says_so_and_compiles_it_before_workers_start(
+def test_kernels_are_there_before_anything_is_drawn_and_where_they_have_to_be_compiled_the_run_says_so(
     warm: bool, tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     said: list[str] = []
@@ -396,12 +397,30 @@ def test_where_the_physics_is_not_compiled_the_run_says_so_and_compiles_it_befor
         steps.append("tasks")
         yield from ()
 
+    load_kernels.cache_clear()
     monkeypatch.setattr("physics.warming.is_warm", lambda: warm)
-    monkeypatch.setattr("physics.warming.warm_up", lambda: steps.append("compile"))
+    monkeypatch.setattr("physics.warming.warm_up", lambda: steps.append("kernels"))
+    monkeypatch.setattr("datagen.runs.generate.require_possible_rates", lambda *_: steps.append("draws"))
     monkeypatch.setattr("datagen.runs.run.run_tasks", tasks)
     generate(tiny, tmp_path / "out", limit=1, engine=Engine(workers=2), listener=Listener(say=said.append))
     assert any("compiling the physics" in sentence for sentence in said) is not warm
-    assert steps == (["tasks"] if warm else ["compile", "tasks"])
+    assert steps == ["kernels", "draws", "tasks"]
+
+
+@pytest.mark.slow
+def test_a_cache_that_a_crash_cut_short_is_made_again_by_the_next_run(tmp_path: Path) -> None:
+    from physics.warming import warm_up
+
+    warm_up()
+    folder = Path(numba.config.CACHE_DIR)
+    shutil.copytree(folder, tmp_path / "spallgen" / folder.name)
+    for file in tmp_path.rglob("*.nbc"):
+        file.write_bytes(file.read_bytes()[:300])
+    done = subprocess.run(
+        [sys.executable, "-m", "datagen", "generate", "quickstart", "--limit", "1", "--out", tmp_path / "out"],
+        capture_output=True, text=True, env={**os.environ, "SPALLGEN_CACHE": str(tmp_path)},
+    )  # fmt: skip
+    assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
 
 
 @pytest.mark.parametrize("name", ["quickstart", "corpus"])

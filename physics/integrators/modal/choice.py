@@ -82,6 +82,17 @@ def up_to_kink(balls: Array, grid: Stride, stops: Stops, memory: Memory, row: in
     return Choice(row, units, target, max(target, kink) + nudge)
 
 
+@njit_inline
+def even_share(left: int, longest: int) -> int:
+    """Length of the next of the steps, none above the `longest`, that cover what is `left` of a sample; all in units.
+
+    They are as few as can be and all of like length. A long one and a short rest would be more wrong, and behind the
+    rest the next long one could not be carried (judgement.py): its error would look larger, and the pace stay.
+    """
+    steps = (left + longest - 1) // longest
+    return (left + steps - 1) // steps
+
+
 @njit_pasted
 def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choice:
     """The step to try next."""
@@ -102,8 +113,12 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choic
     next_line = (marks[CELL] + 1) * unit
     if clock[PACE] < SHORT * unit and next_line - time > (1.0 + SHORT) * clock[PACE]:
         return up_to_kink(balls, grid, stops, memory, BETWEEN, 0, time + clock[PACE])
-    sample_end = (marks[CELL] // UNITS + 1) * UNITS
-    reach = int((time + clock[PACE]) / unit + NEARLY)
-    units = min(sample_end, max(marks[CELL] + 1, reach)) - marks[CELL]
+    left = (marks[CELL] // UNITS + 1) * UNITS - marks[CELL]
+    units = min(left, max(1, int((time + clock[PACE]) / unit + NEARLY) - marks[CELL]))
     row = units if marks[ON_GRID] == 1 else BETWEEN
-    return up_to_kink(balls, grid, stops, memory, row, units, (marks[CELL] + units) * unit)
+    choice = up_to_kink(balls, grid, stops, memory, row, units, (marks[CELL] + units) * unit)
+    if units == left or choice.beyond > choice.end:
+        return choice
+    units = even_share(left, units)
+    row = units if marks[ON_GRID] == 1 else BETWEEN
+    return Choice(row, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit)

@@ -73,3 +73,35 @@ def test_a_kink_behind_the_end_of_a_step_is_left_to_the_next(choose):
 def test_a_stride_does_not_end_where_a_kink_is(choose):
     assert choose(0.0, 4.0 * INTERVAL, 4.0 * INTERVAL + NEAR).units < 4 * UNITS
     assert choose(0.0, 4.0 * INTERVAL, 5.0 * INTERVAL).units == 4 * UNITS
+
+
+@pytest.mark.parametrize(
+    ("begin", "pace", "lengths"),
+    [
+        (0, 14, [8, 8]),  # and not 14 and a rest of 2, too short a past for the next 14
+        (0, 12, [8, 8]),
+        (0, 15.9, [8, 8]),
+        (0, 7, [6, 5, 5]),
+        (0, 3, [3, 3, 3, 3, 2, 2]),
+        (0, 16, [16]),
+        (0, 0.9, [1] * 16),
+        (5, 10, [6, 5]),
+        (9, 10, [7]),
+    ],
+)
+def test_what_is_left_of_a_sample_is_covered_by_as_few_steps_as_the_pace_allows_of_like_length(
+    choose, begin, pace, lengths
+):
+    found, unit = [], begin
+    while unit < UNITS:
+        choice = choose(unit * UNIT, pace * UNIT, 40.0 * UNIT)
+        assert choice.beyond == choice.end == pytest.approx((unit + choice.units) * UNIT, rel=1e-12)
+        assert choice.row == choice.units
+        found.append(choice.units)
+        unit += choice.units
+    assert found == lengths
+
+
+def test_a_kink_that_the_pace_reaches_is_gone_to_in_one_step(choose):
+    assert choose(0.0, 12.0 * UNIT, 11.5 * UNIT).end == pytest.approx(11.5 * UNIT, rel=1e-4)
+    assert choose(0.0, 12.0 * UNIT, 12.5 * UNIT).units == 8

@@ -404,8 +404,20 @@ def test_what_else_is_kept_moves_no_bit_and_agrees_with_fixed_steps(name, refere
         assert rms(here - there) < 1e-3 * rms(there), name  # the accuracy asked for, of the resonator's acceleration
 
 
-def test_more_accuracy_takes_shorter_steps(reference_scene):
-    steps = [simulate(reference_scene("G1", 0.1), RATE, Accurate(a)).step * RATE for a in (1e-5, 1e-4, 1e-3, 1e-2)]
+@pytest.mark.parametrize(
+    ("name", "slip_seed", "accuracies"),
+    [
+        ("G1", None, (1e-5, 1e-4, 1e-3, 1e-2)),
+        (
+            "F0",
+            1,
+            (1e-3, 2e-3, 3e-3, 4e-3, 6e-3, 1e-2),
+        ),  # once lost to steps with short rests
+    ],
+)
+def test_more_accuracy_takes_shorter_steps(name, slip_seed, accuracies, reference_scene):
+    scene = reference_scene(name, 0.1, slip_seed=slip_seed)
+    steps = [simulate(scene, RATE, Accurate(accuracy)).step * RATE for accuracy in accuracies]
     assert all(np.diff(steps) > 0.0)
     assert steps[0] > 1.0 / 16.0
 

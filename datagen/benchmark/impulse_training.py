@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import closing
 from dataclasses import fields
 from pathlib import Path
@@ -29,11 +30,12 @@ def ingredients_of(train: Path) -> Ingredients | None:
     Raises BadInput for a name that is no ingredient.
     """
     text = str(train)
-    if not text.startswith(NAME):
+    asked = re.fullmatch(rf"{NAME}(?:-without-(.*))?", text)
+    if asked is None:
         return None
-    left_out = text.removeprefix(NAME).removeprefix("-without-")
+    left_out = asked[1]
     names = [field.name for field in fields(Ingredients)]
-    if left_out and left_out not in names:
+    if left_out is not None and left_out not in names:
         allowed = ", ".join(f"{NAME}-without-{name}" for name in names)
         raise BadInput(field="--train", value=text, allowed=f"a folder, {NAME}, {allowed}")
     return Ingredients(**{left_out: False}) if left_out else Ingredients()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -177,26 +178,16 @@ def pooled_draws(draws: list[Tested]) -> Tested:
     """Several draws of one corpus as one, record after record."""
     import pandas
 
-    first = draws[0]
+    said = zip(*(tested.verdicts for tested in draws), strict=True)
     return replace(
-        first,
+        draws[0],
         labels=pandas.concat([tested.labels for tested in draws]),
-        truth=np.concatenate([tested.truth for tested in draws]),
-        classes=np.concatenate([tested.classes for tested in draws]),
-        reasons=np.concatenate([tested.reasons for tested in draws]),
-        glitches=np.concatenate([tested.glitches for tested in draws]),
-        shocks=np.concatenate([tested.shocks for tested in draws]),
-        verdicts=tuple(_pooled([tested.verdicts[place] for tested in draws]) for place in range(len(first.verdicts))),
+        verdicts=tuple(replace(of_one[0], **_joined_arrays(of_one)) for of_one in said),
+        **_joined_arrays(draws),
     )
 
 
-def _pooled(said: list[Verdicts]) -> Verdicts:
-    return Verdicts(
-        name=said[0].name,
-        location=np.concatenate([draw.location for draw in said]),
-        condition=np.concatenate([draw.condition for draw in said]),
-        race=np.concatenate([draw.race for draw in said]),
-        score=np.concatenate([draw.score for draw in said]),
-        alarm=np.concatenate([draw.alarm for draw in said]),
-        probability=np.concatenate([draw.probability for draw in said]),
-    )
+def _joined_arrays(parts: Sequence[Tested] | Sequence[Verdicts]) -> dict[str, Any]:
+    """Every field of the `parts` that is an array, of all of them one after the other."""
+    arrays = [field.name for field in fields(parts[0]) if isinstance(getattr(parts[0], field.name), np.ndarray)]
+    return {name: np.concatenate([getattr(part, name) for part in parts]) for name in arrays}

@@ -35,14 +35,14 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
     axes: list[int] = []
     with Corpus(folder) as corpus, TemporaryFile() as file:
         rates = corpus.labels.set_index("record")["rate_hz"]
-        for done, record in enumerate(records.tolist()):
-            count(done, records.size)
+        for done, record in enumerate(records.tolist(), start=1):
             for axis, signal in enumerate(np.asarray(corpus.waveform(record), dtype=np.float64).T):
                 if np.isfinite(signal).all():
                     found = cut(resampled(signal, float(rates[record]), rate))
                     file.write(np.asarray(found, dtype=np.float32).tobytes())
                     owners += [record] * len(found)
                     axes += [axis] * len(found)
+            count(done, records.size)
         file.flush()
         # The mapping keeps the file alive after it is closed, and an empty one cannot be mapped.
         shape = (len(owners), WINDOW_SAMPLES)

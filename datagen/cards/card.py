@@ -34,7 +34,7 @@ def _head(facts: Facts) -> Iterable[str]:
         "name": f"`{info.name}`",
         "kind": kind,
         "records": _records(facts),
-        "bearings": f"{info.bearings} (label `bearing_id`; never divided between splits)",
+        "bearings": f"{info.bearings_text}; label `bearing_id`, never divided between splits",
         "sampling": f"{', '.join(f'{rate:g} Hz' for rate in facts.rates_hz)}; {length} a record",
         "size": f"{info.signal_seconds:.1f} s of signal in {info.shards} shards, {bytes_text(info.bytes)}",
     }

@@ -34,7 +34,7 @@ def _summary(info: Info) -> Table:
         "records": f"{present}{of_recordings if recorded else of_recipe}",
         **({"missing": f"{_lost(info.missing_files)}: {AGAIN}"} if info.missing_files else {}),
         **({"damaged": _lost(info.damaged_files)} if info.damaged_files else {}),
-        **({"bearings, by split": _bearings(info)} if recorded else _simulated(info)),
+        **({"bearings, by split": info.bearings_text} if recorded else _simulated(info)),
         "shards": f"{info.shards}, together {bytes_text(info.bytes)}, {info.record_bytes / 1e6:.2f} MB a record",
         "length": f"{info.signal_seconds:.1f} s of signal",
         **_making(info, recorded),
@@ -48,7 +48,7 @@ def _summary(info: Info) -> Table:
 def _simulated(info: Info) -> dict[str, str]:
     return {
         "could not be made": str(info.failed),
-        "virtual bearings": _bearings(info),
+        "virtual bearings": info.bearings_text,
         "outside the model's range": f"{info.outside_validity} records",
     }
 
@@ -70,11 +70,6 @@ def _lost(files: dict[str, int]) -> str:
     names = list(files)
     said = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
     return f"{said}, with {sum(files.values())} records, which all other numbers here still count"
-
-
-def _bearings(info: Info) -> str:
-    by_split = ", ".join(f"{split} {count}" for split, count in info.bearings_in_split.items())
-    return f"{info.bearings} ({by_split})"
 
 
 def _counts(info: Info) -> Table:

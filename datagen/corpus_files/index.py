@@ -37,7 +37,8 @@ def index_path(folder: Path) -> Path:
 
 
 def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
-    """Write the index of the finished shards, in the order of the records; returns the number of rows.
+    """Write the index of the finished shards in the order of the records, if the `sidecars` come in that of the first
+    records they were asked for; returns the number of rows.
 
     `shard` is the path of the record's file in the folder, `position` its place in that file, from 0.
     """
@@ -71,7 +72,7 @@ def _in_order_of_records(sidecars: Iterator[Sidecar], folder: Path) -> Iterator[
     for sidecar in sidecars:
         if not sidecar.records:
             continue
-        # Shards follow one another by the first record they were asked for, which may be one that could not be made.
+        # The first record that a shard was asked for may be one that could not be made.
         while open_shards and open_shards[0].record < min(sidecar.settled):
             yield _next_row(open_shards)
         rows = _rows(sidecar, folder)

@@ -11,7 +11,7 @@ from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import ShardEntry
 from datagen.inspection.asked_for import asked_of
 from datagen.scenarios.redraw import Refused
-from labels.schema import LABELS
+from labels.schema import LABELS, UNKNOWN
 
 if TYPE_CHECKING:
     import pandas
@@ -39,7 +39,8 @@ class Info:
 
     `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
-    records by two labels at once, `bearings_in_split` virtual bearings; `asked_by_condition` what the weights of the
+    records by two labels at once, `bearings_in_split` the known `bearings`, virtual ones where records are simulated;
+    `of_unknown_bearing` records are of one that is not known. `asked_by_condition` what the weights of the
     recipe give of the records asked for; `refused` are the impossible draws.
     `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
     overwritten or not to be read; all else is counted as if they were there. `origin` is simulated or imported: of
@@ -60,6 +61,7 @@ class Info:
     record_seconds: float
     record_bytes: float
     bearings: int
+    of_unknown_bearing: int
     outside_validity: int
     missing_files: dict[str, int]
     damaged_files: dict[str, int]
@@ -74,6 +76,17 @@ class Info:
     origin: str
 
     @property
+    def bearings_text(self) -> str:
+        """How many bearings are known, by split, and how many records are of others."""
+        by_split = ", ".join(f"{split} {count}" for split, count in self.bearings_in_split.items())
+        known = f"{self.bearings} ({by_split})" if self.bearings else UNKNOWN
+        return (
+            f"{known}; {self.of_unknown_bearing} records of unknown ones"
+            if 0 < self.of_unknown_bearing < self.records
+            else known
+        )
+
+    @property
     def readable(self) -> int:
         """Number of the shards that are there and not seen to be damaged."""
         return self.shards - len(self.missing_files) - len(self.damaged_files)
@@ -84,6 +97,7 @@ def corpus_info(folder: Path) -> Info:
     corpus = Corpus(folder)
     manifest, table = corpus.manifest, corpus.labels
     signal_seconds = float(table["duration_s"].sum())
+    of_known = table[table["bearing_id"] != UNKNOWN]
     return Info(
         name=manifest.name,
         title=manifest.title,
@@ -98,11 +112,12 @@ def corpus_info(folder: Path) -> Info:
         made_per_second=signal_seconds / manifest.seconds if manifest.seconds else 0.0,
         record_seconds=manifest.seconds / max(len(table), 1),
         record_bytes=manifest.bytes / max(len(table), 1),
-        bearings=int(table["bearing_id"].nunique()),
+        bearings=int(of_known["bearing_id"].nunique()),
+        of_unknown_bearing=len(table) - len(of_known),
         outside_validity=int((table["validity"] != "").sum()),
         missing_files=_records_of(shard for shard in manifest.shards if not (folder / shard.file).is_file()),
         damaged_files=_records_of(shard for shard in manifest.shards if _is_damaged(folder / shard.file, shard.bytes)),
-        bearings_in_split=_counts(table.drop_duplicates("bearing_id")["split"]),
+        bearings_in_split=_counts(of_known.drop_duplicates("bearing_id")["split"]),
         asked_by_condition=asked_of(manifest, folder),
         counts={name: _counts(table[name]) for name in COUNTED},
         crossed={f"{label} x {other}": _crossed(table, label, other) for label, other in CROSSED},

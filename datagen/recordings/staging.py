@@ -20,6 +20,7 @@ def staged(folder: Path) -> Iterator[Path]:
 
     What goes wrong in the block is left as it is: it may be a recording that cannot be read.
     """
+    folder = folder.absolute()
     beginning = f".{folder.name}.{socket.gethostname()}."
     staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
     _sweep(folder.parent, beginning)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity, format_hash
-from datagen.corpus_files.manifest import add_spans
+from datagen.corpus_files.manifest import Span, add_spans
 from datagen.errors import BadInput
 from datagen.files.atomic import locked
 from datagen.files.netcdf import check_compression
@@ -49,7 +49,8 @@ def generate(
     compile_kernels(listener.say)
     require_possible_rates(recipe, asked)
     # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
-    planned = plan_shards(recipe, max(stop for _, stop in (*earlier, *asked)), listener.say)
+    stop = _last((*earlier, *asked))
+    planned = plan_shards(recipe, stop, listener.say)
     require_room(recipe, planned, folder)
     with ExitStack() as once_workers_are_gone, engaged((engine or Engine()).for_tasks(len(planned))):
         _make_folder(folder)
@@ -57,6 +58,8 @@ def generate(
         found = earlier_runs(folder, identity)  # again: another run may have been here since
         if found.lost:
             listener.say(found.lost)
+        if _last(found.asked) > stop:
+            planned = plan_shards(recipe, _last(found.asked), listener.say)
         run = Run(recipe, folder, identity, add_spans(found.asked, asked), asked, listener)
         once_workers_are_gone.callback(run.finish)
         run.make(planned)
@@ -68,6 +71,11 @@ def corpus_identity(recipe: Recipe) -> Identity:
     from physics.compiled import fingerprint
 
     return Identity(recipe.hash[:16], fingerprint(), format_hash(), program_hash())
+
+
+def _last(spans: Iterable[Span]) -> int:
+    """Where the last of the spans of records stops."""
+    return max((stop for _, stop in spans), default=0)
 
 
 def _make_folder(folder: Path) -> None:

@@ -14,7 +14,14 @@ from typing import Any
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, Span, write_manifest
-from datagen.corpus_files.shard import Failure, Sidecar, finished_shards, sweep_unfinished
+from datagen.corpus_files.shard import (
+    Failure,
+    Sidecar,
+    finished_shards,
+    read_sidecar,
+    sidecar_path,
+    sweep_unfinished,
+)
 from datagen.files.atomic import NO_SPACE, write_atomically
 from datagen.files.byte_counts import bytes_text
 from datagen.progress import Listener
@@ -121,7 +128,7 @@ class Run:
         try:
             # The manifest first: a folder with an index alone would be taken for somebody else's.
             write_manifest(self.folder, self.manifest)
-            write_index(self.folder, self._own_sidecars())
+            write_index(self.folder, self._by_first_record())
             self._write_failures()
         except OSError as problem:
             if problem.errno not in NO_SPACE:
@@ -147,6 +154,13 @@ class Run:
     def _own_sidecars(self) -> Iterator[Sidecar]:
         return (sidecar for sidecar in finished_shards(self.folder) if sidecar.identity == self.manifest.identity)
 
+    def _by_first_record(self) -> Iterator[Sidecar]:
+        """The sidecars again, with their labels: by number they would not be so where records were picked out."""
+        for known in sorted(self.finished.values(), key=lambda sidecar: min(sidecar.settled)):
+            sidecar = read_sidecar(sidecar_path(self.folder, known.shard))
+            if sidecar is not None:
+                yield sidecar
+
     def _rescan(self) -> None:
         """Learn from the disk, and from nothing else, what is finished (labels are not kept in memory)."""
         self.finished = {sidecar.shard: replace(sidecar, labels={}) for sidecar in self._own_sidecars()}
@@ -158,11 +172,14 @@ class Run:
     def _wanted_of(self, shard: PlannedShard) -> int:
         return len(self.wanted.intersection(shard.records))
 
+    def _settled(self, shard: PlannedShard) -> frozenset[int]:
+        return self.finished[shard.number].settled if shard.number in self.finished else frozenset()
+
     def _unfinished(self, planned: Sequence[PlannedShard]) -> list[PlannedShard]:
         """Planned shards that lack a wanted record, each with all the records that it must then hold."""
         todo = []
         for shard in planned:
-            there = self.finished[shard.number].settled if shard.number in self.finished else frozenset()
+            there = self._settled(shard)
             records = tuple(record for record in shard.records if record in self.wanted or record in there)
             if not there.issuperset(records):
                 todo.append(replace(shard, records=records))
@@ -237,7 +254,12 @@ class Run:
         )
 
     def _failures(self) -> list[Failure]:
-        lost = [Failure(record, reason) for shard, reason in self.errors.values() for record in shard.records]
+        """What could not be made: an earlier file of a shard that was to hold more may hold some of its records."""
+        lost = [
+            Failure(record, reason)
+            for shard, reason in self.errors.values()
+            for record in sorted(frozenset(shard.records) - self._settled(shard))
+        ]
         return sorted((*self.manifest.failed, *lost), key=lambda failure: failure.record)
 
     def _write_failures(self) -> None:

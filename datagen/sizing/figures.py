@@ -73,4 +73,6 @@ def _figure(
 def _coverage(what: str, answered: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
     plain = _figure(f"90 % interval of the {what} holds the truth", answered, inside)
     low, high = COVERAGE_TARGET
+    if plain.count == 0:
+        return plain
     return replace(plain, target=f"{low:g} to {high:g}", met=low <= plain.mean.value <= high)

@@ -1,11 +1,14 @@
 """Plain impulse trains: what is left out of them changes nothing else."""
 
 from dataclasses import fields
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from datagen.benchmark.impulse_signal import Ingredients, draw_train, impulses, tones
+from datagen.benchmark.impulse_training import ingredients_of
+from datagen.errors import BadInput
 from labels.features.kinematics import Kinematics
 
 NAMES = [field.name for field in fields(Ingredients)]
@@ -89,3 +92,13 @@ def test_impulses_come_at_the_ball_pass_order_of_their_race(location, fewest, mo
         force = impulses(own, generator, 20 * 25_600, 25_600.0, bearing, location, True)
         # Jitter of 2 % a period adds up to one impulse more or less in 3000; one more is lost at either end.
         assert fewest * turns - 4 <= np.count_nonzero(force) <= most * turns + 4
+
+
+def test_only_the_very_names_ask_for_impulse_trains_instead_of_a_folder():
+    assert ingredients_of(Path("impulse-trains")) == Ingredients()
+    assert ingredients_of(Path("impulse-trains-without-backgrounds")) == Ingredients(backgrounds=False)
+    for folder in ("impulse-trains-2", "impulse-trainsbackgrounds", "my/impulse-trains"):
+        assert ingredients_of(Path(folder)) is None
+    for left_out in ("", "nothing"):
+        with pytest.raises(BadInput, match=r"impulse-trains-without-backgrounds"):
+            ingredients_of(Path(f"impulse-trains-without-{left_out}"))

@@ -137,6 +137,15 @@ def test_a_record_that_cannot_be_read_leaves_no_file_open(read, tiny_corpus, mon
     assert closed == [tiny_corpus]
 
 
+@pytest.mark.parametrize("read", [read_rows, read_windows])
+def test_progress_counts_the_records_that_are_read(read, tiny_corpus):
+    told = []
+    wanted = np.array([2, 0, 5])
+    read(tiny_corpus, wanted, Reading() if read is read_rows else RATE, count=lambda *counted: told.append(counted))
+    assert told == sorted(set(told))
+    assert told[-1] == (3, 3)
+
+
 @pytest.mark.parametrize("level", [-10.0, 0.0, 20.0])
 def test_noise_added_has_the_level_asked_for(level, monkeypatch):
     heard = []

@@ -83,6 +83,20 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
         assert differences[0] == pytest.approx(differences[1])
 
 
+def test_pooled_draws_keep_what_each_draw_says_of_every_record():
+    one = judged(["none", "outer"], np.array([[0.9, 0.1, 0, 0, 0], [0.2, 0.8, 0, 0, 0]]))
+    other = replace(one, in_mains=np.array(["inner", "outer"]), glitches=np.array([3, 0]))
+    pooled, draws = pooled_draws([one, other]), (one, other)
+    for name in ("truth", "classes", "reasons", "glitches", "shocks", "in_mains"):
+        assert list(getattr(pooled, name)) == [value for draw in draws for value in getattr(draw, name)], name
+    for said, of_draws in zip(pooled.verdicts, zip(*(draw.verdicts for draw in draws), strict=True), strict=True):
+        assert said.name == of_draws[0].name
+        for name in ("location", "condition", "race", "score", "alarm", "probability"):
+            together = [part for draw in of_draws for part in np.asarray(getattr(draw, name)).tolist()]
+            assert getattr(said, name).tolist() == together, name
+    assert list(pooled.labels.index) == [*one.labels.index, *other.labels.index]
+
+
 def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
     locations = ["none"] * 10 + ["outer"] * 90
     # One in ten of either side has the probability of the other: calibrated at equal priors, odds nine to one.

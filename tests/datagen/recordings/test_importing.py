@@ -124,6 +124,7 @@ def test_what_is_not_said_is_unknown_and_absent(bring: Bring, mat: Mat, tmp_path
         assert LABEL[name].values is None or "unknown" in LABEL[name].imported
     for name in ("speed_rpm", "load_n", "extent_mm", "bpfo", "balls", "bridged", "envelope_band_low", "snr_db"):
         assert np.isnan(row[name]), name
+    assert corpus_info(corpus.folder).bearings_text == "unknown"
     with xarray.open_dataset(next((tmp_path / "corpus" / "shards").glob("*.nc"))) as shard:
         held = set(shard.variables)
         assert shard["axis"].values.tolist() == ["x"]
@@ -183,7 +184,7 @@ def test_one_shard_holds_one_rate_and_length(bring: Bring, mat: Mat) -> None:
 def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     for name in ("r1.mat", "sub/r2.mat", "sub/r3.mat"):
         mat(name)
-    (tmp_path / "t.csv").write_text("file,location,bearing_id\nr1.mat,outer,x\nsub/r2.mat,,y\nr3.mat,ball,z\n")
+    (tmp_path / "t.csv").write_text("file,location,bearing_id\nr1.mat,outer,x\nsub/r2.mat,,y\nr3.mat,ball,\n")
     corpus = bring(
         '[defaults]\nunit = "g"\nrate_hz = 1000\nrig = "mill"\n'
         '[[recording]]\nname = "all"\nfiles = "**/*.mat"\ntable = "t.csv"\ny = "sig"\nlocation = "inner"\n'
@@ -192,8 +193,35 @@ def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat
     table = corpus.labels
     assert table["location"].tolist() == ["outer", "inner", "ball"]
     assert table["rig"].tolist() == ["mill", "fan", "fan"]
-    assert table["bearing_id"].tolist() == ["x", "y", "z"]
+    assert table["bearing_id"].tolist() == ["x", "y", "unknown"]
+    assert corpus_info(corpus.folder).bearings_text == "2 (unknown 2); 1 records of unknown ones"
     assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
+
+
+def test_the_current_folder_is_refused_before_anything_is_read(
+    mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mat("a.mat")
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    (tmp_path / "spec.toml").write_text(
+        'name = "set"\n[[recording]]\nname = "all"\nfiles = "absent.mat"\ny = "sig"\nunit = "g"\n'
+    )
+    code, _, message = run("import", tmp_path / "spec.toml", "--out", ".")
+    assert code == 2
+    assert "the current one cannot be replaced; allowed: another folder, new or empty" in message
+    assert list(here.iterdir()) == []
+
+
+def test_a_relative_folder_is_put_where_it_says(mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    mat("a.mat")
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    text = 'name = "set"\n[[recording]]\nname = "all"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 5000\n'
+    (tmp_path / "spec.toml").write_text(text)
+    assert run("import", tmp_path / "spec.toml", "--out", "../out")[0] == 0
+    assert run("check", tmp_path / "out")[0] == 0
 
 
 def test_everything_that_reads_a_corpus_reads_an_imported_one(bring: Bring, mat: Mat, tmp_path: Path) -> None:

@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import csv
 import errno
+import itertools
 import json
 import os
 import shutil
@@ -23,7 +25,7 @@ import datagen.corpus_files.manifest
 import datagen.corpus_files.shard
 import datagen.runs.run
 from datagen.commands.progress_display import Lines
-from datagen.corpus_files.index import read_index
+from datagen.corpus_files.index import index_path, read_index
 from datagen.corpus_files.manifest import read_manifest
 from datagen.corpus_files.shard import finished_shards, shard_path, sidecar_path
 from datagen.errors import BadInput
@@ -135,6 +137,15 @@ def test_a_record_of_a_shard_stays_when_another_of_the_same_shard_is_added(tiny:
     assert list(read_index(tmp_path / "some")["record"]) == [first, second]
 
 
+def test_records_picked_out_of_shards_that_interleave_are_listed_in_their_order(tiny: Recipe, tmp_path: Path) -> None:
+    recipe = Recipe.model_validate(tiny.model_dump(mode="json") | {"order": "interleaved"})
+    shards = [shard.records for shard in plan_shards(recipe, 14)]
+    later, earlier = next((one[-1], other[0]) for one, other in itertools.combinations(shards, 2) if one[-1] > other[0])
+    generate(recipe, tmp_path / "some", records=[later, earlier], engine=ALONE)
+    with index_path(tmp_path / "some").open(newline="") as file:
+        assert [int(row["record"]) for row in csv.DictReader(file)] == [earlier, later]
+
+
 def test_a_finished_corpus_is_left_alone(tiny: Recipe, copy: Path) -> None:
     before = {path: path.stat().st_mtime_ns for path in (copy / "shards").iterdir()}
     assert generate(tiny, copy, engine=ALONE).new == 0
@@ -208,6 +219,23 @@ def test_a_corpus_that_another_run_began_meanwhile_is_refused_and_left_alone(
         path.name: path.read_bytes() for path in (tiny_corpus / "shards").iterdir()
     }
     assert (out / "manifest.json").read_bytes() == (tiny_corpus / "manifest.json").read_bytes()
+
+
+def test_what_another_run_has_made_meanwhile_stays(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = next(shard.records for shard in plan_shards(tiny, 14) if len(shard.records) == 2)
+    other, out = tmp_path / "other", tmp_path / "out"
+    generate(tiny, other, records=[second], engine=ALONE)
+
+    def slowly(*arguments: Any) -> Any:
+        if not out.exists():
+            shutil.copytree(other, out)
+        return plan_shards(*arguments)
+
+    monkeypatch.setattr("datagen.runs.generate.plan_shards", slowly)
+    generate(tiny, out, records=[first], engine=ALONE)  # of which nothing is planned beyond this one at first
+    assert list(read_index(out)["record"]) == [first, second]
 
 
 @pytest.mark.parametrize(
@@ -357,6 +385,21 @@ def test_an_unforeseen_error_costs_its_shard_only_and_is_tried_again(
     assert generate(tiny, tmp_path / "out", engine=ALONE).failed == ()
     assert contents(tmp_path / "out") == expected
     assert not (tmp_path / "out" / "failed.jsonl").exists()
+
+
+def test_records_of_an_earlier_file_are_not_called_lost_when_making_the_shard_again_goes_wrong(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = next(shard.records for shard in plan_shards(tiny, 14) if len(shard.records) == 2)
+    generate(tiny, tmp_path / "out", records=[first], engine=ALONE)
+
+    def failing(*_: Any) -> Any:
+        raise ZeroDivisionError("by chance")
+
+    monkeypatch.setattr("datagen.runs.task.make_record", failing)
+    run = generate(tiny, tmp_path / "out", records=[first, second], engine=ALONE)
+    assert [failure.record for failure in run.failed] == [second]
+    assert (run.asked, run.made) == (2, 1)
 
 
 def test_a_shard_that_kills_its_worker_every_time_is_given_up_and_the_others_are_made(

@@ -64,6 +64,9 @@ def test_where_nothing_was_answered_there_is_no_interval(scored: Callable[..., S
     assert math.isnan(summary.events["within_100_us, answered records"].f1.low)
     assert math.isnan(summary.events["within_100_us"].recall.high)
     assert math.isnan(summary.long.error_of_nearest_candidate.high)
+    unanswered = [figure for figure in summary.figures if figure.count == 0]
+    assert any("interval" in figure.name for figure in unanswered)
+    assert all((figure.target, figure.met) == ("", None) for figure in unanswered)
 
 
 def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., ScoredRecord]) -> None:

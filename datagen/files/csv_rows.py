@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 from collections.abc import Iterator
 from itertools import islice
@@ -21,7 +22,7 @@ class NotText(BadInput):
 
 def open_text(path: Path, encoding: str = UTF_8) -> IO[str]:
     """The text file at `path`, opened with its line ends as they are; in UTF-8 a byte order mark is no matter."""
-    return path.open(newline="", encoding="utf-8-sig" if encoding == UTF_8 else encoding)
+    return path.open(newline="", encoding="utf-8-sig" if codecs.lookup(encoding).name == UTF_8 else encoding)
 
 
 def read_csv_rows(

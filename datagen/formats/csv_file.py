@@ -19,6 +19,11 @@ from physics.arrays import Array
 DELIMITERS = (";", "\t", "|", ",", BLANKS)
 DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
 WHOLE_NUMBER = re.compile(r"[-+]?\d+")
+# Digits behind a decimal sign: no whole number that is written alone begins with 0.
+FRACTION = re.compile(r"0\d+")
+# Rows of a table that show whether its commas are decimal signs.
+ROWS_SHOWN = 256
+ONE_COLUMN = '; did you mean csv = {delimiter = ";", decimal = ","}?'
 # How compressed and packed files begin: gzip, zip (spreadsheets too), 7z, rar.
 PACKED = (b"\x1f\x8b", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
 
@@ -45,6 +50,7 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
     """The columns of a text table by name ("1", "2", … without a header); raises BadInput with the line."""
     _refuse_packed(path)
     try:
+        _refuse_halves(path, layout)
         clean = _clean_table(path, layout)
         if clean is not None:
             return clean
@@ -218,6 +224,23 @@ def _refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayo
             )  # fmt: skip
 
 
+def _refuse_halves(path: Path, layout: CsvLayout) -> None:
+    """Refuse a table without header whose numbers were all parted at their decimal commas, into whole numbers."""
+    if layout.header or layout.delimiter != ",":
+        return
+    rows = read_csv_rows(path, ",", layout.skip_lines, layout.encoding, most=ROWS_SHOWN)
+    cells = [[cell.strip() for cell in row] for _, row in rows]
+    width = len(cells[0]) if cells else 1
+    if width % 2 or not all(len(row) == width and all(map(WHOLE_NUMBER.fullmatch, row)) for row in cells):
+        return
+    fractions = list(zip(*cells, strict=True))[1::2]
+    if all(column[0].isdigit() and any(map(FRACTION.fullmatch, column)) for column in fractions):
+        raise BadInput(
+            f"these commas seem to be decimal signs{ONE_COLUMN if width == 2 else ''}", f"{path}, line {rows[0][0]}",
+            "csv.delimiter", ",", "" if width == 2 else "another delimiter than the decimal sign, in the file itself",
+        )  # fmt: skip
+
+
 def _is_unit(text: str, column: Array) -> bool:
     """Whether a `text` that is no number is nothing but the first cell of a `column` of numbers."""
     return bool(text.strip()) and column.size > 1 and bool(np.isfinite(column[1:]).all())
@@ -238,6 +261,8 @@ def _decimal_hint(cells: list[str], layout: CsvLayout) -> str:
 
 def _hint(row: str, layout: CsvLayout) -> str:
     """A remark on the layout that was probably meant by whoever wrote this `row`; empty if nothing else parts it."""
+    if DECIMAL_COMMA.fullmatch(row.strip()):
+        return ONE_COLUMN if layout.delimiter == "," else ""
     delimiter = next((sign for sign in DELIMITERS if sign in row.strip()), layout.delimiter)
     if delimiter in (layout.delimiter, layout.decimal):
         return ""

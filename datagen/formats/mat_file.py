@@ -18,7 +18,7 @@ from datagen.formats.netcdf_file import read_netcdf
 
 HDF5_MARK = b"\x89HDF\r\n\x1a\n"
 USER_BLOCK = 512
-NUMBERS = "iufb"
+NUMBERS, COMPLEX = "iufb", "c"
 Found = dict[str, NDArray[Any]]
 
 
@@ -62,7 +62,7 @@ def _collect(found: Found, name: str, value: NDArray[Any]) -> None:
         for index, element in enumerate(value.ravel(order="F")):
             if isinstance(element, np.ndarray):
                 _collect(found, _element(name, index, value.size), element)
-    elif value.dtype.kind in NUMBERS:
+    elif value.dtype.kind in NUMBERS + COMPLEX:
         found[name] = value
 
 

@@ -14,8 +14,8 @@ from datagen.errors import BadInput
 from datagen.files.netcdf import ONE_AT_A_TIME
 from datagen.formats.arrays import Arrays
 
-# The two formats of netCDF-3 that scipy knows too.
-CLASSIC = (b"CDF\x01", b"CDF\x02")
+# The two formats of netCDF-3 that scipy knows too, and the one that it does not.
+CLASSIC, LARGE = (b"CDF\x01", b"CDF\x02"), b"CDF\x05"
 # What parts the name of a variable from that of its attribute.
 ATTRIBUTE = "@"
 Place = tuple[str, str]
@@ -89,10 +89,16 @@ def read_netcdf(path: Path) -> Arrays:
 
 
 def _check_whole(path: Path) -> None:
-    """Refuse a netCDF-3 file that breaks off: the netCDF library gives zeros for what is missing."""
+    """Refuse a netCDF-3 file that breaks off, or may: the netCDF library makes up what is missing."""
     with path.open("rb") as file:
-        if file.read(4) not in CLASSIC:
-            return
+        kind = file.read(4)
+    if kind == LARGE:
+        raise BadInput(
+            "whether a netCDF-3 file of 64-bit data (CDF-5) is whole cannot be told", str(path),
+            allowed="netCDF-4, as `nccopy -k nc4 OLD NEW` makes of it",
+        )  # fmt: skip
+    if kind not in CLASSIC:
+        return
     from scipy.io import netcdf_file
 
     try:

@@ -143,7 +143,7 @@ class _Finder:
 
     def _name(self, path: Path) -> str:
         """The file's name from the root, where it lies below it."""
-        return self._below.names.get(path, path.as_posix())
+        return (path.relative_to(self.root) if path.is_relative_to(self.root) else path).as_posix()
 
     def _fits(self, path: Path, pattern: str) -> bool:
         return fits(path, self._name(path), pattern)

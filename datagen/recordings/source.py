@@ -76,7 +76,7 @@ class Source:
         found = choose(self.arrays, wish, self.path, field)
         if found.dtype.kind not in "iuf":
             raise BadInput(f"holds {found.dtype}, not real numbers", str(self.path), field, wish)
-        if found.ndim != 1:
+        if found.ndim != 1 and found.size:
             shape = "x".join(map(str, found.shape)) or "one number"
             lying = found.ndim == 2 and found.shape[0] < found.shape[1]
             allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'

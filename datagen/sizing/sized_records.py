@@ -94,7 +94,7 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
 
 def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
     record, contact = int(labels["record"]), stored.contact_stiffness() if load_known else None
-    factor = wrong_speed(seed, record) if stored.simulated else speed_found(labels, stored.acceleration[:, -1])
+    factor = wrong_speed(seed, record) if stored.simulated else speed_found(labels, stored.acceleration)
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),

@@ -9,6 +9,7 @@ from typing import Any
 from datagen.benchmark.known import is_nominal, known_kinematics
 from datagen.benchmark.options import SPEED_ERROR
 from datagen.scenarios.streams import stream
+from labels.dead_sensor import live_axis
 from labels.features.analysis import analyse
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
@@ -43,11 +44,11 @@ def wrong_speed(seed: int, record: int) -> float:
     return 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
 
 
-def speed_found(labels: Mapping[str, Any], signal: Array) -> float:
+def speed_found(labels: Mapping[str, Any], acceleration: Array) -> float:
     """The shaft's speed over the one stated: 1 unless that is nominal, and then what harmonics of the shaft and ball
-    passes in the `signal` (T,) say, as the classifiers find it."""
-    known = known_kinematics(labels)
-    if known is None or not is_nominal(labels):
+    passes in the `acceleration` (T, axes) say, as the classifiers find it."""
+    known, signal = known_kinematics(labels), live_axis(acceleration)
+    if known is None or signal is None or not is_nominal(labels):
         return 1.0
     try:
         return analyse(signal, float(labels["rate_hz"]), known).speed.shaft_hz / known.shaft_hz

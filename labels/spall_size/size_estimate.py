@@ -24,6 +24,7 @@ class SizeOutcome(Enum):
     """How an estimate ended."""
 
     ESTIMATED = "estimated"
+    NO_SIGNAL = "the record has no signal, as if no sensor were connected"
     TOO_SHORT = "the record holds fewer than six ball passes"
     TOO_COARSE = "a ball pass lasts fewer than sixteen samples"
     NO_PASSES = "no ball passes stand out of the record"

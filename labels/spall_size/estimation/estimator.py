@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from labels.dead_sensor import live_axis
 from labels.spall_size.estimation.calibration import Calibration, Judgement
 from labels.spall_size.estimation.gathering import gather_evidence
 from labels.spall_size.estimation.measurement import Measurement, leading_pairs, measure
@@ -17,7 +18,6 @@ from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS
 from physics.arrays import Array
 
 # The axis that is used: y, or the only one of a recording.
-LOAD_AXIS = -1
 # Samples from an event to the peak of its prewhitened energy.
 ONSET = 1.8
 # Longest spall that is reported, rad: half the race.
@@ -39,13 +39,14 @@ class SizeEstimator:
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
         """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
 
-        If its polarity is not known, the one of the larger trust.
+        The last axis that has a signal is used. If its polarity is not known, the one of the larger trust.
         """
         if not situation.polarity_known:
             known = replace(situation, polarity_known=True)
             return max((self.estimate(sign * acceleration, rate, known) for sign in (1.0, -1.0)), key=_trust)
-        signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
-        method = _method(situation)
+        signal, method = live_axis(acceleration), _method(situation)
+        if signal is None:
+            return SizeEstimate(SizeOutcome.NO_SIGNAL, method)
         shortest = min(situation.pass_periods().values()) * rate
         if signal.size < FEWEST_PASSES * shortest:
             return SizeEstimate(SizeOutcome.TOO_SHORT, method)

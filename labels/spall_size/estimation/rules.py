@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import find_peaks, hilbert
 
-from labels.spall_size.estimation.estimator import LOAD_AXIS
+from labels.dead_sensor import live_axis
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics.arrays import Array
@@ -50,16 +50,18 @@ class EnvelopeLagRule:
 
         If the `situation` does not name the race, it is taken for the outer one.
         """
-        signal = acceleration if acceleration.ndim == 1 else acceleration[:, LOAD_AXIS]
+        method, signal = f"envelope lag, {self.share:g} times", live_axis(acceleration)
+        if signal is None:
+            return SizeEstimate(SizeOutcome.NO_SIGNAL, method)
         race = situation.race or "outer"
         period, bearing = situation.pass_periods()[race], situation.bearing()
         lag = envelope_lag(signal, rate, LONGEST_SHARE * period)
         if math.isnan(lag):
-            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, f"envelope lag, {self.share:g} times")
+            return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, method)
         arc = lag / period * bearing.spacing
         return SizeEstimate(
             SizeOutcome.ESTIMATED,
-            f"envelope lag, {self.share:g} times",
+            method,
             race,
             lag=lag,
             lag_arc=arc,

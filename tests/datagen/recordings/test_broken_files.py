@@ -90,3 +90,10 @@ def test_variables_in_groups_come_by_the_names_of_their_groups(ending: str, tmp_
     arrays = read_arrays(path, None, CsvLayout())
     assert sorted(arrays) == ["data", "run.first.acc"]
     assert np.array_equal(choose(arrays, "run.first.acc", path, "y"), SAMPLES)
+
+
+def test_a_netcdf_file_of_64_bit_data_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    path = tmp_path / "a.nc"
+    netcdf("NETCDF3_64BIT_DATA")(path)
+    with pytest.raises(BadInput, match=r"a\.nc: .*CDF-5.* cannot be told; allowed: netCDF-4, as `nccopy -k nc4"):
+        read_arrays(path, None, CsvLayout())

@@ -104,3 +104,17 @@ def test_a_table_may_part_folders_as_windows_does(more: str, bring: Bring, mat: 
         "inner/deep/1.mat": "inner",
         "outer/1.mat": "outer",
     }
+
+
+def test_files_in_a_linked_folder_have_their_names_from_the_root(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("elsewhere/a.mat", "elsewhere/b.mat"):
+        mat(name)
+    (tmp_path / "set").mkdir()
+    (tmp_path / "set" / "link").symlink_to(tmp_path / "elsewhere")
+    (tmp_path / "t.csv").write_text("file,speed_rpm\nset/link/a.mat,1500\nset/link/b.mat,1600\n")
+    more = 'files = "set/link/*.mat"\nrecording = "{path}"\ntable = "t.csv"\n'
+    labels = bring(SPEC + more + 'override = [{files = "set/link/b*", location = "outer"}]\n').labels
+    assert labels["recording"].tolist() == ["set/link/a", "set/link/b"]
+    assert labels["source_file"].tolist() == ["set/link/a.mat", "set/link/b.mat"]
+    assert labels["speed_rpm"].tolist() == [1500.0, 1600.0]
+    assert labels["location"].tolist() == ["unknown", "outer"]

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 import scipy.io
+from imports import Bring, refusal
 
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -98,3 +99,20 @@ def test_a_vibration_comes_in_with_the_speed_of_a_slower_channel_beside_it(
     )
     assert np.array_equal(corpus.signal(0), VIBRATION.astype(np.float32))
     assert corpus.labels["speed_rpm"].tolist() == [900.0]
+
+
+@pytest.mark.parametrize(
+    ("value", "problem"),
+    [
+        (np.ones(40) + 1j, "holds complex128, not real numbers"),
+        (np.zeros((0, 0)), "holds 0 samples; allowed: at least"),
+    ],
+)
+def test_what_cannot_be_a_signal_is_called_by_what_it_is(
+    value: np.ndarray, problem: str, bring: Bring, tmp_path: Path
+) -> None:
+    scipy.io.savemat(tmp_path / "a.mat", {"acc": value, "fs": 1000.0})
+    message = refusal(
+        bring, '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "acc"\n', tmp_path
+    )
+    assert f'y = "acc": {problem}' in message

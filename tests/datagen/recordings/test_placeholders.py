@@ -66,7 +66,7 @@ def test_figures_alone_are_no_ending(bring: Bring, tmp_path: Path) -> None:
     assert corpus.labels["recording"].tolist() == ["2003.10.22.12.06.24", "2003.10.22.12.06.54"]
 
 
-@pytest.mark.parametrize("text", ["{stem.real_name}", "{what}", "{1}", "{", "{stem:d}"])
+@pytest.mark.parametrize("text", ["{stem.real_name}", "{stem[a]}", "{what}", "{1}", "{", "{stem:d}"])
 def test_braces_that_mean_nothing_are_refused_with_those_that_do(text: str) -> None:
     with pytest.raises(BadInput) as problem:
         filled(text, Path("a/b.mat"), "y")

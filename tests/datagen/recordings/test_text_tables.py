@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from imports import Bring
+from imports import Bring, refusal
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import Row, read_csv_rows
@@ -284,3 +284,44 @@ def test_a_compressed_table_is_called_so(encoding: str, bring: Bring, tmp_path: 
     (tmp_path / "a.csv").write_bytes(gzip.compress("\n".join(["a,b", *ROWS]).encode()))
     with pytest.raises(BadInput, match=r"a\.csv: is compressed or packed, not text; allowed: the file as text"):
         bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')
+
+
+@pytest.mark.parametrize("width", [1, 2])
+def test_a_table_of_nothing_but_decimal_commas_is_not_read_as_whole_numbers(
+    width: int, bring: Bring, tmp_path: Path
+) -> None:
+    rows = np.random.default_rng(3).uniform(-2.0, 2.0, (200, width))
+    text = "\n".join(",".join(f"{value:.5f}".replace(".", ",") for value in row) for row in rows)
+    (tmp_path / "a.csv").write_text(text)
+    spec = '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "m/s2"\nrate_hz = 1000\ny = "1"\n'
+    message = refusal(bring, spec + "csv = {header = false}\n", tmp_path)
+    assert 'line 1: csv.delimiter = ",": these commas seem to be decimal signs; ' in message
+    if width == 1:
+        assert message.endswith('did you mean csv = {delimiter = ";", decimal = ","}?')
+        corpus = bring(spec + 'csv = {header = false, delimiter = ";", decimal = ","}\n', "second")
+        assert corpus.waveform(0, "acceleration")[:, 0] == pytest.approx(rows[:, 0], abs=6e-6)
+
+
+@pytest.mark.parametrize("row", ["12,345", "0,10", "-3,7", "7,0"])
+def test_whole_numbers_in_two_columns_stay_what_they_are(row: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"{row}\n5,20\n" * 20)
+    found = read_arrays(tmp_path / "a.csv", None, CsvLayout(header=False))
+    assert [found["1"][0], found["2"][0]] == [float(cell) for cell in row.split(",")]
+
+
+@pytest.mark.parametrize(
+    ("layout", "hint"),
+    [("", '{delimiter = ";", decimal = ","}'), ('csv = {delimiter = ";"}\n', '{decimal = ","}')],
+)
+def test_one_column_of_decimal_commas_below_a_name_is_led_to_the_layout_that_reads_it(
+    layout: str, hint: str, bring: Bring, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text("acc\n" + "0,02314\n-0,5\n" * 20)
+    spec = '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\nrate_hz = 1000\ny = "acc"\n'
+    assert refusal(bring, spec + layout, tmp_path).endswith(f"; did you mean csv = {hint}?")
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "UTF-8", "utf8", "U8"])
+def test_a_byte_order_mark_is_no_matter_however_the_encoding_is_spelt(encoding: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("acc\n" + "1.5\n" * 20, encoding="utf-8-sig")
+    assert list(read_arrays(tmp_path / "a.csv", None, CsvLayout(encoding=encoding))) == ["acc"]

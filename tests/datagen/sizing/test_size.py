@@ -30,6 +30,8 @@ from datagen.sizing.sized_records import sized_records
 from datagen.sizing.stated_situation import wrong_speed
 from datagen.sizing.tables import known_size_sentence
 from labels.spall_size.estimation.calibration import Calibration
+from labels.spall_size.estimation.estimator import SizeEstimator
+from labels.spall_size.estimation.rules import EnvelopeLagRule
 from labels.spall_size.event_truth import event_truth
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -311,10 +313,27 @@ def test_noise_alone_is_given_no_size() -> None:
 def test_a_record_of_fewer_than_six_passes_is_too_short() -> None:
     machine = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 7.0)
     six = 6.0 * min(machine.pass_periods().values()) * RATE
-    short, enough = (default_estimator().estimate(np.ones(round(share * six)), RATE, machine) for share in (0.99, 1.01))
+    ramp = np.arange(1.01 * six)
+    short, enough = (default_estimator().estimate(ramp[: round(share * six)], RATE, machine) for share in (0.99, 1.01))
     assert short.outcome is SizeOutcome.TOO_SHORT
     assert "fewer than six" in short.reason
-    assert enough.outcome is SizeOutcome.NO_PASSES
+    assert enough.outcome is not SizeOutcome.TOO_SHORT
+
+
+@pytest.mark.parametrize("estimator", [default_estimator(), EnvelopeLagRule()])
+def test_an_axis_without_signal_is_passed_over_and_a_record_without_any_is_told(
+    estimator: SizeEstimator | EnvelopeLagRule, sized_corpus: Path
+) -> None:
+    sized = next(sized_records(sized_corpus, load_known=True))
+    signal, dead = sized.acceleration[:, 1], np.zeros(len(sized.acceleration))
+    alone = estimator.estimate(signal, sized.rate, sized.situation)
+    assert alone.found
+    for axes in ((signal, dead), (dead, signal)):
+        answer = estimator.estimate(np.column_stack(axes), sized.rate, sized.situation)
+        assert (answer.extent, answer.race) == (alone.extent, alone.race)
+    silent = estimator.estimate(np.column_stack([dead, dead]), sized.rate, sized.situation)
+    assert silent.outcome is SizeOutcome.NO_SIGNAL
+    assert "no signal" in silent.reason
 
 
 def test_a_rate_at_which_passes_are_a_few_samples_long_is_too_coarse() -> None:

@@ -5,11 +5,10 @@
 - on the disk: `files/` (of any kind), `corpus_files/` (shards, index, manifest), `corpus` (reads these),
   `runs/` (workers)
 - real machines: `formats/` (files by format), `recordings/` (brought into the same schema)
-- judged: `inspection/` (is a corpus sound?), `benchmark/` (classifiers), `sizing/` (spall sizes), `charts/` (speed
-  against accuracy)
+- judged: `inspection/` (is a corpus sound?), `benchmark/` (classifiers), `sizing/` (spall sizes), `judging/` (what both
+  of them need), `charts/` (speed against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
-- what all of them use: `errors` (what a person wrote, refused), `progress` (how far a command has got),
-  `exits` (how programs end), `garbage` (looked for seldom), `user_code` (what users bring), `versions`, `scored_runs`
-  (their log)
+- what all of them use: `errors` (what a person wrote, refused), `progress` (how far a command has got), `exits` (how
+  programs end), `garbage` (looked for seldom), `versions`
 """

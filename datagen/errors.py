@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import date, time
+
 
 class BadInput(Exception):
     """Input that cannot be used; `str` is one clear line and the command line turns it into exit code 2.
@@ -44,4 +46,6 @@ def _as_toml(value: object) -> str:
         return "[" + ", ".join(_as_toml(inner) for inner in value) + "]"
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, date | time):
+        return value.isoformat()
     return f'"{value}"' if isinstance(value, str) else repr(value)

@@ -30,7 +30,7 @@ from datagen.benchmark.training import train_models, train_rule, training_record
 from datagen.benchmark.verdicts import Tested, judge
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.scored_runs import write_line
+from datagen.judging.scored_runs import write_line
 from labels.variables import SHAFT_ANGLE
 from physics.bearing import RACES
 

@@ -20,7 +20,7 @@ from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Tested, judge
 from datagen.corpus import Corpus
-from datagen.scored_runs import write_line
+from datagen.judging.scored_runs import write_line
 from physics.bearing import RACES
 
 DRAWS, SHARE, SEED = 5, 0.8, 100

@@ -2,7 +2,7 @@
 
 - `options`: what was asked; `request`: that checked, as a `plan`
 - `classify`: the run from training to report, in two halves, `run_learning` and `run_scoring`
-- `known`: what may be known of a record; `fitness`: whether it can be judged
+- `fitness`: whether a record can be judged
 - `rows`: the table that is learned from; `reading_policy`, `record_rows`, `corpus_rows`: how records become rows of
   features; `windows`: raw pieces for other people's estimators
 - `training`, `trained` (what came of it, as a file), `learning` (the curve), `importance`

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.user_code import FIELD, user_code
+from datagen.judging.user_code import FIELD, user_code
 from labels.classifier.classes import CLASSES
 from physics.arrays import Array
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
+from datagen.judging.known import what_is_missing
 from labels.band_tree import usable_bandwidth
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.kinematics import Kinematics
 
-UNKNOWN_SPEED = "speed unknown"
-UNKNOWN_GEOMETRY = "geometry unknown"
-NO_ROTATION = "speed not above 0"
 TOO_SHORT = "too short"
 TOO_FAST = "ball passes too fast for the rate"
 # s; the shortest that is learned from lasts 0.3 s. In 0.1 s a third of the faults of CWRU is found, in 0.05 s a sixth,
@@ -22,12 +19,6 @@ SHORTEST = 0.1
 FEWEST_TURNS = 1.0
 # Share of the bandwidth above which no band has lines of an envelope.
 HIGHEST_SHARE = 0.45
-
-
-def what_is_missing(labels: Mapping[str, Any]) -> str:
-    """Why no kinematics are known of a record with these labels: its speed or its geometry."""
-    speed = float(labels["speed_rpm"])
-    return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION if speed <= 0.0 else UNKNOWN_GEOMETRY
 
 
 def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int, rate: float, bandwidth: float) -> str:

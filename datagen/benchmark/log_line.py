@@ -3,27 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.model_scores import Scores
-from datagen.scored_runs import write_line
-from datagen.versions import program_versions
+from datagen.judging.scored_runs import write_line
 
 
 def log_run(folder: Path, training: Path, recipe: str, options: dict[str, Any], models: dict[str, Scores]) -> None:
-    """Append one line: when, trained on which corpus and which `recipe` (its hash), with which options, and the scores
-    of each of the models.
-
-    Raises BadInput if the folder cannot be written: a run that leaves no trace is not made.
-    """
+    """Append one line: trained on which corpus and which `recipe` (its hash), with which options, and the scores of
+    each of the models; raises BadInput."""
     line = {
-        "time": datetime.now(UTC).isoformat(timespec="seconds"),
         "train": str(training),
         "recipe": recipe,
         "options": options,
-        "versions": program_versions(),
         "scores": {
             name: {
                 "faults_balanced_accuracy": asdict(scores.faults_balanced_accuracy),

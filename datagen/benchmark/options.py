@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from datagen.judging.known import SPEED_ERROR
+
 FEATURES, WINDOWS = "features", "windows"
-# Largest relative error of the shaft speeds that classifiers and size estimators are given in training. The true speed
-# is 2.04 % above one given 2 % too low, and features look for it within MEASURED_WITHIN of the one given
-# (labels/features/kinematics.py): so that is a little wider, and a test asserts it.
-SPEED_ERROR = 0.02
 
 
 @dataclass(frozen=True)

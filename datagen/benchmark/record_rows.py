@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from datagen.benchmark.fitness import unfit
-from datagen.benchmark.known import known_kinematics
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
+from datagen.judging.known import known_kinematics
 from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse

@@ -8,15 +8,16 @@ from dataclasses import fields
 from pathlib import Path
 
 from datagen.benchmark.impulse_training import NAME, ingredients_of
-from datagen.benchmark.options import FEATURES, SPEED_ERROR, WINDOWS, Learning, Options, Scoring
+from datagen.benchmark.options import FEATURES, WINDOWS, Learning, Options, Scoring
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
-from datagen.scored_runs import log_path
-from datagen.user_code import load_user_code
+from datagen.judging.known import SPEED_ERROR
+from datagen.judging.scored_runs import log_path
+from datagen.judging.user_code import load_user_code
 from labels.classifier.learners import LEARNERS
 
 INPUTS = (FEATURES, WINDOWS)

@@ -19,8 +19,8 @@ from datagen.benchmark.summary import summarise
 from datagen.benchmark.trained import Trained
 from datagen.benchmark.verdicts import judge, pooled_draws
 from datagen.corpus import Corpus
+from datagen.judging.scored_runs import write_line
 from datagen.progress import Count, Listener
-from datagen.scored_runs import write_line
 from physics.bearing import RACES
 
 if TYPE_CHECKING:

@@ -22,7 +22,10 @@ SAVE, TRAIN = "--save", "--train"
 AGAIN = f"learn again, with {SAVE}"
 MADE_WITH = ("python", "scikit-learn", "numpy", "scipy")
 # The packages that make rows and learn from them, by what they are called in the head of a file.
-CODE = {"features": ("labels", "labels/classifier", "labels/features"), "benchmark": ("datagen/benchmark",)}
+CODE = {
+    "features": ("labels", "labels/classifier", "labels/features"),
+    "benchmark": ("datagen/benchmark", "datagen/judging"),
+}
 LONGEST_HEAD = 10_000
 
 

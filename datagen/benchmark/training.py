@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.corpus_rows import read_rows
-from datagen.benchmark.known import true_class
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.judging.known import true_class
+from datagen.judging.user_code import user_code
 from datagen.progress import Count, Say, ignore
-from datagen.user_code import user_code
 from labels.classifier.alarm import Alarm
 from labels.classifier.classes import CLASSES, EVEN, HEALTHY
 from labels.classifier.learners import LEARNERS
@@ -98,7 +98,7 @@ class Model:
 def training_records(folder: Path, also_tested: bool, first: int | None = None) -> pandas.DataFrame:
     """Labels of the records to learn from, the `first` so many: without the split "test" where that is tested on.
 
-    Raises BadInput if it is a corpus of recordings, or holds too few virtual bearings.
+    Raises BadInput if these are of too few virtual bearings.
     """
     labels = Corpus(folder).labels
     classes = np.array([true_class(row) for _, row in labels.iterrows()])

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.benchmark.corpus_rows import CorpusRows
-from datagen.benchmark.known import true_class, true_location
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
+from datagen.judging.known import true_class, true_location
 from labels.classifier.classes import called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule, line_heights

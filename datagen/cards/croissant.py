@@ -9,7 +9,7 @@ from typing import Any
 
 from datagen.cards.facts import Facts
 from datagen.corpus_files.index import PLACE_COLUMNS, index_path
-from datagen.corpus_files.shard import file_hash
+from datagen.files.digest import file_hash
 from labels.schema import LABELS
 
 CONFORMS_TO = "http://mlcommons.org/croissant/1.0"

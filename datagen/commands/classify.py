@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.benchmark.options import SPEED_ERROR, Learning, Options, Scoring
+from datagen.benchmark.options import Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
+from datagen.judging.known import SPEED_ERROR
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:

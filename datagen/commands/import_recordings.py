@@ -59,9 +59,8 @@ def _print_result(done: Imported) -> None:
 
 def _unjudged(folder: Path) -> Counter[str]:
     """How many records of a corpus say too little of their bearing or speed to be judged, by what is missing."""
-    from datagen.benchmark.fitness import what_is_missing
-    from datagen.benchmark.known import known_kinematics
     from datagen.corpus import Corpus
+    from datagen.judging.known import known_kinematics, what_is_missing
 
     with Corpus(folder) as corpus:
         rows = corpus.labels.to_dict("records")

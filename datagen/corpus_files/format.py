@@ -68,10 +68,10 @@ class Identity:
 def format_hash() -> str:
     """Hash of the names, dimensions, types, units and meanings of all variables and labels, 16 hexadecimal digits."""
     rows = [FORMAT, *map(asdict, VARIABLES), *map(asdict, LABELS)]
-    return hashlib.sha256(json.dumps(rows, sort_keys=True).encode()).hexdigest()[:16]
+    return data_hash(rows)
 
 
-def data_hash(data: dict[str, Any]) -> str:
+def data_hash(data: Any) -> str:
     """Hash of plain data, 16 hexadecimal digits."""
     return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]
 

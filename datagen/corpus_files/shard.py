@@ -19,8 +19,6 @@ from labels.schema import LABELS
 if TYPE_CHECKING:
     import xarray
 
-READ_BLOCK = 1 << 20
-
 
 @dataclass(frozen=True)
 class Failure:
@@ -150,15 +148,6 @@ def is_whole(folder: Path, sidecar: Sidecar) -> bool:
         return True
     path = shard_path(folder, sidecar.shard)
     return path.is_file() and path.stat().st_size == sidecar.bytes
-
-
-def file_hash(path: Path) -> str:
-    """SHA-256 of the file's bytes."""
-    digest = hashlib.sha256()
-    with path.open("rb") as file:
-        while block := file.read(READ_BLOCK):
-            digest.update(block)
-    return digest.hexdigest()
 
 
 def finished_shards(folder: Path) -> Iterator[Sidecar]:

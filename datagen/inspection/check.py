@@ -15,8 +15,9 @@ from datagen.corpus_files.format import FORMAT, content_hash, format_hash
 from datagen.corpus_files.index import LABEL_COLUMNS, read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpus_files.reading import READ_ERRORS, unencodable
-from datagen.corpus_files.shard import Sidecar, file_hash, label_columns, read_sidecar, shard_path
+from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
+from datagen.files.digest import file_hash
 from datagen.files.netcdf import ONE_AT_A_TIME
 from datagen.inspection.conformity import violations
 from datagen.inspection.manifest_check import differences, recipe_of

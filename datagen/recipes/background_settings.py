@@ -60,7 +60,7 @@ class GearSettings(Table):
     sidebands: Annotated[Distribution, Whole(0, MOST_SIDEBANDS)] = Fixed(2)
     """Sidebands of each shaft on each side of each harmonic."""
     modulation: Share = Fixed(0.3)
-    """Depth of the modulation by the bearing's shaft; sideband k has half of its power k."""
+    """Depth of the modulation by the bearing's shaft; half of its k-th power is what sideband k has of its harmonic."""
     other_modulation: Share = Fixed(0.3)
     """The same by the other shaft."""
 

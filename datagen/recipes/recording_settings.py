@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,6 +14,7 @@ from pydantic_core import PydanticCustomError
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
+from datagen.files.digest import file_hash
 from datagen.formats.csv_layout import CsvLayout
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recording_file import read_background
@@ -94,7 +94,7 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
         raise _refused(f"{path.name} does not state its sampling rate", "rate_hz", "a number of Hz")
     if read.rate is not None and stated != read.rate:
         raise _refused(f"{path.name} says {read.rate:g} Hz", "rate_hz", f"{read.rate:g}")
-    sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+    sha256 = file_hash(path)
     if value.get("sha256", sha256) != sha256:
         raise _refused(f"{path.name} is another file: its SHA-256 is {sha256}", "sha256")
     rate = float(stated) if type(stated) is int else stated
@@ -104,7 +104,7 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
 @lru_cache(maxsize=4)
 def _loaded(path: str, channels: tuple[str, ...] | None, layout: CsvLayout) -> tuple[NDArray[np.float32], str]:
     samples = read_background(Path(path), channels, layout).samples
-    return samples, hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    return samples, file_hash(Path(path))
 
 
 def _refused(problem: str, field: str, allowed: str = "") -> PydanticCustomError:

@@ -39,7 +39,8 @@ class Signal(Table):
             low, high = self.envelope_band_hz
             nyquist = self.rate_hz.lowest / 2.0
             if not 0.0 <= low < high <= nyquist:
-                problem = "the band is empty" if low >= high else "the band is not below half the sampling rate"
+                above = "the band is not below half the sampling rate"
+                problem = "the band is empty" if low >= high else "the band begins below 0 Hz" if low < 0.0 else above
                 raise refuse(problem, "envelope_band_hz", f"0 <= low < high <= {nyquist:g}")
             narrow = self.too_narrow(self.envelope_band_hz)
             if narrow is not None:

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.corpus_files.shard import file_hash
 from datagen.errors import BadInput
+from datagen.files.digest import file_hash
 from datagen.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.formats.csv_file import Columns
 from datagen.formats.csv_layout import CsvLayout

@@ -2,6 +2,6 @@
 
 - `generate`: from a recipe to a corpus; `run`: one run over its folder; `earlier`: what runs before left there
 - `requirements`: what can never be made is refused; `plan`: which record goes into which shard;
-  `redraws`: how often it drew again
+  `redraws`: how often it drew again; `rates` that are too low
 - `workers`, and the `task` of each
 """

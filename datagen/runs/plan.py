@@ -16,6 +16,7 @@ from datagen.progress import Say, Throttle, ignore
 from datagen.recipes.recipe import Recipe
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
+from datagen.runs.rates import TooLowRates
 from datagen.runs.redraws import RedrawCount
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -50,19 +51,20 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
 
     Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
     is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. `say` is called with how far
-    it has got where that takes long, and at the end with a sentence on impossible draws where they are many. Raises
-    BadInput if a record can hardly be drawn.
+    it has got where that takes long, and at the end with a sentence on impossible draws where they are many and on
+    rates that are too low. Raises BadInput if a record can hardly be drawn.
     """
     shards: list[PlannedShard] = []
     growing: dict[Hashable, int] = {}
     forces_kept: set[tuple[str, str]] = set()
-    redraws = RedrawCount(recipe)
+    redraws, rates = RedrawCount(recipe), TooLowRates()
     reports = Throttle(SECONDS_BETWEEN_REPORTS, time.monotonic() + SECONDS_BETWEEN_REPORTS)
     for record in range(stop):
         if reports.due(time.monotonic()):
             say(f"{record} of {stop} records are drawn; none is made before all are")
         scenario = draw_scenario(recipe, record)
         redraws.add(scenario)
+        rates.add(scenario)
         stored = stored_signals(recipe, scenario, forces_kept)
         kind = (shard_key(scenario), stored)
         if kind not in growing:
@@ -74,7 +76,7 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
         shards[place] = replace(shards[place], records=(*shards[place].records, record))
         if len(shards[place].records) == recipe.store.records_per_shard:
             del growing[kind]
-    if sentence := redraws.sentence():
+    for sentence in filter(None, (redraws.sentence(), rates.sentence())):
         say(sentence)
     return shards
 

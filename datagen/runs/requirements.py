@@ -13,13 +13,11 @@ from datagen.errors import BadInput
 from datagen.files.byte_counts import bytes_text
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, stored_bytes
+from datagen.runs.rates import against_rate, lowest_rate
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from datagen.settings.toml_lines import Location, place_in_file
-from physics.integrators.propagator import reach
-from physics.motion import motion_model
-from physics.outcome import SimulationFailed
-from physics.response.oversampling import MOST_OVERSAMPLING, SAMPLES_PER_FAST_PERIOD, oversampling
+from physics.response.oversampling import oversampling
 
 MOST_LOOKED_AT = 20  # records of a part, one of which must be possible
 SAMPLE_BYTES = 220.0  # that a simulated sample takes while its record is made (measured: 170 to 220)
@@ -33,7 +31,7 @@ def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
         refusal = None
         for record in _first_of_part(recipe, index, asked):
             scenario = draw_scenario(recipe, record)
-            problem = _against_rate(scenario)
+            problem = against_rate(scenario)
             if not problem:
                 break
             allowed = f"about {lowest_rate(scenario):.3g} Hz or more"
@@ -42,15 +40,6 @@ def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
         else:
             if refusal is not None:
                 raise refusal
-
-
-def _against_rate(scenario: Scenario) -> str:
-    """Why the scenario cannot be simulated at its rate, empty if it can."""
-    try:
-        oversampling(scenario.scene, scenario.rate, scenario.chain.fastest)
-    except SimulationFailed as problem:
-        return str(problem)
-    return ""
 
 
 def _first_of_part(recipe: Recipe, index: int, asked: Sequence[Span]) -> list[int]:
@@ -62,12 +51,6 @@ def _first_of_part(recipe: Recipe, index: int, asked: Sequence[Span]) -> list[in
                 if len(found) == MOST_LOOKED_AT:
                     return found
     return found
-
-
-def lowest_rate(scenario: Scenario) -> float:
-    """The sampling rate (Hz) below which the fastest mode of the scenario's rig cannot be held."""
-    radians_a_second = reach(motion_model(scenario.scene), 1.0)
-    return radians_a_second / (2.0 * math.pi) * SAMPLES_PER_FAST_PERIOD / MOST_OVERSAMPLING
 
 
 def require_memory(recipe: Recipe) -> None:
@@ -83,7 +66,7 @@ def require_record_memory(recipe: Recipe, scenario: Scenario, stored: tuple[str,
 
 def record_memory(scenario: Scenario, stored: tuple[str, ...]) -> float:
     """About how many bytes of memory a record takes while it is made."""
-    factor = 1 if _against_rate(scenario) else oversampling(scenario.scene, scenario.rate, scenario.chain.fastest)
+    factor = 1 if against_rate(scenario) else oversampling(scenario.scene, scenario.rate, scenario.chain.fastest)
     return SAMPLE_BYTES * scenario.simulated_samples * factor + COPIES * stored_bytes(scenario, stored, "none")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
 from datagen.sizing.error_tables import error_tables
 from datagen.sizing.figures import figures_of
-from datagen.sizing.record_errors import extent_error, mean_of, median_of, noise_level
+from datagen.sizing.record_errors import arc_error, extent_error, mean_of, median_of, noise_level
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from datagen.sizing.size_summary import EventFigures, KnownSizeErrors, LongSpalls, Seconds, SizeSummary
 from labels.event_scores import EventScores
@@ -43,9 +43,7 @@ def _long(records: list[ScoredRecord]) -> LongSpalls:
     long = [record for record in records if record.has_events and not record.scorable]
     answered = [record for record in long if record.found]
     near = [record for record in answered if record.answer.candidates]
-    errors = [
-        min(abs(c - record.truth.extent) for c in record.answer.candidates) / record.truth.extent for record in near
-    ]
+    errors = [min(arc_error(record, arc) for arc in record.answer.candidates) for record in near]
     return LongSpalls(
         records=len(long),
         answered=len(answered),
@@ -69,7 +67,7 @@ def _known_size(records: list[ScoredRecord]) -> KnownSizeErrors:
         if known is not None:
             factor = known_size_factor(known.answer.extent, known.truth.extent)
             before.append(extent_error(record))
-            after.append(abs(record.answer.extent * factor - record.truth.extent) / record.truth.extent)
+            after.append(arc_error(record, record.answer.extent * factor))
     return KnownSizeErrors(
         records=len(before),
         arc_error_without=mean_of(before),

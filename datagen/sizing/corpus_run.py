@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 
 from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
+from datagen.judging.scored_runs import write_line
 from datagen.progress import Count, ignore
-from datagen.scored_runs import write_line
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.comparison import score_record, unsized_row
 from datagen.sizing.estimators import find_estimator
@@ -22,7 +21,6 @@ from datagen.sizing.size_scores import SizeScores
 from datagen.sizing.size_summary import StatedSizes
 from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
-from datagen.versions import program_versions
 from labels.schema import SPLITS
 
 ALL = "all"
@@ -85,9 +83,8 @@ def _counted(scored: Iterator[ScoredRecord], total: int, count: Count) -> list[S
 
 def _log_scores(folder: Path, name: str, stated: StatedSizes | None) -> None:
     """Append to the log beside recordings when and with what the estimator of that name was scored on them, and how."""
-    time = datetime.now(UTC).isoformat(timespec="seconds")
     scores = None if stated is None else flat_summary(stated)
-    write_line(folder, {"time": time, "sizes_by": name, "versions": program_versions(), "scores": scores})
+    write_line(folder, {"sizes_by": name, "scores": scores})
 
 
 def _scored(

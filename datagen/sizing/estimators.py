@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.judging.user_code import FIELD, load_user_code
 from datagen.sizing.user_estimator import UserEstimator
-from datagen.user_code import FIELD, load_user_code
 from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.estimation.estimator import SizeEstimator
 from labels.spall_size.situation import Situation

@@ -12,6 +12,7 @@ import numpy as np
 from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
 from datagen.sizing.estimators import AnyEstimator
+from datagen.sizing.record_errors import arc_error, extent_error
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from datagen.sizing.stated_situation import reason_against
@@ -128,12 +129,7 @@ def _with_effect(size: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
     scored = [record for record in corrected if record.truth.known and record.scorable]
     if not scored:
         return replace(size, corrected=len(corrected))
-    without = [_error(record, record.answer.extent / record.answer.known_size_factor) for record in scored]
-    given = [_error(record, record.answer.extent) for record in scored]
+    without = [arc_error(record, record.answer.extent / record.answer.known_size_factor) for record in scored]
+    given = [extent_error(record) for record in scored]
     means = float(np.mean(without)), float(np.mean(given))
     return replace(size, corrected=len(corrected), arc_error_without=means[0], arc_error_with=means[1])
-
-
-def _error(record: ScoredRecord, extent: float) -> float:
-    """|error| of an `extent` (rad) over the record's true one."""
-    return abs(extent / record.truth.extent - 1.0)

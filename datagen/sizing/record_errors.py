@@ -29,20 +29,21 @@ def lag_error(record: ScoredRecord) -> float:
     return abs(record.answer.lag - record.truth.lag) / record.truth.lag
 
 
+def arc_error(record: ScoredRecord, arc: float) -> float:
+    """|error| of an `arc` (rad) over the true extent of the record's spall."""
+    return abs(arc - record.truth.extent) / record.truth.extent
+
+
 def extent_error(record: ScoredRecord) -> float:
     """|error| of the extent over its true value."""
-    return abs(record.answer.extent - record.truth.extent) / record.truth.extent
-
-
-def _rule(arc: Callable[[ScoredRecord], float]) -> Callable[[ScoredRecord], float]:
-    return lambda record: abs(arc(record) - record.truth.extent) / record.truth.extent
+    return arc_error(record, record.answer.extent)
 
 
 RULES: dict[str, Callable[[ScoredRecord], float]] = {
-    "full size, own lag": _rule(lambda record: record.answer.lag_arc),
-    "half size, own lag": _rule(lambda record: 2.0 * record.answer.lag_arc),
-    "plain envelope lag": _rule(lambda record: record.envelope_arc),
-    "own lag and static release": _rule(lambda record: record.static_arc),
+    "full size, own lag": lambda record: arc_error(record, record.answer.lag_arc),
+    "half size, own lag": lambda record: arc_error(record, 2.0 * record.answer.lag_arc),
+    "plain envelope lag": lambda record: arc_error(record, record.envelope_arc),
+    "own lag and static release": lambda record: arc_error(record, record.static_arc),
 }
 
 

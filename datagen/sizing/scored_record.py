@@ -20,6 +20,12 @@ NO_SCORES = EventScores(0, 0, 0)
 NOT_ASKED = "not_asked"
 
 
+def shortest_lag(rate: float, pass_period: float) -> float:
+    """The shortest lag (s) between events of which a size may be asked for, at `rate` (Hz) and with a `pass_period`
+    (s)."""
+    return max(SHORTEST_LAG_SAMPLES / rate, SHORTEST_LAG_SPACINGS * pass_period)
+
+
 @dataclass(frozen=True)
 class Truth:
     """What a record is, and what is true of its spall; NaN where that is unknown or there is none.
@@ -123,8 +129,7 @@ class ScoredRecord:
     @property
     def has_events(self) -> bool:
         """True if the record has events far enough apart that a size may be asked for."""
-        least = max(SHORTEST_LAG_SAMPLES / self.truth.rate, SHORTEST_LAG_SPACINGS * self.truth.pass_period)
-        return self.truth.lag >= least
+        return self.truth.lag >= shortest_lag(self.truth.rate, self.truth.pass_period)
 
     @property
     def scorable(self) -> bool:

@@ -53,13 +53,12 @@ def sized_records(
     *,
     load_known: bool,
     splits: tuple[str, ...] | None = None,
-    seed: int = 0,
     only: Collection[int] | None = None,
 ) -> Iterator[SizedRecord]:
     """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
 
-    The stated shaft speed of simulated records is wrong by up to ±2 %, drawn from `seed`, so that no estimator may lean
-    on it; that of recordings is as wrong as it is, but looked for in the signal where it is nominal.
+    The stated shaft speed of simulated records is wrong by up to ±2 %, so that no estimator may lean on it; that of
+    recordings is as wrong as it is, but looked for in the signal where it is nominal.
     """
     table = _rows(folder, splits)
     able = [not reason_against(labels) for labels in table.to_dict("records")]
@@ -69,7 +68,7 @@ def sized_records(
             for labels in rows.to_dict("records"):
                 with shards.reading(str(shard)) as file:
                     stored = stored_record(file, int(labels["position"]), int(labels["record"]))
-                yield _sized(stored, {str(key): value for key, value in labels.items()}, load_known, seed)
+                yield _sized(stored, {str(key): value for key, value in labels.items()}, load_known)
 
 
 def unsized_records(folder: Path, splits: tuple[str, ...] | None) -> list[UnsizedRecord]:
@@ -92,9 +91,9 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
     return table if splits is None else table[table["split"].isin(splits)]
 
 
-def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool, seed: int) -> SizedRecord:
+def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool) -> SizedRecord:
     record, contact = int(labels["record"]), stored.contact_stiffness() if load_known else None
-    factor = wrong_speed(seed, record) if stored.simulated else speed_found(labels, stored.acceleration)
+    factor = wrong_speed(record) if stored.simulated else speed_found(labels, stored.acceleration)
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),

@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from datagen.benchmark.known import is_nominal, known_kinematics
-from datagen.benchmark.options import SPEED_ERROR
+from datagen.judging.known import SPEED_ERROR, is_nominal, known_kinematics
 from datagen.scenarios.streams import stream
 from labels.dead_sensor import live_axis
 from labels.features.analysis import analyse
@@ -16,6 +15,8 @@ from physics.arrays import Array
 from physics.checks import InvalidParameter
 from physics.operation import RPM
 
+# Of the errors of the speeds that are stated.
+SPEED_SEED = 0
 NEEDED = {
     "balls": "number of balls",
     "pitch_diameter": "pitch diameter",
@@ -39,9 +40,9 @@ def reason_against(labels: Mapping[str, Any]) -> str:
     return ""
 
 
-def wrong_speed(seed: int, record: int) -> float:
+def wrong_speed(record: int) -> float:
     """Stated over true speed of a record, within ±2 % of 1."""
-    return 1.0 + SPEED_ERROR * (2.0 * float(stream(seed, "record", record, "stated_speed").random()) - 1.0)
+    return 1.0 + SPEED_ERROR * (2.0 * float(stream(SPEED_SEED, "record", record, "stated_speed").random()) - 1.0)
 
 
 def speed_found(labels: Mapping[str, Any], acceleration: Array) -> float:

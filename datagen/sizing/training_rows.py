@@ -11,7 +11,7 @@ import numpy as np
 
 from datagen.scenarios.streams import stream
 from datagen.sizing.in_blocks import in_blocks
-from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS
+from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, shortest_lag
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from datagen.sizing.stored_record import nominal_period
 from labels.noise import with_white_noise
@@ -24,7 +24,7 @@ from labels.spall_size.situation import Situation
 from physics.arrays import Array
 
 LEVELS_DB = (20.0, 10.0, 5.0, 0.0)
-SHORTEST_LAG = 1.5  # samples
+SHORTEST_LEARNED_LAG = 1.5  # samples
 LAG_SCALE = 0.12
 LAG_RESOLVED, PLACE_RESOLVED = 0.5, 2.5  # samples; what is off by no more than that is not wrong
 PLACE_TOLERANCE = 0.4  # of the lag, or of what is left of the period
@@ -119,7 +119,7 @@ def trial(sized: SizedRecord, evidence: Evidence, excerpt: Excerpt) -> Trial:
     lag, arc, quality = math.nan, math.nan, np.zeros(evidence.pairs.lag.size)
     truth = None if sized.truth is None else sized.truth.within(*_stretch(sized, excerpt))
     true_lag = truth.lag * sized.rate if truth is not None else math.nan
-    if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LAG:
+    if truth is not None and evidence.race == sized.labels["location"] and true_lag >= SHORTEST_LEARNED_LAG:
         turns = math.floor(true_lag / (LONGEST_LAG * evidence.mean.period))
         lag = max(true_lag - turns * evidence.mean.period, 1.0)
         arc = float(sized.labels["extent"]) - turns * sized.situation.bearing().spacing
@@ -147,7 +147,7 @@ def _stretch(sized: SizedRecord, excerpt: Excerpt) -> tuple[float, float]:
 
 
 def _asked(sized: SizedRecord, true_lag: float) -> bool:
-    least = max(SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS * nominal_period(sized.labels) * sized.rate)
+    least = shortest_lag(sized.rate, nominal_period(sized.labels)) * sized.rate
     return true_lag >= least and float(sized.labels["extent_spacing"]) <= LONGEST_SCORED_SPACINGS
 
 

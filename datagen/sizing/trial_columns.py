@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.sizing.scored_record import NO_EVENT_SAMPLES
 from datagen.sizing.training_rows import Trial
 from physics.arrays import Array
 
 Mask = NDArray[np.bool_]
 
-SHORTEST_LAG, SURE_LAG = 2.0, 3.0  # samples
+SURE_LAG = 3.0  # samples
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,12 @@ class TrialColumns:
     @property
     def eventless(self) -> Mask:
         """As stored, and no size may be given: no event, or a lag below two samples."""
-        return self.stored & ~(self.true_lag >= SHORTEST_LAG)
+        return self.stored & ~(self.true_lag >= NO_EVENT_SAMPLES)
 
     @property
     def decided(self) -> Mask:
         """Whether there are events is beyond doubt: none, or a lag that is not between two samples and three."""
-        return ~((self.true_lag >= SHORTEST_LAG) & (self.true_lag < SURE_LAG))
+        return ~((self.true_lag >= NO_EVENT_SAMPLES) & (self.true_lag < SURE_LAG))
 
     @property
     def as_stored(self) -> Mask:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.user_code import FIELD, user_code
+from datagen.judging.user_code import FIELD, user_code
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics.bearing import RACES

@@ -20,7 +20,7 @@ class GearMesh:
     """A gear of `teeth` on the bearing's shaft in mesh with one of `other_teeth` (0: no sidebands of its shaft).
 
     `amplitudes` (m/s²) of the mesh harmonics on each axis. `modulation` by the bearing's shaft, `other_modulation` by
-    the other's: sideband k (1 to `sidebands`) on each side has half its power k of its harmonic's amplitude.
+    the other's: sideband k (1 to `sidebands`) on each side has half of its k-th power times its harmonic's amplitude.
     InvalidParameter unless there are 1 to 1000 teeth (other teeth 0 to 1000), 0 to 50 sidebands, modulations from 0 to
     1 and no amplitude below 0.
     """

@@ -13,6 +13,8 @@ from physics.checks import require_between, require_not_negative, require_positi
 STEPS_PER_WIDTH = 8
 FEWEST_STEPS = 16
 SMALLEST_RESOLVED_STEP = 1e-5
+# A contact of next to no load is a thousandth as wide as one of any use: it would feel millions of steps.
+MOST_STEPS = 20_000
 PADDING_WIDTHS = 4
 # A patch of width w that averages what is under it halves waves of 1.66 w: sin(π w/λ) / (π w/λ) = 1/2.
 HALVED_WAVE_WIDTHS = 1.66
@@ -31,7 +33,8 @@ def draw_roughness(
     White noise, low-passed with zero phase as a contact of `contact_width` (m) averages what is under it: by a Gaussian
     filter that passes half the amplitude at a wavelength of 1.66 widths. It is tapered to exactly 0 over one width at
     each edge, and brought to zero mean and the standard deviation `deviation` (m) over the spall. Heights are rounded
-    to 1e-12 m, so that their decimal text is exact. Steps are an eighth of the contact width or shorter.
+    to 1e-12 m, so that their decimal text is exact. Steps are an eighth of the contact width or shorter, but no more
+    than MOST_STEPS: a narrower contact is taken for one of eight steps of these.
 
     Without a contact width the noise is not filtered, for a ball that is rolled over it: the step is an eighth of the
     gap that a ball bridges when it sags by `deviation` into it, √(8 Rb `deviation`), but at least 10 µm. No deviation:
@@ -47,6 +50,8 @@ def draw_roughness(
     width = resolved_width(bearing, deviation) if contact_width is None else contact_width
     require_positive("contact_width", width, "m")
     count = max(FEWEST_STEPS, math.ceil(STEPS_PER_WIDTH * length / width))
+    if contact_width is not None and count > MOST_STEPS:
+        count, width = MOST_STEPS, STEPS_PER_WIDTH * length / MOST_STEPS
     step = length / count
     if contact_width is None:
         noise = generator.uniform(-1.0, 1.0, count + 1)

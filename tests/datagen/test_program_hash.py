@@ -60,7 +60,8 @@ def test_all_that_draws_describes_and_stores_is_hashed_and_nothing_else():
 def test_all_of_ours_that_makes_rows_and_learns_from_them_is_hashed():
     hashed = {package for packages in CODE.values() for package in packages}
     reached = packages_reached("datagen.benchmark.classify")
-    assert {package for package in reached if package.startswith("labels")} | {"datagen/benchmark"} == hashed
+    theirs = {"datagen/benchmark", "datagen/judging"}
+    assert {package for package in reached if package.startswith("labels")} | theirs == hashed
 
 
 @pytest.fixture
@@ -68,7 +69,7 @@ def hash_after(tmp_path, monkeypatch):
     """Function (file or None, *packages) → hash of a source tree of one line a file, that file changed."""
 
     def run(changed, *packages):
-        for package in (*CORPUS_CODE, "labels/classifier", "datagen/benchmark", "datagen/paper"):
+        for package in (*CORPUS_CODE, "labels/classifier", "datagen/benchmark", "datagen/judging", "datagen/paper"):
             (tmp_path / package).mkdir(parents=True, exist_ok=True)
             (tmp_path / package / "one.py").write_text("ONE = 1\n")
         if changed:
@@ -86,7 +87,7 @@ def test_a_corpus_is_of_another_version_after_a_change_where_records_are_made(ha
     assert hash_after(f"{package}/one.py") != hash_after(None)
 
 
-@pytest.mark.parametrize("package", ["datagen/paper", "datagen/benchmark", "labels/classifier"])
+@pytest.mark.parametrize("package", ["datagen/paper", "datagen/benchmark", "datagen/judging", "labels/classifier"])
 def test_a_corpus_is_of_the_same_version_after_a_change_elsewhere(hash_after, package):
     assert hash_after(f"{package}/one.py") == hash_after(None)
 

@@ -48,15 +48,7 @@ ROOMS = {
 PLACES = [(package, room) for package, rooms in ROOMS.items() for room in rooms]
 # The floors of datagen, packages and lone files: each may import from itself and from those before it.
 FLOORS = (
-    (
-        "errors",
-        "exits",
-        "garbage",
-        "progress",
-        "scored_runs",
-        "user_code",
-        "versions",
-    ),
+    ("errors", "exits", "garbage", "progress", "versions"),
     ("files",),
     ("distributions",),
     ("settings",),
@@ -69,8 +61,8 @@ FLOORS = (
     ("recordings",),
     ("runs",),
     ("inspection",),
-    ("benchmark",),
-    ("sizing",),
+    ("judging",),
+    ("benchmark", "sizing"),
     ("charts",),
     ("drawing",),
     ("paper",),

@@ -46,10 +46,10 @@ class PassTrack:
 
 
 def track_passes(energy: Array, rate: float, period: float) -> PassTrack | None:
-    """The passes in `energy` (T,) sampled at `rate` (Hz), their period known to about ±4 % (s).
+    """The passes in `energy` (T,) sampled at `rate` (Hz), their `period` (s) known to within FIRST_TOLERANCE.
 
-    None if the record holds fewer than four. The path is the best one by dynamic programming under a random walk of
-    0.9 % of a period a pass, its pattern learned from the record in three rounds.
+    None if the record is shorter than FEWEST_PASSES + 1 of them. The path is the best one by dynamic programming under
+    a random walk of 0.9 % of a period a pass, its pattern learned from the record in three rounds.
     """
     step = period * rate / CELLS
     log_energy = _cells(energy, step)

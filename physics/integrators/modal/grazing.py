@@ -132,8 +132,8 @@ def _first_corner(contacts: Contacts, ride: Ride) -> float:
     """Share of the step at which a free ball is first taken hold of at a corner of its path, where it begins to be
     pressed all at once; LATER if at none."""
     track = contacts.track
-    first, behind = span_of(track.paths, ride.spall)
-    corners = track.paths.pieces[first:behind, BREAK]
+    first, last = span_of(track.paths, ride.spall)
+    corners = track.paths.pieces[first:last, BREAK]
     for corner in range(np.searchsorted(corners, ride.arc, side="right"), corners.size):
         behind = (corners[corner] - ride.arc) / ride.travel + BEHIND
         if not behind < 1.0:

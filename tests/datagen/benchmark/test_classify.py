@@ -3,6 +3,7 @@
 import json
 import shutil
 import sys
+from datetime import UTC, datetime
 
 import numpy as np
 import pandas
@@ -10,7 +11,6 @@ import pytest
 from command_line import run
 
 from datagen.benchmark.corpus_rows import read_rows
-from datagen.benchmark.fitness import UNKNOWN_SPEED
 from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
@@ -25,10 +25,12 @@ from datagen.benchmark.training import (
 from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.judging.known import UNKNOWN_SPEED
+from datagen.judging.scored_runs import log_path, write_line
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.scored_runs import log_path, write_line
+from datagen.versions import program_versions
 from labels.classifier.votes import averaged, joined
 from labels.features.table import FEATURE_NAMES
 
@@ -357,7 +359,11 @@ def test_raw_windows_of_any_rate_hold_the_same_tone():
 def test_runs_on_recordings_are_listed_line_by_line(tmp_path):
     write_line(tmp_path, {"first": 1})
     write_line(tmp_path, {"second": 2})
-    assert [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()] == [{"first": 1}, {"second": 2}]
+    lines = [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()]
+    assert [list(line) for line in lines] == [["time", "first", "versions"], ["time", "second", "versions"]]
+    for line in lines:
+        assert datetime.fromisoformat(line["time"]) <= datetime.now(UTC)
+        assert line["versions"] == program_versions()
     with pytest.raises(BadInput, match="logged"):
         write_line(tmp_path / "nowhere", {})
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from datagen.benchmark.fitness import NO_ROTATION, TOO_FAST, TOO_SHORT, UNKNOWN_GEOMETRY, UNKNOWN_SPEED, unfit
-from datagen.benchmark.known import known_kinematics
+from datagen.benchmark.fitness import TOO_FAST, TOO_SHORT, unfit
+from datagen.judging.known import NO_ROTATION, UNKNOWN_GEOMETRY, UNKNOWN_SPEED, known_kinematics
 
 RATE = 12_000.0
 GEOMETRY = {"balls": 9, "pitch_diameter": 39.04e-3, "ball_diameter": 7.94e-3, "contact_angle": 0.0}

@@ -6,7 +6,7 @@ import pytest
 
 from datagen.benchmark.log_line import log_run
 from datagen.errors import BadInput
-from datagen.scored_runs import log_path
+from datagen.judging.scored_runs import log_path
 from labels.interval import Interval
 
 SCORES = {"faults_balanced_accuracy": {"value": 0.75, "low": 0.5, "high": 1.0}}

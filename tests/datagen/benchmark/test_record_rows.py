@@ -9,12 +9,12 @@ import pytest
 
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import TOO_SHORT
-from datagen.benchmark.known import known_kinematics
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordRows, record_rows, signal_rows
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.judging.known import known_kinematics
 from labels.classifier.liveness import DEAD
 from labels.features.analysis import analyse
 from labels.features.table import FEATURE_NAMES

@@ -11,7 +11,6 @@ from datagen.corpus_files.format import Identity, to_dataset
 from datagen.corpus_files.shard import (
     Failure,
     Sidecar,
-    file_hash,
     finished_shards,
     read_sidecar,
     shard_path,
@@ -19,6 +18,7 @@ from datagen.corpus_files.shard import (
     sweep_unfinished,
     write_shard,
 )
+from datagen.files.digest import file_hash
 from datagen.records.record import Record
 
 IDENTITY = Identity("r" * 16, "m" * 16, "f" * 16, "p" * 16)

@@ -178,6 +178,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
         ('choice = ["gearbox", "fan"]', 'choice = ["fun"]', "part[2].machine.rig", 'did you mean "fan"?'),
         ("65536", "65536\nenvelope_band_hz = [9000, 40000]", "signal.envelope_band_hz", "high <= 32768"),
         ("65536", "65536\nenvelope_band_hz = [9000, 8000]", "signal.envelope_band_hz", "the band is empty"),
+        ("65536", "65536\nenvelope_band_hz = [-5, 8000]", "signal.envelope_band_hz", "the band begins below 0 Hz"),
         ("0.5\n", "0.0011\n[store]\nclean = 1\n", "store.clean", "true or false"),
         ("seed = 1", "seed = -1", "seed", "at least 0"),
         ("seed = 1", "seed = 1.5", "seed", "a whole number"),

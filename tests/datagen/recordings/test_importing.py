@@ -19,9 +19,9 @@ from imports import Bring, Mat
 from scipy.io import wavfile
 
 from datagen.corpus import Corpus
-from datagen.corpus_files.shard import file_hash
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
+from datagen.files.digest import file_hash
 from datagen.inspection.check import check_corpus
 from datagen.inspection.info import corpus_info
 from datagen.recordings.listing import Request

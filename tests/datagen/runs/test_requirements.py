@@ -14,8 +14,8 @@ from datagen.drawing.preview import recipe_portrait
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.plan import plan_shards, stored_bytes
+from datagen.runs.rates import lowest_rate
 from datagen.runs.requirements import (
-    lowest_rate,
     memory_bytes,
     record_memory,
     require_possible_rates,
@@ -86,6 +86,12 @@ def test_parts_of_which_some_records_are_possible_are_made(tmp_path: Path) -> No
     with pytest.raises(BadInput, match="a rate of 500 Hz has to be raised"):
         require_possible_rates(recipe, ((one, one + 1),))
     require_possible_rates(recipe, ((0, 20),))
+    said: list[str] = []
+    plan_shards(recipe, 20, said.append)
+    needed = max(lowest_rate(draw_scenario(recipe, record)) for record in range(20))
+    (sentence,) = said
+    assert sentence.startswith(f"{possible.count(False)} of 20 records cannot be made at their sampling rate (for exam")
+    assert sentence.endswith(f"signal.rate_hz of about {needed:.3g} or more would do for all")
 
 
 @pytest.mark.parametrize("duration", ["3600", "{uniform = [3000, 3600]}"])

@@ -69,6 +69,12 @@ def test_a_compression_that_is_not_offered_is_refused_with_its_line(tmp_path: Pa
     assert "store.compression = \"gzip\"; allowed: 'zlib' or 'none'" in said
 
 
+@pytest.mark.parametrize("when", ["1979-05-27", "07:32:00", "1979-05-27T07:32:00"])
+def test_a_date_is_shown_as_it_was_written(when: str, tmp_path: Path) -> None:
+    said = refusal(GOOD.replace("seed = 1", f"seed = {when}"), tmp_path)
+    assert f"seed = {when}; allowed: a whole number" in said
+
+
 def test_mains_that_no_record_can_hold_are_refused(tmp_path: Path) -> None:
     hum = "[background.mains_hum]\nfrequency_hz = 40000\namplitude_m_s2 = 1\n[[part]]"
     said = refusal(GOOD.replace("[[part]]", hum), tmp_path)

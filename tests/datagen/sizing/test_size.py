@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from command_line import run
 
-from datagen.benchmark.options import SPEED_ERROR
 from datagen.errors import BadInput
+from datagen.judging.known import SPEED_ERROR
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
@@ -267,7 +267,7 @@ def test_intervals_are_of_a_bootstrap_over_virtual_bearings(scored: Callable[...
 
 
 def test_the_error_of_the_stated_speed_goes_its_own_way_whatever_the_seed_of_the_recipe() -> None:
-    stated = [wrong_speed(0, k) for k in range(200)]
+    stated = [wrong_speed(k) for k in range(200)]
     # Of 200 even draws the outermost lie within a tenth of either end but in one case of 10⁴.
     assert 1.0 - SPEED_ERROR <= min(stated) < 1.0 - 0.9 * SPEED_ERROR
     assert 1.0 + 0.9 * SPEED_ERROR < max(stated) <= 1.0 + SPEED_ERROR

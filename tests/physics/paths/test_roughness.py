@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from physics.checks import InvalidParameter
-from physics.paths.roughness import draw_roughness, edge_window, low_passed, resolved_width
+from physics.paths.roughness import MOST_STEPS, draw_roughness, edge_window, low_passed, resolved_width
 from physics.spall import Spall
 
 WIDTH = 0.24e-3
@@ -43,6 +43,12 @@ def test_steps_are_an_eighth_of_the_contact_width_or_shorter(gearbox, extent, wi
     values = draw(gearbox, 0, race, extent, 1e-6, width)
     step = extent * gearbox.bearing.raceway_radius(race) / (values.size - 1)
     assert step <= width / 8 * (1 + 1e-12)
+
+
+def test_a_contact_of_next_to_no_load_feels_no_more_steps_than_there_may_be(gearbox):
+    one, other = draw(gearbox, 3, width=1e-9), draw(gearbox, 3, width=1e-7)
+    assert one.size == MOST_STEPS + 1
+    assert np.array_equal(one, other)
 
 
 def test_the_filter_has_no_phase_and_halves_waves_of_1_66_contact_widths_as_a_moving_average_does():

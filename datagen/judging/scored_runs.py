@@ -4,10 +4,12 @@ never rewritten."""
 from __future__ import annotations
 
 import json
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.versions import program_versions
 
 NAME = "scored_runs.jsonl"
 
@@ -17,8 +19,10 @@ def log_path(folder: Path) -> Path:
     return folder / NAME
 
 
-def write_line(folder: Path, line: dict[str, Any]) -> None:
-    """Append one line to the log of a corpus; raises BadInput if that is impossible."""
+def write_line(folder: Path, said: dict[str, Any]) -> None:
+    """Append a line to the log of a corpus: what is `said`, when, and by which versions; raises BadInput if that is
+    impossible: a run that leaves no trace is not made."""
+    line = {"time": datetime.now(UTC).isoformat(timespec="seconds"), **said, "versions": program_versions()}
     try:
         with log_path(folder).open("a", encoding="utf-8") as file:
             file.write(json.dumps(line, default=str) + "\n")

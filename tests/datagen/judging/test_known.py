@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from datagen.benchmark.known import known_kinematics, true_class, true_location
+from datagen.judging.known import known_kinematics, true_class, true_location
 
 GEOMETRY = {"balls": 9, "pitch_diameter": 39.04e-3, "ball_diameter": 7.94e-3, "contact_angle": 0.0}
 UNKNOWN = dict.fromkeys(GEOMETRY, math.nan)

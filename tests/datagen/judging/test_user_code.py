@@ -6,7 +6,7 @@ import pytest
 from command_line import run
 
 from datagen.errors import BadInput
-from datagen.user_code import load_user_code
+from datagen.judging.user_code import load_user_code
 
 BROKEN = {
     "h_syntax": "def broken(:\n",

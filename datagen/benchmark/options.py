@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from datagen.judging.known import SPEED_ERROR
+from datagen.judging.stated_speed import SPEED_ERROR
 
 FEATURES, WINDOWS = "features", "windows"
 

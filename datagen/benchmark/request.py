@@ -15,8 +15,8 @@ from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
-from datagen.judging.known import SPEED_ERROR
 from datagen.judging.scored_runs import log_path
+from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.judging.user_code import load_user_code
 from labels.classifier.learners import LEARNERS
 

@@ -12,7 +12,7 @@ from datagen.benchmark.options import Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
-from datagen.judging.known import SPEED_ERROR
+from datagen.judging.stated_speed import SPEED_ERROR
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:

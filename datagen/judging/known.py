@@ -13,10 +13,6 @@ from labels.schema import LOCATIONS, UNKNOWN
 from physics.orders import ball_spin_order
 
 RPM_PER_HZ = 60.0
-# Largest relative error of the shaft speeds that classifiers and size estimators are given in training. The true speed
-# is 2.04 % above one given 2 % too low, and features look for it within MEASURED_WITHIN of the one given
-# (labels/features/kinematics.py): so that is a little wider, and a test asserts it.
-SPEED_ERROR = 0.02
 UNKNOWN_SPEED = "speed unknown"
 UNKNOWN_GEOMETRY = "geometry unknown"
 NO_ROTATION = "speed not above 0"

@@ -6,7 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from datagen.judging.known import SPEED_ERROR, is_nominal, known_kinematics
+from datagen.judging.known import is_nominal, known_kinematics
+from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.scenarios.streams import stream
 from labels.dead_sensor import live_axis
 from labels.features.analysis import analyse

@@ -22,7 +22,7 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, train_models, train_rule, training_set
 from datagen.benchmark.verdicts import judge
 from datagen.corpus import Corpus
-from datagen.judging.known import SPEED_ERROR
+from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.sizing.estimators import default_estimator

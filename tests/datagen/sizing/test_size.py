@@ -14,7 +14,7 @@ import pytest
 from command_line import run
 
 from datagen.errors import BadInput
-from datagen.judging.known import SPEED_ERROR
+from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from physics._jit import njit_inline, njit_pasted
 from physics.arrays import Array
 from physics.contact.contact_set import count_ahead
+from physics.integrators.modal.judgement import LEAST_RATIO
 from physics.integrators.modal.memory import (
     BALL,
     BETWEEN,
@@ -86,8 +87,8 @@ def up_to_kink(balls: Array, grid: Stride, stops: Stops, memory: Memory, row: in
 def even_share(left: int, longest: int) -> int:
     """Length of the next of the steps, none above the `longest`, that cover what is `left` of a sample; all in units.
 
-    They are as few as can be and all of like length. A long one and a short rest would be more wrong, and behind the
-    rest the next long one could not be carried (judgement.py): its error would look larger, and the pace stay.
+    They are as few as can be and all of like length. Behind a long one and a short rest the next long one could not be
+    carried (judgement.py): its error would look larger, and the pace stay.
     """
     steps = (left + longest - 1) // longest
     return (left + steps - 1) // steps
@@ -117,7 +118,7 @@ def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choic
     units = min(left, max(1, int((time + clock[PACE]) / unit + NEARLY) - marks[CELL]))
     row = units if marks[ON_GRID] == 1 else BETWEEN
     choice = up_to_kink(balls, grid, stops, memory, row, units, (marks[CELL] + units) * unit)
-    if units == left or choice.beyond > choice.end:
+    if not 0 < left - units < LEAST_RATIO * units or choice.beyond > choice.end:
         return choice
     units = even_share(left, units)
     row = units if marks[ON_GRID] == 1 else BETWEEN

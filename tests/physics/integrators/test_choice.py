@@ -7,6 +7,7 @@ from physics.assembly import assemble
 from physics.contact.forces import ACTIVE, COMPRESSION
 from physics.integrators.modal.choice import next_step
 from physics.integrators.modal.flow import linear_flow
+from physics.integrators.modal.judgement import LEAST_RATIO
 from physics.integrators.modal.memory import (
     BALL,
     CELL,
@@ -79,17 +80,18 @@ def test_a_stride_does_not_end_where_a_kink_is(choose):
     ("begin", "pace", "lengths"),
     [
         (0, 14, [8, 8]),  # and not 14 and a rest of 2, too short a past for the next 14
-        (0, 12, [8, 8]),
         (0, 15.9, [8, 8]),
-        (0, 7, [6, 5, 5]),
-        (0, 3, [3, 3, 3, 3, 2, 2]),
+        (0, 12, [12, 4]),
+        (0, 7.5, [7, 7, 2]),
+        (0, 5, [5, 5, 3, 3]),
+        (0, 3, [3, 3, 3, 3, 3, 1]),
         (0, 16, [16]),
         (0, 0.9, [1] * 16),
         (5, 10, [6, 5]),
         (9, 10, [7]),
     ],
 )
-def test_what_is_left_of_a_sample_is_covered_by_as_few_steps_as_the_pace_allows_of_like_length(
+def test_a_rest_of_a_sample_that_could_not_carry_the_next_step_is_shared_with_the_one_before(
     choose, begin, pace, lengths
 ):
     found, unit = [], begin
@@ -100,8 +102,10 @@ def test_what_is_left_of_a_sample_is_covered_by_as_few_steps_as_the_pace_allows_
         found.append(choice.units)
         unit += choice.units
     assert found == lengths
+    assert found[-1] >= LEAST_RATIO * min(UNITS, max(int(pace), 1))
 
 
 def test_a_kink_that_the_pace_reaches_is_gone_to_in_one_step(choose):
     assert choose(0.0, 12.0 * UNIT, 11.5 * UNIT).end == pytest.approx(11.5 * UNIT, rel=1e-4)
-    assert choose(0.0, 12.0 * UNIT, 12.5 * UNIT).units == 8
+    assert choose(0.0, 13.0 * UNIT, 12.5 * UNIT).end == pytest.approx(12.5 * UNIT, rel=1e-4)
+    assert choose(0.0, 13.0 * UNIT, 13.5 * UNIT).units == 8

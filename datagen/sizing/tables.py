@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from rich.markup import escape
 from rich.table import Table
 
 from datagen.sizing.known_sizes import KnownSize
@@ -57,10 +56,10 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
         trust = f"{record.answer.trust:.2f}" if record.asked else ""
         table.add_row(
             str(record.truth.record),
-            escape(_source(record.truth)),
+            _source(record.truth),
             *_spall(record),
             trust,
-            escape(record.answer.reason),
+            record.answer.reason,
         )
     return table
 

@@ -91,10 +91,10 @@ def command(
 
 
 def show_tables(tables: list[Table]) -> None:
-    """Print tables as wide as the terminal."""
+    """Print tables as wide as the terminal, their texts as they stand: those of recipes may hold rich's markup."""
     from rich.console import Console
 
-    console = Console(width=None if sys.stdout.isatty() else 140)
+    console = Console(width=None if sys.stdout.isatty() else 140, markup=False, emoji=False)
     with console.capture() as shown:  # where nobody reads, rich would end the process with a code of its own
         for table in tables:
             console.print(table)

@@ -51,7 +51,7 @@ class Bar:
 
     def say(self, sentence: str) -> None:
         """Print the sentence above the bar."""
-        self._progress.console.print(sentence, highlight=False, markup=False)
+        self._progress.console.print(sentence, highlight=False, markup=False, emoji=False)
 
     def advance(self, done: int, total: int) -> None:
         """Move the bar."""

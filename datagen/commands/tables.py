@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rich.markup import escape
 from rich.table import Table
 
 from datagen.corpus_files.format import IMPORTED
@@ -138,8 +137,8 @@ def verdict_table(predictions: list[Prediction], models: list[str]) -> Table:
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")
     for prediction in predictions:
-        facts = (str(prediction.record), escape(prediction.recording), prediction.truth)
-        table.add_row(*facts, *(_verdict(prediction.models[model]) for model in models), escape(prediction.rejected))
+        facts = (str(prediction.record), prediction.recording, prediction.truth)
+        table.add_row(*facts, *(_verdict(prediction.models[model]) for model in models), prediction.rejected)
     return table
 
 

@@ -169,9 +169,14 @@ def global_attributes(labels: Mapping[str, Any]) -> dict[str, str]:
         "Conventions": "CF-1.11, ACDD-1.3",
         "format": FORMAT,
         "product_version": f"spallgen {program_versions()['spallgen']}",
-        "time_coverage_duration": f"PT{float(duration):.12g}S",
-        "time_coverage_resolution": f"PT{1.0 / float(rate):.12g}S",
+        "time_coverage_duration": _iso_duration(float(duration)),
+        "time_coverage_resolution": _iso_duration(1.0 / float(rate)),
     }
+
+
+def _iso_duration(seconds: float) -> str:
+    """A duration in the words of ISO 8601, which knows no powers of ten, with 12 digits."""
+    return f"PT{np.format_float_positional(seconds, precision=12, unique=False, fractional=False, trim='-')}S"
 
 
 def content_hash(dataset: xarray.Dataset) -> str:

@@ -142,9 +142,14 @@ def no_corpus(folder: Path, lacking: str) -> BadInput:
         return BadInput("this is not a folder", str(folder), allowed="the folder of a corpus")
     if has_finished_shards(folder):
         return BadInput(
-            f"the {lacking} of this corpus is lost, or its run was killed; {ANEW.format(folder=folder)}", str(folder)
+            f"the {lacking} of this corpus is lost, or its run was killed or is not done yet; "
+            f"{ANEW.format(folder=folder)}",
+            str(folder),
         )
-    return BadInput(f"this folder has no {lacking}, so it is not a corpus, or its making was interrupted", str(folder))
+    return BadInput(
+        f"this folder has no {lacking}, so it is not a corpus, or its making was interrupted or is not done yet",
+        str(folder),
+    )
 
 
 def _spans(found: list[Any], records: int) -> tuple[Span, ...]:

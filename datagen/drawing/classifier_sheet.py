@@ -72,7 +72,7 @@ def draw_scores(axes: Axes, test: CorpusScores) -> None:
     axes.set_ylim(0.0, 1.03)
     if not test.locations["none"]:
         axes.text(2, 0.5, "no healthy\nrecords", ha="center", va="center", color=GREY)
-    axes.set_title(title)
+    axes.set_title(title, parse_math=False)
     axes.legend(loc="lower left")
     faint_grid(axes)
 
@@ -80,7 +80,7 @@ def draw_scores(axes: Axes, test: CorpusScores) -> None:
 def say(axes: Axes, title: str, text: str) -> None:
     """Words in place of a panel that has nothing to show."""
     axes.axis("off")
-    axes.set_title(title)
+    axes.set_title(title, parse_math=False)
     axes.text(0.5, 0.5, text, ha="center", va="center", color=INK, transform=axes.transAxes)
 
 

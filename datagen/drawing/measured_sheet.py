@@ -68,8 +68,9 @@ def draw_measured_sheet(portrait: MeasuredPortrait) -> Figure:
     draw_close_spectrogram(figure.add_subplot(grid[2, 0], sharex=close_up), portrait)
     draw_spectrum(figure.add_subplot(grid[1, 1]), portrait.main_axis, portrait.rate, portrait.band, portrait.axis)
     draw_expected_lines(figure.add_subplot(grid[2, 1]), portrait)
-    figure.text(0.06, 0.965, heading(portrait), fontsize=13, fontweight="bold", color=INK)
-    figure.text(0.06, 0.935, summary(portrait), fontsize=9, color=GREY)
+    # Names of files and machines may hold dollar signs, which are no mathematics.
+    figure.text(0.06, 0.965, heading(portrait), fontsize=13, fontweight="bold", color=INK, parse_math=False)
+    figure.text(0.06, 0.935, summary(portrait), fontsize=9, color=GREY, parse_math=False)
     return figure
 
 

@@ -132,7 +132,7 @@ def _name_bins(axes: Axes, table: list[ErrorRow]) -> None:
     gap = " " if crowded else "\n"
     names = [f"{row.value}{gap}({row.records})" for row in table]
     aslant: dict[str, Any] = {"rotation": 25, "ha": "right", "rotation_mode": "anchor"} if crowded else {}
-    axes.set_xticks(range(len(table)), names, fontsize=7, **aslant)
+    axes.set_xticks(range(len(table)), names, fontsize=7, parse_math=False, **aslant)
 
 
 def _abstention(axes: Axes, records: list[ScoredRecord]) -> None:

@@ -62,7 +62,8 @@ class SpallSettings(Table):
     exit_taper_share: Share | None = None
     """The same as a share of the spall. If neither is given: 0.1 for profile tukey, 0 for ball_path."""
     roughness_um: Annotated[Distribution, Between(0.0, 1e3)] | None = None
-    """Standard deviation of the roughness inside the spall, µm; 0 if not given."""
+    """Standard deviation of the roughness inside the spall, µm; 0 if not given. That of profile tukey is smoothed over
+    the width of the contact under the static load, which must be above 0."""
     table: Annotated[ProfileTable, WithJsonSchema(FILE_SCHEMA)] | None = None
     """CSV file of a measured surface (angle_deg, depth_um) for profile table, which alone gives its extent, depth,
     tapers and roughness: those settings have no effect on it."""

@@ -21,15 +21,17 @@ class FileNames:
                 self.known.setdefault(spelling, []).append(path)
 
     def fitting(self, name: str) -> list[Path]:
-        """The files that are called `name`, or fit it as a pattern, by their own name or from the root; in order."""
-        if not any(sign in name for sign in WILD):
-            return self.known.get(normcase(name), [])
+        """The files that are called `name`, or if there are none fit it as a pattern, by their own name or from the
+        root; in order."""
+        called = self.known.get(normcase(name), [])
+        if called or not any(sign in name for sign in WILD):
+            return called
         return [path for path in self.names if not hidden(path, name) and fits(path, self.names[path], name)]
 
 
 def fits(path: Path, name: str, pattern: str) -> bool:
-    """True if a file, called `name` from the root, fits a pattern by that name or by its own."""
-    return fnmatch(name, pattern) or fnmatch(path.name, pattern)
+    """True if a file, called `name` from the root, is called like a pattern or fits it, by that name or by its own."""
+    return pattern in (name, path.name) or fnmatch(name, pattern) or fnmatch(path.name, pattern)
 
 
 def hidden(path: Path, pattern: str) -> bool:

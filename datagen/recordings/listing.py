@@ -119,6 +119,8 @@ class _Finder:
         for pattern in recording.patterns:
             try:
                 found = sorted(self.root.glob(pattern))
+                if (self.root / pattern).is_file():  # its name may hold brackets
+                    found = [self.root / pattern]
             except (ValueError, NotImplementedError, IndexError):
                 raise BadInput(field="files", file=place, value=pattern, allowed='as in "folder/*.mat"') from None
             fitting = [path for path in found if path.is_file() and not hidden(path, pattern)]

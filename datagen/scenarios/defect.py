@@ -160,10 +160,23 @@ def _draw_taper(
 def _draw_roughness(spall: Spall, bearing: Bearing, load: float, draw: Draw, item: int) -> Spall:
     if spall.roughness == 0.0:
         return spall
-    width = contact_width(bearing, spall.race, bearing.stribeck_peak_load(load)) if spall.profile == "tukey" else None
+    width = _smoothing_width(spall, bearing, load)
     generator = draw.stream("roughness", item)
     values = draw_roughness(generator, bearing, spall.race, spall.extent, spall.roughness, width)
     return replace(spall, roughness_values=values)
+
+
+def _smoothing_width(spall: Spall, bearing: Bearing, load: float) -> float | None:
+    """Width of the contact that smooths the roughness of a hand-set path, m; None where a ball is rolled over it."""
+    if spall.profile != "tukey":
+        return None
+    require(
+        load > 0.0,
+        f"the static load of {load:g} N gives the contact no width to smooth the roughness of profile tukey over; "
+        "allowed: a load above 0, or profile ball_path",
+        "load",
+    )
+    return contact_width(bearing, spall.race, bearing.stribeck_peak_load(load))
 
 
 def _require_condition(condition: str, extent: float, bearing: Bearing) -> None:

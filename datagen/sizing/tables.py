@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from rich.markup import escape
 from rich.table import Table
 
 from datagen.sizing.known_sizes import KnownSize
@@ -17,7 +16,7 @@ FEWEST_TO_JUDGE = 20
 
 
 def summary_table(summary: SizeSummary) -> Table:
-    """Every figure with its interval, its number of records and its target."""
+    """Every figure that records bear on, with its interval, its number of records and its target."""
     table = Table(title=f"{summary.records} records with known truth, {summary.scorable} to be given a size")
     for name in ("figure", "value", "90 % interval", "records", "target", "met"):
         table.add_column(name, justify="left" if name == "figure" else "right")
@@ -26,8 +25,9 @@ def summary_table(summary: SizeSummary) -> Table:
             mean, count = figure.mean, str(figure.count)
             table.add_row(figure.name, f"{mean.value:.3f}", _reach(mean), count, figure.target, _met(figure))
     for name, events in summary.events.items():
-        interval = _reach(events.f1) if events.true else ""
-        table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1.value:.3f}", interval, str(events.true))
+        if events.true or events.found:
+            interval = _reach(events.f1) if events.true else ""
+            table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1.value:.3f}", interval, str(events.true))
     return table
 
 
@@ -57,10 +57,10 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
         trust = f"{record.answer.trust:.2f}" if record.asked else ""
         table.add_row(
             str(record.truth.record),
-            escape(_source(record.truth)),
+            _source(record.truth),
             *_spall(record),
             trust,
-            escape(record.answer.reason),
+            record.answer.reason,
         )
     return table
 

@@ -12,7 +12,7 @@ import pytest
 import xarray
 
 from datagen.corpus_files import format
-from datagen.corpus_files.format import VARIABLE, content_hash, format_hash, to_dataset
+from datagen.corpus_files.format import VARIABLE, content_hash, format_hash, global_attributes, to_dataset
 from datagen.errors import BadInput
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes
 from datagen.inspection.conformity import violations
@@ -46,6 +46,17 @@ def test_time_opens_as_floats_of_seconds_that_start_at_zero(dataset: xarray.Data
         for name in ("time", "stiffness_time", "entry_time", "regain_time", "duration_s"):
             assert opened[name].dtype == np.float64, name
         assert opened["time"].values[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("duration", "rate", "attributes"),
+    [(2.0, 12345.678, ("PT2S", "PT0.000081000006642S")), (0.001, 1e7, ("PT0.001S", "PT0.0000001S"))],
+)
+def test_durations_among_the_attributes_are_those_of_iso_8601_which_knows_no_powers_of_ten(
+    duration: float, rate: float, attributes: tuple[str, str]
+) -> None:
+    found = global_attributes({"duration_s": duration, "rate_hz": rate})
+    assert (found["time_coverage_duration"], found["time_coverage_resolution"]) == attributes
 
 
 def test_texts_are_readable_with_plain_netcdf4(dataset: xarray.Dataset, tmp_path: Path) -> None:

@@ -76,3 +76,9 @@ def test_every_model_has_its_table_of_confusion(summary_of):
 def test_the_sheet_of_a_corpus_without_faults_is_a_picture(summary_of):
     results = Results("out/made", Options(), {"importances": {}}, [CorpusResults(summary_of(96, 0), [], [])], 1.0)
     assert scores_png(results).startswith(b"\x89PNG")
+
+
+def test_dollar_signs_in_the_name_of_a_folder_are_no_mathematics(summary_of):
+    scores = replace(summary_of(96, 10), corpus="out/mill $\\frac$ 3")
+    results = Results("out/made", Options(), {"importances": {}}, [CorpusResults(scores, [], [])], 1.0)
+    assert scores_png(results).startswith(b"\x89PNG")

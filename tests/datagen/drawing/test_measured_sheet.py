@@ -78,6 +78,11 @@ def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
     assert "speed unknown" in summary(portrait(**UNKNOWN))
 
 
+def test_dollar_signs_in_names_are_drawn_and_are_no_mathematics() -> None:
+    named = {name: f"{name} $\\frac$ 3" for name in ("recording", "rig", "bearing")}
+    assert measured_sheet_png(portrait(**named)).startswith(b"\x89PNG")
+
+
 def speeding() -> MeasuredPortrait:
     """Bursts on a carrier of 2500 Hz, 3.6 a turn of a shaft that goes from 15 to 35 turns a second within a second."""
     time = np.arange(8000) / RATE

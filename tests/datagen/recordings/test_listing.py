@@ -32,6 +32,30 @@ def test_a_file_is_found_by_its_own_name_by_that_from_the_root_and_by_a_pattern(
         assert [known.names[path] for path in known.fitting(wish)] == found
 
 
+def test_a_name_with_brackets_means_the_file_that_is_called_so() -> None:
+    known = names("a [1].csv", "b/a [1].csv", "a 1.csv", "c 1.csv")
+    for wish, found in (
+        ("a [1].csv", ["a [1].csv", "b/a [1].csv"]),
+        ("b/a [1].csv", ["b/a [1].csv"]),
+        ("c [1].csv", ["c 1.csv"]),
+    ):
+        assert [known.names[path] for path in known.fitting(wish)] == found
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        'files = "a [1].mat"\nlocation = "outer"\n',
+        'files = "*.mat"\noverride = [{files = "a [1].mat", location = "outer"}]\n',
+        'files = "*.mat"\ntable = "t.csv"\n',
+    ],
+)
+def test_a_file_with_brackets_in_its_name_is_found_by_it(more: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a [1].mat")
+    (tmp_path / "t.csv").write_text("file,location\na [1].mat,outer\n")
+    assert list(bring(SPEC + more).labels.location) == ["outer"]
+
+
 def test_files_that_a_table_names_outright_are_not_compared_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
     known = names("a/1.csv", "a/2.csv")
     monkeypatch.setattr(file_names, "fnmatch", None)

@@ -120,7 +120,7 @@ def test_a_lost_index_is_told_likewise_and_written_anew(tiny: Recipe, copy: Path
     before = (copy / "index.csv").read_text()
     (copy / "index.csv").unlink()
     assert (
-        "the index.csv of this corpus is lost, or its run was killed; "
+        "the index.csv of this corpus is lost, or its run was killed or is not done yet; "
         f"`spallgen generate` with its recipe and --out {copy}" in run("info", copy)[2]
     )
     generate(tiny, copy, engine=ALONE)

@@ -143,6 +143,14 @@ def test_roughness_is_low_passed_at_the_contact_width_only_where_no_ball_is_roll
         assert spall.roughness_values == expected
 
 
+def test_without_a_load_there_is_no_contact_width_to_smooth_the_roughness_of_a_hand_set_path_over() -> None:
+    part = {"operation": {"load_n": 0}}
+    with pytest.raises(BadInput, match=r"load_n = 0.*static load of 0 N .* profile tukey .* or profile ball_path"):
+        draw(defect=EXTENDED | {"roughness_um": 2}, **part)
+    (scenario,) = draw(defect=EXTENDED | {"roughness_um": 2, "profile": "ball_path"}, **part)
+    assert scenario.scene.spalls[0].roughness_values
+
+
 def test_records_of_one_machine_share_what_belongs_to_it_and_nothing_else() -> None:
     scenarios = draw(
         6,

@@ -50,6 +50,13 @@ def test_targets_are_judged_from_twenty_records_on(
     assert all(columns["value"])
 
 
+def test_where_there_are_no_events_the_table_has_no_row_of_them(scored: Callable[..., ScoredRecord]) -> None:
+    (figures, *_) = summary_table(summarise([scored()], True)).columns
+    assert not [name for name in figures.cells if str(name).startswith("events")]
+    (figures, *_) = summary_table(summarise(two_kinds(scored), True)).columns
+    assert [name for name in figures.cells if str(name).startswith("events")]
+
+
 def test_events_have_intervals_over_virtual_bearings(scored: Callable[..., ScoredRecord]) -> None:
     for events in summarise(two_kinds(scored), True).events.values():
         for share in (events.precision, events.recall, events.f1):  # all are that of the events of good bearings

@@ -42,3 +42,9 @@ def test_where_nothing_was_answered_the_panels_say_so(scored: Callable[..., Scor
     assert [[text.get_text() for text in axes.texts] for axes in figure.axes[:3]] == [
         ["no record was given a size"]
     ] * 3
+
+
+def test_dollar_signs_in_the_name_of_a_rig_are_no_mathematics(scored: Callable[..., ScoredRecord]) -> None:
+    figure = drawn([scored({"record": k, "rig": "mill $\\frac$ 3"}) for k in range(3)])
+    panel = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Rig"))
+    assert [label.get_text() for label in panel.get_xticklabels()] == ["mill $\\frac$ 3\n(3)"]

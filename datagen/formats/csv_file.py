@@ -199,8 +199,9 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         if not math.isfinite(columns[name][k])
     }
     hint = _headless_hint(names, layout) or _decimal_hint([cell for _, cell in odd.values()], layout)
-    if not hint and layout.header and any(_is_unit(odd[name][1], columns[name]) for name in odd):
-        hint = f"; did you mean csv = {{skip_below = {layout.skip_below + 1}}}?"
+    if not hint and any(_is_unit(text, columns[name]) for name, (_, text) in odd.items()):
+        more = f"skip_below = {layout.skip_below + 1}" if layout.header else f"skip_lines = {rows[0][0]}"
+        hint = f"; did you mean csv = {{{more}}}?"
     if len(names) == 1 and odd:
         hint = _hint(odd[names[0]][1], layout) or hint
     return Columns(columns, odd, hint)
@@ -242,7 +243,7 @@ def _refuse_halves(path: Path, layout: CsvLayout) -> None:
 
 
 def _is_unit(text: str, column: Array) -> bool:
-    """Whether a `text` that is no number is nothing but the first cell of a `column` of numbers."""
+    """Whether a `text` that is no number, such as a unit or a name, is the first cell of a `column` of numbers."""
     return bool(text.strip()) and column.size > 1 and bool(np.isfinite(column[1:]).all())
 
 

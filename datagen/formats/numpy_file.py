@@ -29,10 +29,7 @@ class _Members(Mapping[str, NDArray[Any]]):
                 return np.asarray(file[name])
         except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
             if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
-                raise BadInput(
-                    f"its array {name} holds Python objects, which are not read", str(self.path),
-                    allowed="arrays of numbers, one for each channel or recording",
-                ) from None  # fmt: skip
+                raise _of_objects(f"its array {name}", self.path) from None
             raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
 
     def __iter__(self) -> Iterator[str]:
@@ -40,6 +37,13 @@ class _Members(Mapping[str, NDArray[Any]]):
 
     def __len__(self) -> int:
         return len(self.names)
+
+
+def _of_objects(what: str, path: Path) -> BadInput:
+    return BadInput(
+        f"{what} holds Python objects, which are not read", str(path),
+        allowed="arrays of numbers, one for each channel or recording",
+    )  # fmt: skip
 
 
 def read_npz(path: Path) -> Arrays:
@@ -55,4 +59,6 @@ def read_npy(path: Path) -> Arrays:
     try:
         return {ONLY_NAME: np.asarray(np.load(path, mmap_mode="r"))}
     except Exception as problem:  # as above
+        if "Python objects" in str(problem):
+            raise _of_objects("it", path) from None
         raise BadInput(f"cannot be read as an .npy file: {problem}", str(path)) from None

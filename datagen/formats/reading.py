@@ -25,6 +25,10 @@ READERS: dict[str, Callable[[Path], Arrays]] = {
 }
 
 
+# How a text begins that Git LFS leaves where the data itself was not fetched.
+POINTER = b"version https://git-lfs"
+
+
 def file_format(path: Path, stated: str | None) -> str:
     """The format that is `stated`, or that the file's ending says; raises BadInput if it says none."""
     ending = path.suffix.lower().removeprefix(".")
@@ -35,10 +39,19 @@ def file_format(path: Path, stated: str | None) -> str:
     return kind
 
 
+def _refuse_pointer(path: Path) -> None:
+    with path.open("rb") as file:
+        if file.read(len(POINTER)) == POINTER:
+            raise BadInput(
+                "holds no data but where Git LFS keeps it", str(path), allowed="the data, as `git lfs pull` fetches it"
+            )
+
+
 def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
     """The arrays of a file whose format is `stated` or follows from its ending; raises BadInput."""
     kind = file_format(path, stated)
     try:
+        _refuse_pointer(path)
         return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
     except FileNotFoundError:
         raise BadInput("no such file", str(path)) from None

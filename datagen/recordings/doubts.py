@@ -17,6 +17,10 @@ from datagen.recordings.source import Source
 LOUDEST_RMS = 100.0 * UNITS["g"]
 # Largest mean over the RMS around it that is not doubted.
 LARGEST_OFFSET = 10.0
+# Share of the samples that may follow another at the largest or smallest value of a signal, and the number of different
+# values below which that is no wonder.
+MOST_AT_LIMIT = 1e-3
+FEWEST_VALUES = 16
 # Turns of the shaft below which a speed is doubted: a spectrum then hardly parts the orders of a bearing.
 FEWEST_TURNS = 10.0
 # Speed, rpm, below which a stated one may be meant in Hz: few shafts turn faster than 300 times a second.
@@ -25,6 +29,7 @@ SLOWEST_RPM = 300.0
 FASTEST_RPM = 60_000.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
 OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
+CLIPPED = "with peaks cut off, as if the recorder's range were too small"
 STANDING = "with a speed that is 0 in places, taken as a shaft that stands there and not as one nobody measured"
 FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
 
@@ -32,14 +37,28 @@ FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at f
 def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: Iterable[str]) -> dict[str, str]:
     """What is odd about the level of samples (T, axes), m/s², and by which figures; axes that are `dead` are not
     looked at."""
-    levels = {axis: _level(signal) for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
-    loud, offset = [], []
-    for axis, (mean, rms) in levels.items():
+    signals = {axis: signal for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
+    loud, offset, clipped = [], [], []
+    for axis, signal in signals.items():
+        mean, rms = _level(signal)
+        cut_off = _share_cut_off(signal)
         if math.hypot(mean, rms) > LOUDEST_RMS:
             loud.append(f"{axis} {_g(math.hypot(mean, rms))} RMS")
         if abs(mean) > LARGEST_OFFSET * rms:
             offset.append(f"{axis} {_g(mean)} beside {_g(rms)} RMS")
-    return {doubt: ", ".join(found) for doubt, found in ((LOUD, loud), (OFFSET, offset)) if found}
+        if cut_off > MOST_AT_LIMIT:
+            clipped.append(f"{axis} {cut_off:.2g} of its samples")
+    found = {LOUD: loud, OFFSET: offset, CLIPPED: clipped}
+    return {doubt: ", ".join(figures) for doubt, figures in found.items() if figures}
+
+
+def _share_cut_off(signal: NDArray[np.float32]) -> float:
+    """Share of a signal (T,) that follows another sample at its largest or smallest value; 0 of one with few values."""
+    limits = (signal == signal.max(), signal == signal.min())
+    count = sum(int(np.count_nonzero(at[1:] & at[:-1])) for at in limits)
+    if count <= MOST_AT_LIMIT * signal.size or np.unique(signal).size < FEWEST_VALUES:
+        return 0.0
+    return count / signal.size
 
 
 def _level(signal: NDArray[np.float32]) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from os.path import normcase
 from pathlib import Path, PurePath
+from unicodedata import normalize
 
 WILD = "*?["
 
@@ -17,13 +18,13 @@ class FileNames:
         self.names = names
         self.known: dict[str, list[Path]] = {}
         for path, name in names.items():
-            for spelling in {normcase(name), normcase(path.name)}:
+            for spelling in {_plain(name), _plain(path.name)}:
                 self.known.setdefault(spelling, []).append(path)
 
     def fitting(self, name: str) -> list[Path]:
         """The files that are called `name`, or if there are none fit it as a pattern, by their own name or from the
         root; in order."""
-        called = self.known.get(normcase(name), [])
+        called = self.known.get(_plain(name), [])
         if called or not any(sign in name for sign in WILD):
             return called
         return [path for path in self.names if not hidden(path, name) and fits(path, self.names[path], name)]
@@ -31,9 +32,19 @@ class FileNames:
 
 def fits(path: Path, name: str, pattern: str) -> bool:
     """True if a file, called `name` from the root, is called like a pattern or fits it, by that name or by its own."""
-    return pattern in (name, path.name) or fnmatch(name, pattern) or fnmatch(path.name, pattern)
+    pattern, names = _plain(pattern), (_plain(name), _plain(path.name))
+    return pattern in names or any(fnmatch(one, pattern) for one in names)
 
 
 def hidden(path: Path, pattern: str) -> bool:
     """True if a file's name begins with a point and the pattern's does not: some systems leave such files anywhere."""
     return path.name.startswith(".") and not PurePath(pattern).name.startswith(".")
+
+
+def spellings(name: str) -> set[str]:
+    """The ways in which systems write a name that looks the same: letters with their accents as one sign or as two."""
+    return {normalize("NFC", name), normalize("NFD", name)}
+
+
+def _plain(name: str) -> str:
+    return normcase(normalize("NFC", name))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.recordings.file_names import FileNames, fits, hidden
+from datagen.recordings.file_names import FileNames, fits, hidden, spellings
 from datagen.recordings.label_table import TableRow, read_label_table
 from datagen.recordings.settings import ALTERNATIVES, Channel, merged
 from datagen.recordings.spec import Recording, Spec
@@ -118,18 +118,29 @@ class _Finder:
         paths: dict[Path, None] = {}
         for pattern in recording.patterns:
             try:
-                found = sorted(self.root.glob(pattern))
+                found = sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)})
                 if (self.root / pattern).is_file():  # its name may hold brackets
                     found = [self.root / pattern]
             except (ValueError, NotImplementedError, IndexError):
                 raise BadInput(field="files", file=place, value=pattern, allowed='as in "folder/*.mat"') from None
-            fitting = [path for path in found if path.is_file() and not hidden(path, pattern)]
+            fitting = [path for path in found if (path.is_file() or _leads_nowhere(path)) and not hidden(path, pattern)]
             if not fitting and recording.absent_files == "skip":
                 self.absent.append(pattern)
             elif not fitting:
                 raise BadInput(f"no file below {self.root} matches", place, "files", pattern)
             paths |= dict.fromkeys(fitting)
-        return self._wanted(list(paths), recording, place)
+        return self._present(self._wanted(list(paths), recording, place), recording, place)
+
+    def _present(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
+        """The paths without links whose files are not there, as of a set that was not fetched whole."""
+        dead = [path for path in paths if _leads_nowhere(path)]
+        if dead and recording.absent_files == "refuse":
+            raise BadInput(
+                f"{len(dead)} of {len(paths)} files are links to what is not there: {self._some(dead)}", place, "files",
+                " ".join(recording.patterns), 'the files themselves, or absent_files = "skip"',
+            )  # fmt: skip
+        self.absent += map(self._name, dead)
+        return [path for path in paths if path not in dead]
 
     def _wanted(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
         """The paths without those that are to be left out."""
@@ -193,6 +204,10 @@ class _Finder:
 
 
 _NOT_SETTINGS = ("name", "files", "leave_out", "table", "note_columns", "absent_files", "override")
+
+
+def _leads_nowhere(path: Path) -> bool:
+    return path.is_symlink() and not path.exists()
 
 
 def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:

@@ -16,6 +16,8 @@ NEIGHBOURS = 9
 NEAR_WHOLE = 0.2
 # Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does.
 MOST_A_TURN = 0.5
+# Share of the gaps that are as far apart as those of a wheel with one missing tooth, or a few side by side.
+REGULAR = 0.9
 # Share of the pulses that may be lost or double; of a signal with more of them one cannot say that it is a tach's.
 MOST_MENDED = 0.1
 
@@ -42,7 +44,10 @@ def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) ->
 
 def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     """Times (N,), s, of pulses without those that came twice and with those that were lost, evenly between their
-    neighbours, and how many these were; unchanged, with 0, if so many are odd that the wheel itself is irregular."""
+    neighbours, and how many these were; unchanged, with 0, if so many are odd that the wheel itself is irregular.
+
+    Pulses of teeth that a wheel lacks are put in, and not counted, if `pulses_per_rev` counts them.
+    """
     if times.size <= NEIGHBOURS:
         return times, 0
     single = _without_doubles(times)
@@ -51,11 +56,19 @@ def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     counts = np.maximum(np.round(ratio), 1.0).astype(np.int64)
     counts[np.abs(ratio - counts) > NEAR_WHOLE] = 1
     wrong = times.size - single.size + int((counts > 1).sum())
-    if wrong == 0 or wrong > MOST_A_TURN * times.size / pulses_per_rev:
-        return times, 0
     numbers = np.concatenate([[0], np.cumsum(counts)])
+    own = wrong > MOST_A_TURN * times.size / pulses_per_rev
+    if wrong == 0 or (own and not _once_a_turn(numbers[:-1][counts > 1], pulses_per_rev)):
+        return times, 0
     whole = np.interp(np.arange(numbers[-1] + 1), numbers, single)
-    return whole, times.size - single.size + int((counts - 1).sum())
+    return whole, times.size - single.size + (0 if own else int((counts - 1).sum()))
+
+
+def _once_a_turn(gaps: NDArray[np.int64], pulses_per_rev: float) -> bool:
+    """Whether the gaps behind the pulses of these numbers (N,) are the one of a wheel whose `pulses_per_rev` count the
+    teeth that it lacks there."""
+    between = np.diff(gaps)
+    return bool(between.size and np.mean(between == round(pulses_per_rev)) >= REGULAR)
 
 
 def _without_doubles(times: Array) -> Array:

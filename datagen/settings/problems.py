@@ -56,7 +56,15 @@ def bad_settings(invalid: ValidationError, model: type[BaseModel], path: Path | 
 
 def _place(error: dict[str, Any]) -> Location:
     """Where the setting is, without the names of the kinds of value that pydantic tried there."""
-    return tuple(step for step in error["loc"] if isinstance(step, int) or not _is_kind(step))
+    steps, unknown = error["loc"], ()
+    if error["type"] == "extra_forbidden":  # the last step is what somebody wrote, whatever it looks like
+        steps, unknown = steps[:-1], steps[-1:]
+    return (*(step for step in steps if isinstance(step, int) or not _is_kind(step)), *unknown)
+
+
+def _is_of_kind(error: dict[str, Any]) -> bool:
+    """Whether the error is of one kind of value among several that pydantic tried at the place."""
+    return error["type"] != "extra_forbidden" and any(map(_is_kind, error["loc"][-1:]))
 
 
 def _is_kind(step: str | int) -> bool:
@@ -76,7 +84,7 @@ def _follows(error: dict[str, Any], errors: list[dict[str, Any]]) -> bool:
 
 def _allowed(first: dict[str, Any], alike: list[dict[str, Any]]) -> str:
     """What is allowed; where several kinds of value were tried at the place, all of them."""
-    kinds = alike if any(map(_is_kind, first["loc"][-1:])) else [first]
+    kinds = alike if _is_of_kind(first) else [first]
     contexts = [(error["type"], error.get("ctx", {})) for error in kinds]
     words = [context.get("allowed") or EXPECTED.get(kind, "").format(**context) for kind, context in contexts]
     return " or ".join(dict.fromkeys(word for word in words if word))

@@ -57,6 +57,13 @@ def test_a_file_that_breaks_off_is_refused_with_its_name(name: str, tmp_path: Pa
         assert "cannot be read as " in str(problem.value) or "the file is cut off: " in str(problem.value)
 
 
+@pytest.mark.parametrize("name", ["a.mat", "a.csv", "a.wav", "a.npz", "a.h5"])
+def test_a_pointer_of_git_lfs_is_not_taken_for_a_damaged_file(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n")
+    with pytest.raises(BadInput, match=r"holds no data but where Git LFS keeps it; allowed: .*git lfs pull"):
+        read_arrays(tmp_path / name, None, CsvLayout())
+
+
 @pytest.mark.parametrize("name", ["short.wav", "float.wav", "classic.nc", "a.npy", "a.npz", "packed.npz"])
 def test_whatever_bytes_are_damaged_a_file_is_read_or_refused_with_its_name(name: str, tmp_path: Path) -> None:
     path = tmp_path / name

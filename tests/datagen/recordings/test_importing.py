@@ -364,6 +364,22 @@ def test_a_level_that_hardly_any_machine_has_comes_in_with_a_warning(
 
 
 @pytest.mark.parametrize(
+    ("limit", "steps", "message"),
+    [
+        (1.0, 0, "1 with peaks cut off, as if the recorder's range were too small: a (y 0.055 of its samples)\n"),
+        (9.0, 0, ""),
+        (1.0, 4, ""),  # few values, as of a quiet signal in coarse steps, often have two alike
+    ],
+)
+def test_peaks_that_a_recorder_cut_off_come_in_with_a_warning(
+    limit: float, steps: int, message: str, mat: Mat, tmp_path: Path
+) -> None:
+    cut_off = np.clip(noise(), -limit, limit)
+    mat("a.mat", np.round(cut_off * steps) if steps else cut_off)
+    assert told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path) == message
+
+
+@pytest.mark.parametrize(
     ("setting", "message"),
     [
         ("speed_hz = 1797", "1 with a shaft faster than 60000 rpm, as if `speed_hz` were in rpm: a (107820 rpm)\n"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from unicodedata import normalize
 
 import pytest
 from imports import Bring, Mat
@@ -10,9 +11,14 @@ from imports import Bring, Mat
 from datagen.errors import BadInput
 from datagen.recordings import file_names, importing
 from datagen.recordings.file_names import FileNames
-from datagen.recordings.spec import load_spec
+from datagen.recordings.spec import Spec, load_spec
 
 SPEC = '[[recording]]\nname = "all"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+
+
+def load_spec_of(folder: Path, text: str) -> Spec:
+    (folder / "spec.toml").write_text(f'name = "mine"\n{text}')
+    return load_spec(folder / "spec.toml")
 
 
 def names(*known: str) -> FileNames:
@@ -142,3 +148,39 @@ def test_files_in_a_linked_folder_have_their_names_from_the_root(bring: Bring, m
     assert labels["source_file"].tolist() == ["set/link/a.mat", "set/link/b.mat"]
     assert labels["speed_rpm"].tolist() == [1500.0, 1600.0]
     assert labels["location"].tolist() == ["unknown", "outer"]
+
+
+def test_a_link_whose_file_is_not_there_is_no_file_to_pass_over_in_silence(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    (tmp_path / "b.mat").symlink_to(tmp_path / "annex" / "b.mat")
+    (tmp_path / "c.mat").symlink_to(tmp_path / "a.mat")
+    with pytest.raises(
+        BadInput, match=r'files = "\*\.mat": 1 of 3 files are links to what is not there: b\.mat; allow'
+    ):
+        bring(SPEC + 'files = "*.mat"\n')
+    kept = bring(SPEC + 'files = "*.mat"\nleave_out = ["b.mat", "c.mat"]\n', "without")
+    assert kept.labels["recording"].tolist() == ["a"]
+    (tmp_path / "c.mat").unlink()
+    done = importing.import_recordings(
+        load_spec_of(tmp_path, SPEC + 'files = "*.mat"\nabsent_files = "skip"\n'), tmp_path / "skipped"
+    )
+    assert (done.absent, done.records) == (("b.mat",), 1)
+
+
+@pytest.mark.parametrize(("written", "stored"), [("NFC", "NFD"), ("NFD", "NFC")])
+def test_a_name_with_accents_is_found_however_a_system_writes_them(
+    written: str, stored: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat(normalize(stored, "Mühle.mat"))
+    said = normalize(written, "Mühle.mat")
+    (tmp_path / "t.csv").write_text(f"file,load_n\n{said},7\n", encoding="utf-8")
+    for number, more in enumerate(
+        (
+            f'files = "{said[:-5]}*"\noverride = [{{files = "{said}", load_n = 7}}]\n',
+            'table = "t.csv"\n',
+            'files = "*.mat"\ntable = "t.csv"\n',
+        )
+    ):
+        assert bring(SPEC + more, f"out{number}").labels["load_n"].tolist() == [7.0]

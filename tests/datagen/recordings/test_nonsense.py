@@ -158,6 +158,9 @@ def test_a_recipe_is_no_spec_and_a_byte_order_mark_is_no_matter(tmp_path: Path) 
     [
         ('rate_hz = {variabel = "fs"}', 'rate_hz.variabel: unknown key; did you mean "variable"?'),
         ('rate_hz = {variable = "fs", factor = inf}', "rate_hz.factor = inf; allowed: a finite number"),
+        ('Rate_hz = {variable = "fs"}', 'Rate_hz: unknown key; did you mean "rate_hz"?'),
+        ("bearing = {balls = 8, D = 39}", "bearing.D: unknown key (known here: name, balls, "),
+        ('tach = {variable = "fs", PPR = 2}', "tach.PPR: unknown key (known here: variable, pulses_per_rev, "),
         ("bearing = {balls = 8}", "bearing.pitch_diameter_mm: this setting is missing"),
         ('bearing = {balls = "x", pitch_diameter_mm = 9, ball_diameter_mm = 2}', 'bearing.balls = "x"; allowed: a'),
         ("bearing = 7", "bearing = 7; allowed: a text in quotes or a table"),

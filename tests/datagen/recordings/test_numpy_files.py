@@ -21,6 +21,9 @@ def test_python_objects_are_called_so_and_other_arrays_of_the_file_are_read(brin
     with pytest.raises(BadInput, match=message):
         bring(SPEC + 'files = "a.npz"\ny = "ragged"\n')
     assert len(bring(SPEC + 'files = "a.npz"\ny = "good"\n')) == 1
+    np.save(tmp_path / "b.npy", ragged, allow_pickle=True)
+    with pytest.raises(BadInput, match=r"b\.npy: it holds Python objects, which are not read; allowed: arrays of num"):
+        bring(SPEC + 'files = "b.npy"\ny = "data"\n', "other")
 
 
 @pytest.mark.parametrize(

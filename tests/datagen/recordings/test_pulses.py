@@ -62,12 +62,24 @@ def test_a_pulse_that_comes_twice_is_left_out(share: float) -> None:
 
 
 @pytest.mark.parametrize("teeth", [36, 60])
-def test_the_gap_of_a_wheel_is_its_own(teeth: int) -> None:
+@pytest.mark.parametrize("missing", [1, 2])
+def test_the_gap_of_a_wheel_is_its_own(teeth: int, missing: int) -> None:
     numbers = np.arange(20 * teeth)
-    times = numbers[(numbers % teeth) < teeth - 2] / (20.0 * teeth)  # two teeth missing, in every turn
-    found, count = mended(times, teeth)
+    times = numbers[(numbers % teeth) < teeth - missing] / (20.0 * teeth)  # teeth missing, in every turn
+    found, count = mended(times, teeth - missing)
     assert count == 0
     assert found is times
+
+
+@pytest.mark.parametrize("teeth", [36, 60])
+@pytest.mark.parametrize("missing", [1, 2])
+def test_a_wheel_whose_missing_teeth_are_counted_among_its_pulses_has_them_put_in(teeth: int, missing: int) -> None:
+    numbers = np.arange(20 * teeth - missing)
+    turning = numbers / (20.0 * teeth) * (1.0 + numbers / (20.0 * 20.0 * teeth))  # it gains speed, a tenth in all
+    times = turning[(numbers % teeth) < teeth - missing]
+    found, count = mended(times, teeth)
+    assert count == 0
+    np.testing.assert_allclose(found, turning, atol=1e-3 / (20.0 * teeth))  # of an interval
 
 
 @pytest.mark.parametrize(

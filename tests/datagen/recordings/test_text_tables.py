@@ -65,8 +65,14 @@ def test_an_encoding_that_there_is_not_is_refused(encoding: str, bring: Bring, t
             'line 1: y = "1": 50 of 50 cells are not finite numbers, the first is "1\\t2"'
             '; did you mean csv = {delimiter = "\\t"}?',
         ),
+        (
+            ["made by X", "a,b", *ROWS],
+            'csv = {header = false, skip_lines = 1}\ny = "1"',
+            'line 2: y = "1": 1 of 51 cells are not finite numbers, the first is "a"'
+            "; did you mean csv = {skip_lines = 2}?",
+        ),
     ],
-    ids=["footer", "units", "empty", "decimal", "delimiter"],
+    ids=["footer", "units", "empty", "decimal", "delimiter", "header"],
 )
 def test_a_cell_that_is_no_number_is_shown_with_its_line(
     rows: list[str], layout: str, message: str, bring: Bring, tmp_path: Path

@@ -69,6 +69,20 @@ def test_a_compression_that_is_not_offered_is_refused_with_its_line(tmp_path: Pa
     assert "store.compression = \"gzip\"; allowed: 'zlib' or 'none'" in said
 
 
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ('Title = "b"', 'line 1: Title: unknown key; did you mean "title"?'),
+        ("str = 3", "line 1: str: unknown key; "),
+        ("Signal = {rate_hz = 5}", 'line 1: Signal: unknown key; did you mean "signal"?'),
+    ],
+)
+def test_a_key_is_unknown_under_the_name_it_was_given_whatever_that_looks_like(
+    line: str, message: str, tmp_path: Path
+) -> None:
+    assert message in refusal(f"{line}\n{GOOD}", tmp_path)
+
+
 @pytest.mark.parametrize("when", ["1979-05-27", "07:32:00", "1979-05-27T07:32:00"])
 def test_a_date_is_shown_as_it_was_written(when: str, tmp_path: Path) -> None:
     said = refusal(GOOD.replace("seed = 1", f"seed = {when}"), tmp_path)

@@ -133,14 +133,14 @@ class _Finder:
 
     def _present(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
         """The paths without links whose files are not there, as of a set that was not fetched whole."""
-        dead = [path for path in paths if _leads_nowhere(path)]
+        dead = list(filter(_leads_nowhere, paths))
         if dead and recording.absent_files == "refuse":
             raise BadInput(
                 f"{len(dead)} of {len(paths)} files are links to what is not there: {self._some(dead)}", place, "files",
                 " ".join(recording.patterns), 'the files themselves, or absent_files = "skip"',
             )  # fmt: skip
         self.absent += map(self._name, dead)
-        return [path for path in paths if path not in dead]
+        return [path for path in paths if not _leads_nowhere(path)]
 
     def _wanted(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
         """The paths without those that are to be left out."""

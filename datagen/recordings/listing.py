@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from glob import escape
 from pathlib import Path
 from typing import Any
 
@@ -118,9 +119,8 @@ class _Finder:
         paths: dict[Path, None] = {}
         for pattern in recording.patterns:
             try:
-                found = sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)})
-                if (self.root / pattern).is_file():  # its name may hold brackets
-                    found = [self.root / pattern]
+                # A name may hold brackets: what is called like the pattern goes before what fits it.
+                found = self._matching(escape(pattern)) or self._matching(pattern)
             except (ValueError, NotImplementedError, IndexError):
                 raise BadInput(field="files", file=place, value=pattern, allowed='as in "folder/*.mat"') from None
             fitting = [path for path in found if (path.is_file() or _leads_nowhere(path)) and not hidden(path, pattern)]
@@ -131,6 +131,9 @@ class _Finder:
             paths |= dict.fromkeys(fitting)
         return self._present(self._wanted(list(paths), recording, place), recording, place)
 
+    def _matching(self, pattern: str) -> list[Path]:
+        return sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)})
+
     def _present(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
         """The paths without links whose files are not there, as of a set that was not fetched whole."""
         dead = list(filter(_leads_nowhere, paths))
@@ -140,7 +143,7 @@ class _Finder:
                 " ".join(recording.patterns), 'the files themselves, or absent_files = "skip"',
             )  # fmt: skip
         self.absent += map(self._name, dead)
-        return [path for path in paths if not _leads_nowhere(path)]
+        return [path for path in paths if path.exists()]
 
     def _wanted(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
         """The paths without those that are to be left out."""

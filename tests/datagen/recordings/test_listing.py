@@ -62,6 +62,17 @@ def test_a_file_with_brackets_in_its_name_is_found_by_it(more: str, bring: Bring
     assert list(bring(SPEC + more).labels.location) == ["outer"]
 
 
+def test_a_name_may_hold_brackets_and_accents_at_once_and_a_pattern_be_longer_than_any_name(
+    bring: Bring, mat: Mat
+) -> None:
+    stored, said = normalize("NFD", "Mühle [1]"), normalize("NFC", "Mühle [1]")
+    mat(f"{stored}.mat")
+    mat("Mühle 1.mat")
+    assert list(bring(SPEC + f'files = "{said}.mat"\n').labels.recording) == [stored]
+    with pytest.raises(BadInput, match=r"no file below .* matches"):
+        bring(SPEC + f'files = "*{"x" * 300}"\n', "long")
+
+
 def test_files_that_a_table_names_outright_are_not_compared_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
     known = names("a/1.csv", "a/2.csv")
     monkeypatch.setattr(file_names, "fnmatch", None)

@@ -20,6 +20,7 @@ from physics.response.oversampling import oversampling
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
 from physics.response.resampling import decimate
+from physics.response.silence import silence
 from physics.response.single_march import respond_by_reference
 from physics.rms import rms
 from physics.scene import Scene
@@ -54,8 +55,20 @@ def simulate(
         require(what in solution.keeps or not getattr(keep, what), problem, "keep")
     before = lead_in.samples(rate)
     _require_known_time(scene, rate, before)
+    if isinstance(solution, Accurate):
+        solution = replace(solution, least_error=max(solution.least_error, silence(scene)))
     if before == 0:
-        return _respond(scene, rate, solution, keep)
+        trace = _respond(scene, rate, solution, keep)
+    else:
+        trace = _respond_to_lead_in(scene, rate, solution, keep, before)
+        trace = trace if lead_in.kept else from_start(trace)
+    silent = 0.0 < rms(trace.acceleration) <= silence(scene)
+    estimate = min(trace.error_estimate, 1.0)
+    return replace(trace, silent=True, chaotic=False, error_estimate=estimate) if silent else trace
+
+
+def _respond_to_lead_in(scene: Scene, rate: float, solution: Solution, keep: Kept, before: int) -> Trace:
+    """The response from `before` samples before t = 0 on."""
     earlier = started_earlier(scene, before / rate)
     if isinstance(solution, Accurate):
 
@@ -65,8 +78,7 @@ def simulate(
         trace = respond_behind(respond, before, solution.accuracy, solution.least_error)
     else:
         trace = _respond(earlier, rate, solution, keep)
-    trace = starting_at(trace, before)
-    return trace if lead_in.kept else from_start(trace)
+    return starting_at(trace, before)
 
 
 def _require_known_time(scene: Scene, rate: float, before: int) -> None:

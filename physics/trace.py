@@ -73,6 +73,7 @@ class Trace:
     response at half the step is apart; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `chaotic`: errors grow faster than shorter steps could reduce them, so compare spectra, not samples.
+    `silent`: the response is so small (physics/response/silence.py) that it may be rounding alone.
     `tension_share` is the share of contact time (summed over balls) in which the contact force pulls; NaN where the
     forces of single balls were not followed, as by the reference method, the impulse train and the linear model.
     `unlocated_changes` counts changes of contact that many tries did not locate; they were taken at the ends of steps.
@@ -98,3 +99,4 @@ class Trace:
     outer_acceleration: Array | None = None
     sensitivity: float = math.nan
     chaotic: bool = False
+    silent: bool = False

@@ -13,8 +13,16 @@ SENSITIVE = 50.0
 
 def response_warnings(scenario: Scenario, trace: Trace) -> list[str]:
     """Sentences on single points, accuracy and contact changes of the `trace` of a `scenario`; none if all is well."""
-    found = (_chaos(trace), _sensitive(trace), _missed(scenario, trace), _unlocated(trace))
+    found = (_silence(trace), _chaos(trace), _sensitive(trace), _missed(scenario, trace), _unlocated(trace))
     return [warning for warning in found if warning]
+
+
+def _silence(trace: Trace) -> str:
+    """That a response is too small to mean anything; empty if it is not."""
+    if not trace.silent:
+        return ""
+    size = rms(trace.acceleration)
+    return f"the response, {size:.1g} m/s² RMS, is no larger than rounding of the contact forces: take it for silence"
 
 
 def _chaos(trace: Trace) -> str:
@@ -29,7 +37,7 @@ def _chaos(trace: Trace) -> str:
 
 def _sensitive(trace: Trace) -> str:
     """What it means for the reader that the response multiplies errors; empty if it does so little, or is chaotic."""
-    if trace.chaotic or not trace.sensitivity > SENSITIVE:
+    if trace.silent or trace.chaotic or not trace.sensitivity > SENSITIVE:
         return ""
     return (
         f"contacts multiply errors {trace.sensitivity:.0f} times: single points may move if a path of the ball is "
@@ -38,9 +46,9 @@ def _sensitive(trace: Trace) -> str:
 
 
 def _missed(scenario: Scenario, trace: Trace) -> str:
-    """That the response may be less exact than was asked for; empty if it is not, or chaotic."""
+    """That the response may be less exact than was asked for; empty if it is not, or chaotic or silent."""
     accuracy, least = allowed_error(scenario)
-    if trace.chaotic or not trace.error_estimate > accuracy:
+    if trace.silent or trace.chaotic or not trace.error_estimate > accuracy:
         return ""
     size = rms(trace.acceleration)
     allowed = max(accuracy, least / size if size > 0.0 else 0.0)

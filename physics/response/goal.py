@@ -17,6 +17,7 @@ import numpy as np
 from physics.integrators.modal.memory import STRIDES, Stride
 from physics.integrators.output import LOGGED, Output
 from physics.response.modal_case import USUAL_PUSHES, Case, March
+from physics.response.silence import largest_forces
 from physics.rms import rms
 from physics.trace import Kept
 
@@ -28,7 +29,7 @@ ERROR_FACTOR, SENSITIVE = 3.5, 6.0
 # Of the accuracy asked for, what the tolerance aims at before errors are known, and what the estimate then aims at.
 AIM, MARGIN = 0.1, 0.75
 # No tolerance is below the first share of the acceleration that the load would give the outer ring, nor below the
-# second of what the load does in a sample: forces are not known better.
+# second of what the largest forces do in a sample: they are not known better.
 SMALLEST_SHARE, ROUND_OFF = 1e-8, 1e-13
 # The tolerance of a coarse response; weights of the guessed size of the signal, in samples.
 COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
@@ -81,14 +82,13 @@ def steady(case: Case, samples: int, share: float, size: float, spending: float 
 
 
 def _grid(case: Case, samples: int, share: float, least: float, seen: float, weight: float, spending: float) -> Stride:
-    load = abs(case.scene.operation.load)
-    floor = share * SMALLEST_SHARE * load / case.scene.rig.outer_mass
+    floor = share * SMALLEST_SHARE * abs(case.scene.operation.load) / case.scene.rig.outer_mass
     return Stride(
         samples=samples,
         interval=1.0 / case.rate,
         levels=len(STRIDES),
         share=share * case.push * math.sqrt(0.5),
-        least=max(case.push * max(least, floor), ROUND_OFF * load / case.rate),
+        least=max(case.push * max(least, floor), ROUND_OFF * largest_forces(case.scene) / case.rate),
         seen=2.0 * seen,
         seen_samples=weight,
         spending=spending,

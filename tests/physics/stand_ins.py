@@ -6,11 +6,15 @@ from types import SimpleNamespace
 import numpy as np
 
 from physics.contact.forces import Contacts
+from physics.imperfections import Imperfections
 from physics.integrators.output import Output
 from physics.response.goal import Goal
 from physics.trace import ACCELERATION_ALONE
 
 SAMPLES, RATE, PUSH, LOAD, MASS = 400, 1000.0, 2.0, 50.0, 5.0
+# Eight balls that a preload presses with 1e3 · 0.04 ** 1.5 N each.
+BEARING = SimpleNamespace(rows=2, balls=4, radial_load_deflection=1e3, clearance=-0.04, exponent=1.5)
+PRELOAD = 8 * 8.0
 
 
 def a_case(memory=0.0):
@@ -19,7 +23,10 @@ def a_case(memory=0.0):
     return SimpleNamespace(
         contacts=Contacts(np.zeros((1, 11, 4)), np.zeros((1, 3)), None, None),
         scene=SimpleNamespace(
-            duration=SAMPLES / RATE, operation=SimpleNamespace(load=LOAD), rig=SimpleNamespace(outer_mass=MASS)
+            duration=SAMPLES / RATE,
+            operation=SimpleNamespace(load=LOAD),
+            rig=SimpleNamespace(outer_mass=MASS, bearing=BEARING),
+            imperfections=Imperfections(),
         ),
         rate=RATE,
         push=PUSH,

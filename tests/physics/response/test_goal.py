@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from stand_ins import LOAD, MASS, PUSH, RATE, SAMPLES, World, a_case, a_goal, an_output, tolerance
+from stand_ins import LOAD, MASS, PRELOAD, PUSH, RATE, SAMPLES, World, a_case, a_goal, an_output, tolerance
 
 from physics.response.goal import fewest_touching, finer, observed_sensitivity, rms_distance, safety_factor, steady
 
@@ -41,7 +41,7 @@ def test_no_tolerance_is_below_the_least_error_nor_below_what_forces_are_known_t
     floor = 0.1 * 0.01 * 1e-8 * LOAD / MASS  # of the acceleration of the load
     assert a_goal(accuracy=0.01).aimed(1.0, 0.1, 0.0).least == pytest.approx(PUSH * floor, rel=1e-12)
     assert a_goal(accuracy=0.01, least=0.5).aimed(1.0, 0.1, 0.0).least == pytest.approx(PUSH * 0.05, rel=1e-12)
-    assert a_goal(accuracy=1e-9).aimed(1.0, 0.1, 0.0).least == pytest.approx(1e-13 * LOAD / RATE, rel=1e-12)
+    assert a_goal(accuracy=1e-9).aimed(1.0, 0.1, 0.0).least == pytest.approx(1e-13 * (LOAD + PRELOAD) / RATE, rel=1e-12)
 
 
 def test_a_finer_grid_has_a_share_of_both_tolerances_and_a_steady_one_grants_any_number_of_errors():

@@ -1,0 +1,69 @@
+"""Responses so small that they are nothing but rounding of the contact forces."""
+
+from dataclasses import replace
+
+import pytest
+
+from physics.imperfections import Imperfections, Waviness
+from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps, LeadIn
+from physics.response.silence import largest_forces, silence
+from physics.rms import relative_error, rms
+from physics.simulate import simulate
+
+RATE, LEAD_IN = 32768.0, LeadIn(0.5)
+
+
+def preloaded(name, load, clearance=-5e-6, imperfections=None):
+    scene = reference_scene(name, 0.2)
+    bearing = replace(scene.rig.bearing, clearance=clearance)
+    return replace(
+        scene,
+        rig=replace(scene.rig, bearing=bearing),
+        operation=replace(scene.operation, load=load),
+        imperfections=imperfections or scene.imperfections,
+        spalls=(),
+    )
+
+
+@pytest.mark.parametrize("load", [0.0, 1e-3, 1.0, 346.0])
+@pytest.mark.parametrize("name", ["G0", "F0"])
+def test_preload_all_round_leaves_silence_by_every_method(name, load):
+    scene = preloaded(name, load)
+    trace, by_steps = simulate(scene, RATE, lead_in=LEAD_IN), simulate(scene, RATE, FixedSteps(8), lead_in=LEAD_IN)
+    assert rms(by_steps.acceleration) < 1e-8  # m/s², a ten thousandth of the quietest healthy bearing without preload
+    assert trace.silent
+    assert not trace.chaotic
+    assert rms(trace.acceleration) <= silence(scene)
+    assert trace.error_estimate <= 1.0
+
+
+def test_waves_that_press_all_balls_alike_leave_silence():
+    scene = preloaded("G0", 0.0, imperfections=Imperfections(waviness=(Waviness("outer", 12, 1e-6),)))
+    trace = simulate(scene, RATE, lead_in=LEAD_IN)
+    assert rms(trace.acceleration) <= silence(scene)
+    assert not trace.chaotic
+
+
+@pytest.mark.parametrize(("name", "load", "clearance"), [("G0", 1e-6, 0.0), ("F0", 430.0, 0.0), ("G1", 346.0, -5e-6)])
+def test_what_is_more_than_rounding_is_known_to_the_accuracy(name, load, clearance):
+    scene = replace(preloaded(name, load, clearance), spalls=reference_scene(name).spalls)
+    trace = simulate(scene, RATE, lead_in=LEAD_IN)
+    exact = simulate(scene, RATE, FixedSteps(32), lead_in=LEAD_IN)
+    assert not trace.silent
+    assert relative_error(trace.acceleration, exact.acceleration) < 1e-3
+
+
+def test_nothing_at_all_is_exact_and_no_rounding():
+    trace = simulate(preloaded("G0", 0.0, clearance=0.0), RATE)
+    assert not trace.acceleration.any()
+    assert not trace.silent
+    assert trace.error_estimate == 0.0
+
+
+def test_forces_of_preload_and_waves_follow_from_the_contact_law():
+    load_deflection = preloaded("G0", 0.0).rig.bearing.load_deflection  # of 2 rows of 12 balls, contact angle 0
+    both = Imperfections(waviness=(Waviness("outer", 12, 1e-6), Waviness("inner", 3, 2e-6)))
+    assert largest_forces(preloaded("G0", -50.0)) == pytest.approx(50.0 + 24 * load_deflection * 5e-6**1.5)
+    assert largest_forces(preloaded("G0", 0.0, 1e-6, both)) == pytest.approx(24 * load_deflection * 2e-6**1.5)
+    assert largest_forces(preloaded("G0", 346.0, 1e-5, both)) == 346.0

@@ -12,7 +12,14 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from physics._jit import njit_inner, njit_lean
 from physics.arrays import Array
-from physics.checks import require, require_between, require_finite, require_not_negative, require_positive
+from physics.checks import (
+    require,
+    require_between,
+    require_finite,
+    require_not_negative,
+    require_positive,
+    settle_tuples,
+)
 
 KNOTS_PER_CORRELATION_TIME = 4
 MOST_KNOTS = 10_000_000  # a tenth of a gigabyte and some seconds of work
@@ -43,6 +50,7 @@ class CagePath:
     knot_values: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "knot_values")
         require_positive("nominal_speed", self.nominal_speed, "rad/s")
         require_positive("duration", self.duration, "s")
         require_finite("start_angle", self.start_angle, "rad")

@@ -8,6 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from numbers import Integral
+from typing import Any
+
+import numpy as np
 
 
 class InvalidParameter(ValueError):
@@ -70,3 +73,28 @@ def require_below_nyquist(field: str, frequency: float, rate: float, what: str =
     """Raise InvalidParameter unless `frequency` (Hz) lies below half the `rate` (Hz)."""
     require_positive("rate", rate, "Hz")
     require_between(field, frequency, 0.0, math.nextafter(rate / 2.0, 0.0), "Hz", what)
+
+
+def settle_tuples(instance: object, *fields: str) -> None:
+    """Turn lists and arrays in the `fields` of a frozen `instance` into tuples, rows of them too.
+
+    So whoever describes a scene may write them, and scenes can still be compared and looked up. Raises
+    InvalidParameter for what is no sequence.
+    """
+    for field in fields:
+        value = getattr(instance, field)
+        require(
+            isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.ndim > 0),
+            f"{field} is of type {type(value).__name__}; it must be a sequence",
+            field,
+        )
+        object.__setattr__(instance, field, _in_tuples(value))
+
+
+def _in_tuples(value: Any) -> Any:
+    """The `value`, tuples in place of lists and arrays; what is one already stays the same object."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, tuple) and not any(isinstance(item, (list, np.ndarray)) for item in value):
+        return value
+    return tuple(map(_in_tuples, value)) if isinstance(value, (tuple, list)) else value

@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from physics.bearing import RACES
-from physics.checks import require_between, require_count, require_finite, require_one_of, require_positive
+from physics.checks import (
+    require_between,
+    require_count,
+    require_finite,
+    require_one_of,
+    require_positive,
+    settle_tuples,
+)
 
 # m, far beyond a race that is still one.
 HIGHEST_WAVE = 1e-2
@@ -45,6 +52,7 @@ class Imperfections:
     ball_deviation: tuple[tuple[float, ...], ...] = ()
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "waviness", "ball_deviation")
         for row in self.ball_deviation:
             for deviation in row:
                 require_between("ball_deviation", deviation, -1e-3, 1e-3, "m")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from physics.bearing import RACES
 from physics.cage import CagePath
-from physics.checks import InvalidParameter, require, require_one_of
+from physics.checks import InvalidParameter, require, require_one_of, settle_tuples
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.rig import Rig
@@ -40,6 +40,7 @@ class Scene:
     second_cage: CagePath | None = None
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "spalls")
         bearing = self.rig.bearing
         require_one_of("contact_law", self.contact_law, CONTACT_LAWS)
         if len({spall.race for spall in self.spalls}) > 1:

@@ -15,6 +15,7 @@ from physics.checks import (
     require_not_negative,
     require_one_of,
     require_positive,
+    settle_tuples,
 )
 
 PROFILES = ("tukey", "ball_path", "table")
@@ -61,6 +62,7 @@ class Spall:
     table_depth: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "roughness_values", "table_angle", "table_depth")
         require_one_of("race", self.race, RACES)
         require(self.row in (1, 2), f"row = {self.row!r}; allowed: 1, 2", "row")
         require_one_of("profile", self.profile, PROFILES)

@@ -1,6 +1,7 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 from physics.cage import CagePath
@@ -134,3 +135,25 @@ def test_a_cage_that_overtakes_the_shaft_between_two_knots_of_its_slip_is_refuse
         else:
             with pytest.raises(InvalidParameter, match=r"cage = 44\.0263 rad/s at its fastest"):
                 dataclasses.replace(healthy, cage=cage, spalls=(inner,))
+
+
+@pytest.mark.parametrize("sequence", [list, np.array])
+def test_lists_and_arrays_describe_the_same_scene_as_tuples(healthy, sequence):
+    deviation = ((0.0, 1e-6, *(0.0,) * 10), (0.0,) * 12)
+    slip, heights = (0.0, 1e-3, 0.0, -1e-3) * 3, (0.0, 1e-7, -1e-7, 0.0)
+    wave, steps = Waviness("outer", 3, 1e-7), 0.1 * healthy.duration
+
+    def described(in_rows, numbers):
+        spall = Spall("outer", 1, 4.0, 0.3, 1e-5, roughness=1e-7, roughness_values=numbers(heights))
+        cage = dataclasses.replace(healthy.cage, knot_step=steps, knot_start=-steps, knot_values=numbers(slip))
+        imperfections = Imperfections(waviness=in_rows((wave,)), ball_deviation=in_rows(map(numbers, deviation)))
+        return dataclasses.replace(healthy, spalls=in_rows((spall,)), cage=cage, imperfections=imperfections)
+
+    assert described(list, sequence) == described(tuple, tuple)
+    assert hash(described(list, sequence)) == hash(described(tuple, tuple))
+
+
+@pytest.mark.parametrize("single", [Spall("outer", 1, 4.0, 0.3, 1e-5), None, np.array(1.0)])
+def test_a_single_spall_is_no_sequence_of_them(healthy, single):
+    with pytest.raises(InvalidParameter, match=f"spalls is of type {type(single).__name__}; it must be a sequence"):
+        dataclasses.replace(healthy, spalls=single)

@@ -4,6 +4,7 @@
 - by the default method: `modal_case` (a march that can be gone on with), `adaptive` (to a stated accuracy), with `goal`
   (tolerance and error) and `attempts` (made again, or confirmed by a finer one)
 - `periodic`: only until the response repeats itself; `lead_in`: begun before the record
+- `silence`: what is too small to be more than rounding
 - `kinks`: known instants at which steps have to end; `change_log`: room for changes of contact
 - `oversampling`: how finely to sample a response; `resampling`: other samples of what came out
 """

@@ -12,6 +12,7 @@ from pathlib import Path
 from datagen.corpus_files.manifest import Span, manifest_path
 from datagen.errors import BadInput
 from datagen.files.byte_counts import bytes_text
+from datagen.files.places import OUT
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, stored_bytes
 from datagen.runs.rates import against_rate, lowest_rate
@@ -86,7 +87,7 @@ def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) 
         if shard.record_bytes > free:
             raise BadInput(
                 f"one record needs about {bytes_text(shard.record_bytes)} of disk space; {bytes_text(free)} are free",
-                field="--out", value=str(folder), allowed="a folder on a larger disk, or shorter records",
+                field=OUT, value=str(folder), allowed="a folder on a larger disk, or shorter records",
             )  # fmt: skip
         scenario = draw_scenario(recipe, shard.records[0])
         require_record_memory(recipe, scenario, shard.stored)

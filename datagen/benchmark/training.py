@@ -15,7 +15,7 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.judging.known import true_class
+from datagen.judging.truth import true_classes
 from datagen.judging.user_code import user_code
 from datagen.progress import Count, Say, ignore
 from labels.classifier.alarm import Alarm
@@ -101,8 +101,7 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     Raises BadInput if these are of too few virtual bearings.
     """
     labels = Corpus(folder).labels
-    classes = np.array([true_class(row) for _, row in labels.iterrows()])
-    chosen = labels[np.isin(classes, CLASSES)]
+    chosen = labels[np.isin(true_classes(labels), CLASSES)]
     if also_tested:
         chosen = chosen[chosen["split"] != "test"]
     chosen = chosen.iloc[:first]
@@ -123,9 +122,9 @@ def training_set(
 
 def labelled(rows: Rows, labels: pandas.DataFrame) -> TrainingSet:
     """The rows with class and bearing of the record that each came from."""
-    by_record = labels.set_index("record", drop=False)
-    class_of = {record: true_class(row) for record, row in by_record.iterrows()}
-    bearing_of = by_record["bearing_id"].astype(str).to_dict()
+    records = labels["record"].tolist()
+    class_of = dict(zip(records, true_classes(labels).tolist(), strict=True))
+    bearing_of = dict(zip(records, labels["bearing_id"].astype(str), strict=True))
     owners = rows.record.tolist()
     classes = np.array([class_of[record] for record in owners], dtype=np.str_)
     bearings = np.array([bearing_of[record] for record in owners], dtype=np.str_)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
-from datagen.judging.known import true_class, true_location
+from datagen.judging.truth import true_classes, true_locations
 from labels.classifier.classes import called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule, line_heights
@@ -96,13 +96,11 @@ def judge(
     in_mains = np.array([" ".join(found.in_mains.get(record, ())) for record in records.tolist()], dtype=np.str_)
     verdicts = [_of_rule(rule, found.rows, records, reasons)]
     verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
-    truth = np.array([true_location(row) for _, row in labels.iterrows()], dtype=np.str_)
-    classes = np.array([true_class(row) for _, row in labels.iterrows()], dtype=np.str_)
     return Tested(
         folder=folder,
         labels=labels,
-        truth=truth,
-        classes=classes,
+        truth=true_locations(labels),
+        classes=true_classes(labels),
         reasons=reasons,
         glitches=glitches,
         shocks=shocks,

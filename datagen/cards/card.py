@@ -27,7 +27,7 @@ def _head(facts: Facts) -> Iterable[str]:
     yield f"# {info.title or info.name}\n"
     if facts.summary:
         yield f"{facts.summary}\n"
-    kind = "recordings of real machines" if facts.origin == IMPORTED else "simulated records with exact labels"
+    kind = "recordings of real machines" if info.origin == IMPORTED else "simulated records with exact labels"
     shortest, longest = facts.durations_s
     length = f"{shortest:g} s" if shortest == longest else f"{shortest:g} to {longest:g} s"
     rows = {
@@ -43,14 +43,14 @@ def _head(facts: Facts) -> Iterable[str]:
 
 def _records(facts: Facts) -> str:
     info = facts.info
-    if facts.origin == IMPORTED:
+    if info.origin == IMPORTED:
         return str(info.records)
     missing = f", {info.failed} could not be made" if info.failed else ""
     return f"{info.records} of {info.asked} asked for{missing}; the recipe has {info.recipe_records}"
 
 
 def _source(facts: Facts) -> str:
-    return "SPEC" if facts.origin == IMPORTED else "recipe"
+    return "SPEC" if facts.info.origin == IMPORTED else "recipe"
 
 
 def _holdings(facts: Facts) -> Iterable[str]:
@@ -109,7 +109,7 @@ def _ranges(facts: Facts) -> Iterable[str]:
 def _making(facts: Facts, source: str) -> Iterable[str]:
     info = facts.info
     yield "## How it was made\n"
-    if facts.origin == IMPORTED:
+    if facts.info.origin == IMPORTED:
         yield (
             "Each record is the stored numbers of its file times their scale, in m/s², as float32; `provenance` in the "
             "shards names file, SHA-256, variables, scale and notes of each. What the SPEC does not say is unknown.\n"

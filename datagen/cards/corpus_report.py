@@ -13,7 +13,7 @@ from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.files.atomic import write_results
-from datagen.files.places import require_folder
+from datagen.files.places import OUT, require_folder
 
 CARD, METADATA, VOCABULARY = "card.md", "croissant.json", "labels_bearing_datasets.csv"
 MOST_EXAMPLES = 6
@@ -74,4 +74,4 @@ def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:
 def _check_folder(out: Path) -> None:
     require_folder(out)
     if out.is_dir() and any(out.iterdir()) and not (out / CARD).is_file():
-        raise BadInput("this folder holds things other than a report", str(out), "--out")
+        raise BadInput("this folder holds things other than a report", str(out), OUT)

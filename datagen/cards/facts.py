@@ -61,7 +61,6 @@ class Facts:
     """Everything a card states; `validity` counts the records by reason for which the model is outside its range."""
 
     info: Info
-    origin: str
     summary: str
     terms: Terms
     kinds: tuple[Kind, ...]
@@ -78,7 +77,6 @@ def corpus_facts(folder: Path) -> Facts:
     manifest, table = corpus.manifest, corpus.labels
     return Facts(
         info=corpus_info(folder),
-        origin=manifest.origin,
         summary=str(_stated(manifest, "summary")),
         terms=Terms(*(str(_stated(manifest, name)) for name in ("licence", "citation", "url"))),
         kinds=tuple(_kinds(table)),

@@ -7,8 +7,7 @@ from pathlib import Path
 from datagen.cards.toml_text import toml_text
 from datagen.corpus_files.manifest import Manifest
 from datagen.errors import BadInput
-
-MANIFEST = Path("manifest.json")
+from datagen.files.places import MANIFEST
 
 
 def origin_text(manifest: Manifest) -> str:
@@ -18,7 +17,7 @@ def origin_text(manifest: Manifest) -> str:
 
     stored = manifest.recipe["spec"] if manifest.imported else manifest.recipe
     try:
-        read = parse_spec(stored, MANIFEST) if manifest.imported else parse_recipe(stored, MANIFEST)
+        read = parse_spec(stored, Path(MANIFEST)) if manifest.imported else parse_recipe(stored, Path(MANIFEST))
     except BadInput:
         return toml_text(stored)  # made by a version with other settings: shown as it is stored
     return toml_text(read.model_dump(mode="json", exclude_defaults=True))

@@ -85,11 +85,8 @@ def measure(subject: Subject, quick: bool, rounds: int, step: Say) -> Chart:
     scene = subject.lasting(min(subject.scene.duration, QUICK_DURATION)) if quick else subject.scene
     step("reference")
     warm_up()
-    reference = of_trace(
-        simulate(scene, subject.rate, FixedSteps(QUICK_STEPS), keep=Kept(state=True))
-        if quick
-        else simulate(scene, subject.rate, Reference(), keep=Kept(state=True))
-    )
+    request = FixedSteps(QUICK_STEPS) if quick else Reference()
+    reference = of_trace(simulate(scene, subject.rate, request, keep=Kept(state=True)))
     runs = []
     entered = contestants(scene, quick)
     for number, contestant in enumerate(entered, 1):

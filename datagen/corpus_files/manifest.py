@@ -13,6 +13,7 @@ from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whol
 from datagen.corpus_files.shard import Failure, Sidecar, has_finished_shards, shard_path
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
+from datagen.files.places import MANIFEST
 from datagen.scenarios.redraw import Refused, add_refused
 
 Span = tuple[int, int]
@@ -97,7 +98,7 @@ class Manifest:
 
 def manifest_path(folder: Path) -> Path:
     """Where the manifest of the corpus `folder` lies."""
-    return folder / "manifest.json"
+    return folder / MANIFEST
 
 
 def write_manifest(folder: Path, manifest: Manifest) -> None:

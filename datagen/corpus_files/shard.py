@@ -19,6 +19,8 @@ from labels.schema import LABELS
 if TYPE_CHECKING:
     import xarray
 
+SHARDS = "shards"
+
 
 @dataclass(frozen=True)
 class Failure:
@@ -55,9 +57,14 @@ class Sidecar:
         return frozenset(self.records) | {failure.record for failure in self.failed}
 
 
+def shards_folder(folder: Path) -> Path:
+    """Where the shards of the corpus `folder` lie."""
+    return folder / SHARDS
+
+
 def shard_path(folder: Path, shard: int) -> Path:
     """Where the file of a shard lies in the corpus `folder`."""
-    return folder / "shards" / f"shard_{shard:06d}.nc"
+    return shards_folder(folder) / f"shard_{shard:06d}.nc"
 
 
 def sidecar_path(folder: Path, shard: int) -> Path:
@@ -152,7 +159,7 @@ def is_whole(folder: Path, sidecar: Sidecar) -> bool:
 
 def finished_shards(folder: Path) -> Iterator[Sidecar]:
     """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of its size."""
-    for path in sorted((folder / "shards").glob("shard_*.json")):
+    for path in sorted(shards_folder(folder).glob("shard_*.json")):
         sidecar = read_sidecar(path)
         if sidecar is not None and is_whole(folder, sidecar):
             yield sidecar
@@ -163,9 +170,9 @@ def sweep_unfinished(folder: Path) -> None:
 
     Call it with the folder locked and no writer at work in it.
     """
-    for place in (folder, folder / "shards"):
+    for place in (folder, shards_folder(folder)):
         sweep_temporaries(place)
-    for path in (folder / "shards").glob("shard_*.nc"):
+    for path in shards_folder(folder).glob("shard_*.nc"):
         if not path.with_suffix(".json").exists():
             path.unlink(missing_ok=True)
 

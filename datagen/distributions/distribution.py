@@ -8,8 +8,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 Value = float | int | str | bool
 
 
@@ -53,10 +51,6 @@ class Distribution(ABC):
     @abstractmethod
     def to_toml(self) -> object:
         """The bare value or inline table that gives this distribution back."""
-
-    def draw(self, generator: np.random.Generator) -> Any:
-        """One value; takes exactly one number from `generator`."""
-        return self.quantile(float(generator.random()))
 
 
 @dataclass(frozen=True)

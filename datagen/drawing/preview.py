@@ -11,8 +11,8 @@ import numpy as np
 from datagen.corpus_files.manifest import manifest_path, no_corpus, read_manifest
 from datagen.corpus_files.shard import has_finished_shards
 from datagen.errors import BadInput
-from datagen.files.atomic import write_atomically
-from datagen.files.places import require_file
+from datagen.files.atomic import write_file
+from datagen.files.places import OUT, require_file
 from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable
@@ -35,10 +35,7 @@ def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, 
     """
     picture = _writable(Path(out))
     content, facts = preview_png(source, record)
-    try:
-        write_atomically(picture, content)
-    except OSError as problem:
-        raise BadInput(f"cannot write this file: {problem.strerror}", field="--out", value=str(out)) from None
+    write_file(picture, content, OUT)
     return facts
 
 
@@ -92,7 +89,7 @@ def measured_portrait(folder: Path, record: int) -> MeasuredPortrait:
 
 def _writable(picture: Path) -> Path:
     if picture.suffix.lower() != ".png":
-        raise BadInput(field="--out", value=str(picture), allowed="a file name that ends in .png")
+        raise BadInput(field=OUT, value=str(picture), allowed="a file name that ends in .png")
     require_file(picture)
     return picture
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from datagen.errors import BadInput
+from datagen.files.places import OUT
 
 TEMPORARY_SUFFIX = ".part"
 NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -66,7 +67,7 @@ def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
         if new:
             with suppress(OSError):
                 folder.rmdir()
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
 
 
 def _sync_folder(folder: Path) -> None:
@@ -77,12 +78,10 @@ def _sync_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
-def sweep_temporaries(folder: Path) -> int:
-    """Delete what killed writers left in `folder`; returns how many files. Call it with the folder locked."""
-    leftovers = [path for path in folder.glob(".*") if path.name.endswith(TEMPORARY_SUFFIX)]
-    for path in leftovers:
+def sweep_temporaries(folder: Path) -> None:
+    """Delete what killed writers left in `folder`. Call it with the folder locked."""
+    for path in folder.glob(f".*{TEMPORARY_SUFFIX}"):
         path.unlink(missing_ok=True)
-    return len(leftovers)
 
 
 @contextmanager

@@ -23,6 +23,7 @@ import numpy as np
 
 from datagen.errors import BadInput
 from datagen.files.chunk import chunk_bytes
+from datagen.files.time_stamps import clear_time_stamps
 
 if TYPE_CHECKING:
     import netCDF4
@@ -49,10 +50,11 @@ def check_compression(compression: str) -> None:
         )
 
 
-def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | memoryview:
+def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | bytearray:
     """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered.
 
-    They are made in memory: a file that netCDF fills in place and that is cut short opens cleanly and holds NaN.
+    The same libraries make the same bytes of the same dataset at any time. They are made in memory: a file that netCDF
+    fills in place and that is cut short opens cleanly and holds NaN.
     Signals are stored in checksummed chunks, one for each record and component.
     """
     check_compression(compression)
@@ -122,10 +124,8 @@ def _as_stored(variable: xarray.Variable) -> _Stored:
     return _Stored(dims, values, attributes)
 
 
-def _laid_out(
-    stored: dict[str, _Stored], attributes: dict[str, Any], compression: str, with_values: bool
-) -> memoryview:
-    """A netCDF file of all dimensions, variables and attributes, and perhaps the values."""
+def _laid_out(stored: dict[str, _Stored], attributes: dict[str, Any], compression: str, with_values: bool) -> bytearray:
+    """A netCDF file of all dimensions, variables and attributes, and perhaps the values; without time stamps."""
     import netCDF4
 
     file = netCDF4.Dataset("shard.nc", mode="w", format="NETCDF4", memory=IMAGE_BLOCK)
@@ -138,7 +138,8 @@ def _laid_out(
         target.setncatts(one.attributes)
         if with_values and one.values.size:
             target[...] = one.values
-    image: memoryview = file.close()
+    image = bytearray(file.close())
+    clear_time_stamps(image)
     return image
 
 
@@ -153,7 +154,7 @@ def _create(file: netCDF4.Dataset, name: str, stored: _Stored, compression: str)
     return target
 
 
-def _filled(image: memoryview, stored: dict[str, _Stored], compression: str) -> bytes:
+def _filled(image: bytearray, stored: dict[str, _Stored], compression: str) -> bytes:
     """The file `image` with the chunks of what is `stored` put in."""
     import h5py
 

@@ -23,8 +23,6 @@ READERS: dict[str, Callable[[Path], Arrays]] = {
     "wav": read_wav,
     "nc": read_netcdf,
 }
-
-
 # How a text begins that Git LFS leaves where the data itself was not fetched.
 POINTER = b"version https://git-lfs"
 

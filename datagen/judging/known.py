@@ -7,9 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from labels.classifier.classes import joint_class
 from labels.features.kinematics import NOMINAL_WITHIN, Kinematics, bearing_kinematics
-from labels.schema import LOCATIONS, UNKNOWN
 from physics.orders import ball_spin_order
 
 RPM_PER_HZ = 60.0
@@ -66,20 +64,6 @@ def _ball_count(outer: float, inner: float, cage: float) -> float:
     if neither pair is known."""
     counts = outer + inner, outer / cage if cage > 0.0 else math.nan
     return next((round(count) for count in counts if math.isfinite(count)), math.nan)
-
-
-def true_class(labels: Mapping[str, Any]) -> str:
-    """The class that a classifier learns from the record, or "unknown" where the labels do not say one of CLASSES."""
-    try:
-        return joint_class(str(labels["condition"]), str(labels["location"]))
-    except ValueError:
-        return UNKNOWN
-
-
-def true_location(labels: Mapping[str, Any]) -> str:
-    """none, outer or inner; "unknown" for everything else (a ball's fault too), which is predicted and not scored."""
-    said = str(labels["location"])
-    return said if said in LOCATIONS else UNKNOWN
 
 
 def _number(labels: Mapping[str, Any], name: str) -> float:

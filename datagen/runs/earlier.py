@@ -8,7 +8,7 @@ from pathlib import Path
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
-from datagen.corpus_files.shard import Sidecar, finished_shards
+from datagen.corpus_files.shard import SHARDS, Sidecar, finished_shards, shards_folder
 from datagen.errors import BadInput
 from datagen.files.places import OUT, require_folder
 
@@ -19,7 +19,7 @@ VERSIONS = {
     "program_hash": "the program",
 }
 # What a run leaves that was interrupted before its first shard.
-BEGINNING = (".lock", "shards")
+BEGINNING = (".lock", SHARDS)
 
 
 @dataclass(frozen=True)
@@ -91,6 +91,6 @@ def _refuse_strangers(folder: Path) -> None:
     if not folder.exists():
         return
     names = [path.name for path in folder.iterdir() if path.name not in BEGINNING and not path.name.endswith(".part")]
-    strangers = sorted(names) or sorted(path.name for path in (folder / "shards").glob("*.nc"))
+    strangers = sorted(names) or sorted(path.name for path in shards_folder(folder).glob("*.nc"))
     if strangers:
         raise BadInput(f"this folder holds no corpus but other things ({', '.join(strangers[:3])})", str(folder), OUT)

@@ -9,9 +9,11 @@ from pathlib import Path
 
 from datagen.corpus_files.format import Identity, format_hash
 from datagen.corpus_files.manifest import Span, add_spans
+from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
 from datagen.files.atomic import locked
 from datagen.files.netcdf import check_compression
+from datagen.files.places import OUT
 from datagen.progress import SILENT, Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.earlier import earlier_runs
@@ -80,6 +82,6 @@ def _last(spans: Iterable[Span]) -> int:
 
 def _make_folder(folder: Path) -> None:
     try:
-        (folder / "shards").mkdir(parents=True, exist_ok=True)
+        shards_folder(folder).mkdir(parents=True, exist_ok=True)
     except OSError as problem:
-        raise BadInput(f"cannot make this folder: {problem.strerror}", str(folder), "--out") from None
+        raise BadInput(f"cannot make this folder: {problem.strerror}", str(folder), OUT) from None

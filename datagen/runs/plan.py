@@ -55,6 +55,7 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
     rates that are too low. Raises BadInput if a record can hardly be drawn.
     """
     shards: list[PlannedShard] = []
+    records: list[list[int]] = []  # of each shard
     growing: dict[Hashable, int] = {}
     forces_kept: set[tuple[str, str]] = set()
     redraws, rates = RedrawCount(recipe), TooLowRates()
@@ -72,13 +73,14 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
             on_disk = stored_bytes(scenario, stored, recipe.store.compression)
             raw = stored_bytes(scenario, stored, "none")
             shards.append(PlannedShard(len(shards), (), stored, on_disk, raw, scenario.duration))
-        place = growing[kind]
-        shards[place] = replace(shards[place], records=(*shards[place].records, record))
-        if len(shards[place].records) == recipe.store.records_per_shard:
+            records.append([])
+        held = records[growing[kind]]
+        held.append(record)
+        if len(held) == recipe.store.records_per_shard:
             del growing[kind]
     for sentence in filter(None, (redraws.sentence(), rates.sentence())):
         say(sentence)
-    return shards
+    return [replace(shard, records=tuple(held)) for shard, held in zip(shards, records, strict=True)]
 
 
 def stored_signals(recipe: Recipe, scenario: Scenario, forces_kept: set[tuple[str, str]]) -> tuple[str, ...]:

@@ -6,11 +6,13 @@ import math
 import os
 import shutil
 from collections.abc import Iterable, Sequence
+from itertools import chain
 from pathlib import Path
 
 from datagen.corpus_files.manifest import Span, manifest_path
 from datagen.errors import BadInput
 from datagen.files.byte_counts import bytes_text
+from datagen.files.places import OUT
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, stored_bytes
 from datagen.runs.rates import against_rate, lowest_rate
@@ -27,9 +29,9 @@ CONTAINER_LIMIT = Path("/sys/fs/cgroup/memory.max")
 
 def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
     """Raise BadInput if the sampling rate is far too low for every record asked for of a part."""
-    for index, part in enumerate(recipe.part):
+    for part, records in zip(recipe.part, _first_of_parts(recipe, asked), strict=True):
         refusal = None
-        for record in _first_of_part(recipe, index, asked):
+        for record in records:
             scenario = draw_scenario(recipe, record)
             problem = against_rate(scenario)
             if not problem:
@@ -42,14 +44,17 @@ def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
                 raise refusal
 
 
-def _first_of_part(recipe: Recipe, index: int, asked: Sequence[Span]) -> list[int]:
-    found: list[int] = []
-    for start, stop in asked:
-        for record in range(start, stop):
-            if recipe.place(record).part == index:
-                found.append(record)
-                if len(found) == MOST_LOOKED_AT:
-                    return found
+def _first_of_parts(recipe: Recipe, asked: Sequence[Span]) -> list[list[int]]:
+    """Of each part, the first records asked for, at most MOST_LOOKED_AT."""
+    found: list[list[int]] = [[] for _ in recipe.part]
+    lacking = len(found)
+    for record in chain.from_iterable(range(*span) for span in asked):
+        of_part = found[recipe.place(record).part]
+        if len(of_part) < MOST_LOOKED_AT:
+            of_part.append(record)
+            lacking -= len(of_part) == MOST_LOOKED_AT
+            if not lacking:
+                break
     return found
 
 
@@ -71,7 +76,10 @@ def record_memory(scenario: Scenario, stored: tuple[str, ...]) -> float:
 
 
 def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) -> None:
-    """Raise BadInput if a shard does not fit into memory, or one of its records not onto the disk of a new `folder`."""
+    """Raise BadInput if a shard does not fit into memory, or one of its records not onto the disk of a new `folder`.
+
+    Of all shards of one size one is looked at, and of its records the first: to draw all again takes too long.
+    """
     free = math.inf if manifest_path(folder).exists() else shutil.disk_usage(_existing(folder)).free
     memory = memory_bytes()
     kinds = {(shard.record_bytes, shard.raw_bytes, len(shard.records)): shard for shard in planned}
@@ -79,7 +87,7 @@ def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) 
         if shard.record_bytes > free:
             raise BadInput(
                 f"one record needs about {bytes_text(shard.record_bytes)} of disk space; {bytes_text(free)} are free",
-                field="--out", value=str(folder), allowed="a folder on a larger disk, or shorter records",
+                field=OUT, value=str(folder), allowed="a folder on a larger disk, or shorter records",
             )  # fmt: skip
         scenario = draw_scenario(recipe, shard.records[0])
         require_record_memory(recipe, scenario, shard.stored)

@@ -24,12 +24,9 @@ from physics.outcome import SimulationFailed
 
 @dataclass(frozen=True)
 class ShardRow:
-    """How a shard ended: `made` and `failed` records, `bytes` on the disk; `error` is a traceback if none was."""
+    """How the making of a `shard` (its number) ended: `error` is a traceback if it could not be made, else ""."""
 
     shard: int
-    made: int
-    failed: int
-    bytes: int
     error: str = ""
 
 
@@ -64,7 +61,7 @@ def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Id
     except Exception as problem:
         if isinstance(problem, OSError) and problem.errno in NO_SPACE:
             raise
-        return ShardRow(planned.number, 0, len(planned.records), 0, traceback.format_exc())
+        return ShardRow(planned.number, traceback.format_exc())
 
 
 def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
@@ -82,7 +79,7 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
     title = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
     dataset = to_dataset(records, title) if records else None
     seconds = time.perf_counter() - began
-    written = write_shard(
+    write_shard(
         folder=folder,
         shard=planned.number,
         identity=identity,
@@ -92,4 +89,4 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
         seconds=round(seconds, 3),
         refused=count_refused(redraws),
     )
-    return ShardRow(planned.number, len(records), len(failed), written.bytes)
+    return ShardRow(planned.number)

@@ -105,6 +105,7 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
         turn=draw.turns.turn,
     )
     if part.defect is not None and part.defect.drawn_for == "machine":
+        # Its records draw the same again, under their own load: here it shows that they can be, and of what kind.
         draw_spalls(part.defect, rig.bearing, rig.rated_load, replace(draw, turn=machine.turn))
         machine = replace(machine, kind=draw.intended.kind)
     return machine

@@ -16,7 +16,6 @@ from datagen.distributions.kinds import (
     Balanced,
     Choice,
     DistributionError,
-    Fixed,
     Normal,
     Uniform,
     distribution_schema,
@@ -87,16 +86,6 @@ def test_quantiles_never_fall(one: float, other: float) -> None:
         assert distribution.quantile(low) <= distribution.quantile(high)
 
 
-def test_a_draw_is_the_quantile_of_one_number_of_the_generator() -> None:
-    for example in EXAMPLES:
-        distribution = parse_distribution(example)
-        generator = np.random.default_rng(3)
-        drawn, after = distribution.draw(generator), generator.random()
-        reference = np.random.default_rng(3)
-        assert drawn == distribution.quantile(float(reference.random()))
-        assert after == reference.random()
-
-
 def test_weights_are_shares_and_a_weight_of_zero_is_never_drawn() -> None:
     choice = parse_distribution({"choice": ["a", "b", "c", "d"], "weights": [0, 3, 1, 0]})
     assert [choice.quantile(p) for p in (0.0, 0.74, 0.76, 1.0 - 2.0**-53)] == ["b", "b", "c", "c"]
@@ -113,14 +102,6 @@ def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight(
     assert balanced.block == 4
     for seed in range(5):
         assert sorted(balanced.shuffled(np.random.default_rng(seed))) == [0, 2, 2, 2]
-
-
-def test_a_bare_value_takes_its_number_too_so_that_fixing_a_setting_moves_no_other() -> None:
-    generator = np.random.default_rng(0)
-    Fixed(1.0).draw(generator)
-    reference = np.random.default_rng(0)
-    reference.random()
-    assert generator.random() == reference.random()
 
 
 @pytest.mark.parametrize(

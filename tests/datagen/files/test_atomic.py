@@ -74,7 +74,8 @@ def test_what_a_killed_writer_leaves_is_swept(tmp_path: Path) -> None:
     for _ in range(2):
         assert subprocess.run([sys.executable, "-c", script], cwd=ROOT).returncode == 9
     assert not (tmp_path / "a").exists()
-    assert sweep_temporaries(tmp_path) == 2
+    assert len(list(tmp_path.iterdir())) == 2
+    sweep_temporaries(tmp_path)
     assert not list(tmp_path.iterdir())
 
 
@@ -104,7 +105,7 @@ def test_a_writer_killed_at_any_moment_leaves_a_whole_file(tmp_path: Path) -> No
 def test_sweeping_deletes_temporaries_and_nothing_else(tmp_path: Path) -> None:
     for name in (".shard_000001.nc.host.7.part", "shard_000001.nc", ".lock", "notes.part"):
         (tmp_path / name).write_bytes(b"x")
-    assert sweep_temporaries(tmp_path) == 1
+    sweep_temporaries(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == [".lock", "notes.part", "shard_000001.nc"]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,18 @@ def test_names_types_attributes_chunks_and_filters_are_the_same(
 
     with netCDF4.Dataset(ours) as first, netCDF4.Dataset(theirs) as second:
         assert layout(first) == layout(second)
+
+
+@pytest.mark.parametrize("fast", [True, False])
+@pytest.mark.parametrize("compression", COMPRESSIONS)
+def test_files_made_in_different_seconds_have_the_same_bytes(
+    dataset: xarray.Dataset, compression: str, fast: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(netcdf, "has_fast_chunks", lambda: fast)
+    first, began = bytes(netcdf_bytes(dataset, compression)), int(time.time())
+    while int(time.time()) == began:
+        time.sleep(0.02)
+    assert bytes(netcdf_bytes(dataset, compression)) == first
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)

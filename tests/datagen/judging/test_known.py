@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from datagen.judging.known import known_kinematics, true_class, true_location
+from datagen.judging.known import known_kinematics
 
 GEOMETRY = {"balls": 9, "pitch_diameter": 39.04e-3, "ball_diameter": 7.94e-3, "contact_angle": 0.0}
 UNKNOWN = dict.fromkeys(GEOMETRY, math.nan)
@@ -46,13 +46,6 @@ def test_without_speed_or_geometry_nothing_is_known(labels):
 def test_orders_of_no_bearing_tell_nothing(orders):
     outer, inner = orders
     assert known_kinematics(UNKNOWN | {"bpfo": outer, "bpfi": inner, "speed_rpm": 1800.0}) is None
-
-
-def test_what_is_no_class_of_ours_is_unknown_and_not_scored():
-    assert true_class({"condition": "line", "location": "outer"}) == "line outer"
-    assert true_class({"condition": "unknown", "location": "outer"}) == "unknown"
-    assert true_location({"location": "outer"}) == "outer"
-    assert true_location({"location": "ball"}) == "unknown"
 
 
 def test_an_unknown_contact_angle_is_taken_as_none():

@@ -21,6 +21,7 @@ from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.glitches import without_glitches
+from labels.features.jumps import without_jumps
 from labels.features.kinematics import Kinematics
 from labels.features.known_lines import races_in_mains
 from labels.features.shocks import without_shocks
@@ -84,6 +85,7 @@ def record_rows(
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
         drawn_over = cut = 0
         if not is_dead(signal):
+            signal, _ = without_jumps(signal, turns)
             signal, drawn_over = without_glitches(signal, turns)
             signal, cut = without_shocks(signal, turns)
         found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)

@@ -128,6 +128,17 @@ def test_a_shock_is_counted_and_hides_no_modulation():
     assert found.rows[0].values[column] == pytest.approx(clean.rows[0].values[column], abs=0.2)
 
 
+def test_a_bias_that_jumps_hides_no_modulation():
+    time, bpfo_hz = np.arange(24_000) / RATE, known_kinematics(labels()).bpfo * 30.0
+    signal = shaking(24_000)[:, 0] * (1.0 + 0.7 * np.cos(2.0 * np.pi * bpfo_hz * time))
+    clean, found = (
+        record_rows(each[:, None], labels(), Reading())
+        for each in (signal, signal + 30.0 * signal.std() * (time > 1.0))
+    )
+    column = FEATURE_NAMES.index("outer_strength")
+    assert found.rows[0].values[column] == pytest.approx(clean.rows[0].values[column], abs=0.05)
+
+
 @pytest.mark.parametrize("read", [read_rows, read_windows])
 def test_a_record_that_cannot_be_read_leaves_no_file_open(read, tiny_corpus, monkeypatch):
     closed = []

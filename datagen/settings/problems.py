@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args
 
@@ -68,7 +69,14 @@ def _is_of_kind(error: dict[str, Any]) -> bool:
 
 
 def _is_kind(step: str | int) -> bool:
-    return isinstance(step, str) and (step in SCALARS or step[:1].isupper())
+    return isinstance(step, str) and (step in SCALARS or (step[:1].isupper() and step in _tables(BaseModel)))
+
+
+def _tables(model: type[BaseModel]) -> Iterator[str]:
+    """Names of all tables of settings, by which pydantic calls these kinds of value."""
+    for kind in model.__subclasses__():
+        yield kind.__name__
+        yield from _tables(kind)
 
 
 def _is_other_kind(error: dict[str, Any]) -> bool:

@@ -206,3 +206,11 @@ def test_what_comes_oftener_than_once_a_turn_is_no_glitch(glitches, drawn_over):
     signal = shaking(24_000)  # two seconds, 60 turns
     signal[150 + 290 * np.arange(glitches)] = 30.0
     assert record_rows(signal, labels(), Reading()).glitches == drawn_over
+
+
+def test_the_speed_that_was_found_is_told_and_not_the_nominal_one():
+    time = np.arange(48_000) / RATE
+    signal = shaking(48_000)[:, 0] + sum(np.sin(2.0 * np.pi * 29.1 * k * time) for k in (1, 2, 3))
+    found = record_rows(signal[:, None], labels(speed_basis="nominal"), Reading(copies_db=(-18.0, 12.0)))
+    assert found.found_rpm == pytest.approx(60.0 * 29.1, rel=1e-3)
+    assert math.isnan(RecordRows([], "too short").found_rpm)

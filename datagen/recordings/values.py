@@ -77,9 +77,14 @@ def word(*options: str, remark: str = "") -> AfterValidator:
 
     def check(value: str) -> str:
         if value not in options:
-            meant = [option for option in options if SequenceMatcher(None, value, option).ratio() >= MISSPELT]
+            meant = [option for option in options if _is_meant(value.casefold(), option)]
             hint = ", ".join(options) + (suggestion(value, meant) or (f"; {remark}" if remark else ""))
             raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": hint})
         return value
 
     return AfterValidator(check)
+
+
+def _is_meant(value: str, option: str) -> bool:
+    """Whether a text is a word with a slip in it, or with more words behind it."""
+    return value.split()[:1] == [option] or SequenceMatcher(None, value, option).ratio() >= MISSPELT

@@ -50,6 +50,9 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
     ("more", "message"),
     [
         ('location = "iner"', 'location = "iner"; allowed: none, outer, inner, ball, cage, several, unknown; did'),
+        ('location = "outer race"', 'ball, cage, several, unknown; did you mean "outer"?'),
+        ('location = "normal"', "several, unknown; none means healthy, unknown that nobody said"),
+        ('bearing = "SKF 6203"', "allowed: one of these, or its numbers: bearing = {balls = …"),
         ('condition = "broken"', 'condition = "broken"; allowed: healthy, line, extended, unknown'),
         ('condition = "faulty"', "allowed: healthy, line, extended, unknown; it follows from location and extent"),
         ('condition = "heathy"', 'allowed: healthy, line, extended, unknown; did you mean "healthy"?'),

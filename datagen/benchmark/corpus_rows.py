@@ -23,14 +23,16 @@ RECORDS_A_TASK = 24
 
 @dataclass(frozen=True)
 class CorpusRows:
-    """The `rows` of features of records of a corpus; by record, why it was `rejected`, how many glitches and shocks it
-    had, and the races that hide `in_mains`, where any. `raw` are its windows for models that take them instead."""
+    """The `rows` of features of records of a corpus; by record, where any, why it was `rejected`, how many glitches and
+    shocks it had, the races that hide `in_mains`, and the speed that was found, rpm. `raw` are its windows for models
+    that take them instead."""
 
     rows: Rows
     rejected: dict[int, str] = field(default_factory=dict)
     glitches: dict[int, int] = field(default_factory=dict)
     shocks: dict[int, int] = field(default_factory=dict)
     in_mains: dict[int, tuple[str, ...]] = field(default_factory=dict)
+    found_rpm: dict[int, float] = field(default_factory=dict)
     raw: Rows | None = None
 
     def asked_for(self, windows: bool) -> Rows:
@@ -62,6 +64,7 @@ def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:
         {record: of.glitches for record, of in found.items() if of.glitches},
         {record: of.shocks for record, of in found.items() if of.shocks},
         {record: of.in_mains for record, of in found.items() if of.in_mains},
+        {record: of.found_rpm for record, of in found.items() if of.rows},
     )
 
 

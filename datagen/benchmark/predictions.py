@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -12,7 +13,17 @@ from datagen.benchmark.verdicts import Tested, Verdicts
 from labels.classifier.classes import condition_probability, location_probability
 from labels.schema import CONDITIONS, LOCATIONS
 
-FACTS = ("record", "recording", "bearing_id", "truth", "rejected", "despiked", "shocks_cut", "in_mains")
+FACTS = (
+    "record",
+    "recording",
+    "bearing_id",
+    "truth",
+    "rejected",
+    "despiked",
+    "shocks_cut",
+    "in_mains",
+    "found_speed_rpm",
+)
 SAID = ("location", "score", "alarm")
 
 
@@ -36,8 +47,8 @@ class ModelAnswer:
 @dataclass(frozen=True)
 class Prediction:
     """What is known of a record (`truth`, its location), why it was `rejected` ("" if it was not), how many glitches
-    were drawn over and shocks cut, which races hide `in_mains` ("", "outer", "inner" or "outer inner"), and the answer
-    of each of the `models`."""
+    were drawn over and shocks cut, which races hide `in_mains` ("", "outer", "inner" or "outer inner"), at which speed
+    of the shaft its lines were looked for (None without features), and the answer of each of the `models`."""
 
     record: int
     recording: str
@@ -47,6 +58,7 @@ class Prediction:
     despiked: int
     shocks_cut: int
     in_mains: str
+    found_speed_rpm: float | None
     models: dict[str, ModelAnswer]
 
     @property
@@ -71,10 +83,15 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             despiked=int(tested.glitches[place]),
             shocks_cut=int(tested.shocks[place]),
             in_mains=str(tested.in_mains[place]),
+            found_speed_rpm=_rpm(float(tested.found_rpm[place])),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )
         for place, (_, row) in enumerate(tested.labels.iterrows())
     ]
+
+
+def _rpm(found: float) -> float | None:
+    return None if math.isnan(found) else float(f"{found:.6g}")
 
 
 def _answer(said: Verdicts, place: int) -> ModelAnswer:

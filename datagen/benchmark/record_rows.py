@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -21,6 +22,7 @@ from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.glitches import without_glitches
+from labels.features.jumps import without_jumps
 from labels.features.kinematics import Kinematics
 from labels.features.known_lines import races_in_mains
 from labels.features.shocks import without_shocks
@@ -37,13 +39,14 @@ class Row:
     """One row: `values` (F,) of the feature table, of one window of one `axis` of a record.
 
     It is `noisy` if noise was added to learn from. `reason` says why what it shows must not be classified, "" if it
-    may.
+    may. `shaft_hz` is the frequency of the shaft that was found in it.
     """
 
     values: Array
     noisy: bool
     reason: str
     axis: int = 0
+    shaft_hz: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,12 @@ class RecordRows:
     glitches: int = 0
     shocks: int = 0
     in_mains: tuple[str, ...] = ()
+
+    @property
+    def found_rpm(self) -> float:
+        """The speed of the shaft that was found: the median over the rows without added noise, NaN without any."""
+        found = [row.shaft_hz for row in self.rows if not row.noisy]
+        return 60.0 * float(np.median(found)) if found else math.nan
 
 
 def feature_rows(found: Sequence[Row], record: int) -> Rows:
@@ -84,6 +93,7 @@ def record_rows(
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
         drawn_over = cut = 0
         if not is_dead(signal):
+            signal, _ = without_jumps(signal, turns)
             signal, drawn_over = without_glitches(signal, turns)
             signal, cut = without_shocks(signal, turns)
         found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
@@ -120,7 +130,8 @@ def signal_rows(
             if piece.size < FEWEST_SAMPLES_USED or is_dead(piece[: fft.prev_fast_len(piece.size, real=True)]):
                 continue
             analysis = analyse(piece, rate, given, bandwidth, None if angle is None else Turning(angle))
-            rows.append(Row(feature_values(analysis), copy > 0, liveness(analysis, piece).reason))
+            values, reason = feature_values(analysis), liveness(analysis, piece).reason
+            rows.append(Row(values, copy > 0, reason, shaft_hz=analysis.speed.shaft_hz))
     return rows
 
 

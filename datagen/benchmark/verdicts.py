@@ -53,7 +53,8 @@ class Tested:
     """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
 
     `reasons` (R,) say why a record was rejected, `glitches` (R,) how many were drawn over in it, `shocks`
-    (R,) how many were cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks between.
+    (R,) how many were cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks between,
+    `found_rpm` (R,) the speed of the shaft that was found, NaN without features.
     """
 
     folder: Path
@@ -64,6 +65,7 @@ class Tested:
     glitches: NDArray[np.int64]
     shocks: NDArray[np.int64]
     in_mains: NDArray[np.str_]
+    found_rpm: NDArray[np.float64]
     verdicts: tuple[Verdicts, ...]
     imported: bool
 
@@ -105,6 +107,7 @@ def judge(
         glitches=glitches,
         shocks=shocks,
         in_mains=in_mains,
+        found_rpm=np.array([found.found_rpm.get(record, np.nan) for record in records.tolist()], dtype=np.float64),
         verdicts=tuple(verdicts),
         imported=imported,
     )

@@ -30,6 +30,10 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+# Columns of a table where there is no terminal, of which usual names take so many; the heading above names.
+WIDTH, USUAL_NAME = 140, 40
+NAMES = "recording"
+
 JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write the results to this file too.")]
 CorpusFolder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a corpus.")]
 Command = Callable[..., None]
@@ -91,14 +95,26 @@ def command(
 
 
 def show_tables(tables: list[Table]) -> None:
-    """Print tables as wide as the terminal, their texts as they stand: those of recipes may hold rich's markup."""
+    """Print tables as wide as the terminal, their texts as they stand: those of recipes may hold rich's markup.
+
+    Without a terminal names stand whole on one line.
+    """
     from rich.console import Console
 
-    console = Console(width=None if sys.stdout.isatty() else 140, markup=False, emoji=False)
+    console = Console(width=None if sys.stdout.isatty() else _width(tables), markup=False, emoji=False)
     with console.capture() as shown:  # where nobody reads, rich would end the process with a code of its own
         for table in tables:
             console.print(table)
     print(shown.get(), end="")
+
+
+def _width(tables: list[Table]) -> int:
+    """Columns for tables in which names of records are kept on one line."""
+    longest = 0
+    for column in (column for table in tables for column in table.columns if column.header == NAMES):
+        column.no_wrap = True
+        longest = max([longest, *(len(str(cell)) for cell in column.cells)])
+    return WIDTH + max(longest - USUAL_NAME, 0)
 
 
 def _check_json(path: Path | None) -> None:

@@ -156,7 +156,7 @@ def draw_expected_lines(axes: Axes, portrait: MeasuredPortrait) -> None:
     turned = portrait.shaft_angle is not None
     words = "orders of the shaft times its mean speed (Hz)" if turned else "frequency (Hz)"
     axes.set(xlim=(0.0, top), ylim=limits, xlabel=words, ylabel="(m/s²)²")
-    axes.set_title("Squared envelope spectrum, by angle" if turned else "Squared envelope spectrum")
+    axes.set_title("Squared envelope, by angle" if turned else "Squared envelope spectrum")
     faint_grid(axes)
     if portrait.frequencies:
         outside_legend(axes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
@@ -19,6 +20,7 @@ from physics.spelling import suggestion
 Arrays = Mapping[str, NDArray[Any]]
 INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
 MOST_NAMES = 12
+MOST_ALIKE, LETTERS_ALIKE = 4, 3
 ONLY_NAME = "data"
 
 
@@ -57,7 +59,16 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
         raise NoVariable("the file holds no numbers", str(path), field, text)
     shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
     hint = arrays.hint if isinstance(arrays, Columns) else ""
-    raise NoVariable(f"the file has no such variable{hint or suggestion(text, names)}", str(path), field, text, shown)
+    hint = hint or _alike(text, names) or suggestion(text, names)
+    raise NoVariable(f"the file has no such variable{hint}", str(path), field, text, shown)
+
+
+def _alike(wish: str, names: list[str]) -> str:
+    """A closing remark on the few names that hold the wish or only differ in capitals; empty without any."""
+    whole = [name for name in names if name.casefold() == wish.casefold()]
+    alike = [name for name in names if len(wish) >= LETTERS_ALIKE and wish.casefold() in name.casefold()]
+    alike = whole or alike
+    return f"; did you mean {' or '.join(json.dumps(name) for name in alike[:MOST_ALIKE])}?" if alike else ""
 
 
 def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None] | None:

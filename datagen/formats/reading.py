@@ -23,6 +23,8 @@ READERS: dict[str, Callable[[Path], Arrays]] = {
     "wav": read_wav,
     "nc": read_netcdf,
 }
+PACKED = ("gz", "bz2", "xz", "zst", "zip", "7z", "rar", "tar", "tgz")
+
 # How a text begins that Git LFS leaves where the data itself was not fetched.
 POINTER = b"version https://git-lfs"
 
@@ -30,6 +32,8 @@ POINTER = b"version https://git-lfs"
 def file_format(path: Path, stated: str | None) -> str:
     """The format that is `stated`, or that the file's ending says; raises BadInput if it says none."""
     ending = path.suffix.lower().removeprefix(".")
+    if ending in PACKED and stated is None:
+        raise BadInput("is packed", str(path), allowed=f"the file unpacked, of a known format ({', '.join(FORMATS)})")
     kind = stated or ENDINGS.get(ending, ending)
     if kind not in FORMATS:
         problem, allowed = "the file's name does not end like that of a known format", ", ".join(FORMATS)

@@ -19,6 +19,9 @@ UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "",
 HEALTHY: dict[str, Any] = dict.fromkeys(
     ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness"), 0.0
 ) | {"spalls": 0, "bridged": False, "profile": "none"}
+NUMBERS = (
+    "one of these, or its numbers: bearing = {balls = …, ball_diameter_mm = …, pitch_diameter_mm = …}, or bpfo and bpfi"
+)
 ORDERS = ("bpfo", "bpfi", "bsf", "ftf")
 # By how much BPFO + BPFI may miss a whole number, and BPFO the balls times the cage's order: orders are rounded.
 WHOLE_WITHIN, CAGE_WITHIN = 0.05, 0.01
@@ -56,7 +59,8 @@ def stated_bearing(source: Source) -> Bearing | None:
             return geometry(said)
         return None if said is None else catalogue_bearing(said)
     except InvalidParameter as problem:
-        raise BadInput(str(problem), source.request.place, "bearing") from None
+        instead = "" if isinstance(said, BearingNumbers) else NUMBERS
+        raise BadInput(str(problem), source.request.place, "bearing", allowed=instead) from None
 
 
 def contact_numbers(source: Source) -> dict[str, float]:

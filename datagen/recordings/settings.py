@@ -17,6 +17,8 @@ Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 # mm; the balls of bearings are not smaller, and a number below this is a length in m.
 Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
 MOST_BALLS = 200
+IN_WORDS = "none means healthy, unknown that nobody said"
+FOLLOWS = "it follows from location and extent and can be left out: location says what is damaged"
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
 
@@ -118,9 +120,9 @@ class RecordingSettings(Table):
     """Name of the machine, which may hold the same."""
     split: Annotated[str, word(*SPLITS, UNKNOWN)] | None = None
     """Split that the record belongs to."""
-    condition: Annotated[str, word(*CONDITIONS, UNKNOWN)] | None = None
+    condition: Annotated[str, word(*CONDITIONS, UNKNOWN, remark=FOLLOWS)] | None = None
     """State of the bearing; by default what location and extent say."""
-    location: Annotated[str, word(*LOCATIONS, *LABEL["location"].imported)] | None = None
+    location: Annotated[str, word(*LOCATIONS, *LABEL["location"].imported, remark=IN_WORDS)] | None = None
     """What is defective."""
     spalls: Annotated[int, Field(ge=0, le=10_000)] | None = None
     """Number of defects."""

@@ -30,6 +30,12 @@ CREEP = 1e-6
 NOMINAL_WITHIN = 0.2
 # Share by which a tach of a rate of its own may last longer or shorter than the vibration.
 LASTS_WITHIN = 0.1
+# Share of the pulses that are missing or double above which those of one gap are what is wrong with a tach.
+REST_SHARE = 0.5
+TURNING = (
+    "a shaft that turns throughout: a file of the samples before or behind that alone, or in place of tach "
+    "nominal_speed_rpm or the variable of a measured speed"
+)
 
 
 @dataclass(frozen=True)
@@ -54,15 +60,27 @@ def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int,
     times = None if tach is None else _pulse_times(source, tach, rate, size)
     if times is None:
         return _stated_speeds(source, rate, size, pieces)
-    times, wrong = mended(times, tach.pulses_per_rev)
-    if wrong > MOST_MENDED * times.size:
-        raise BadInput(
-            f"{wrong} of the {times.size} pulses of its tach are missing or double", str(source.path), "tach.variable",
-            tach.variable,
-            f"a signal with the same number of pulses in each turn, of which {MOST_MENDED:.0%} may be wrong",
-        )  # fmt: skip
+    whole, wrong = mended(times, tach.pulses_per_rev)
+    if wrong > MOST_MENDED * whole.size:
+        raise _irregular(source, tach, times, whole.size, wrong)
+    times = whole
     _require_nominal(source, tach, times, size / rate)
     return _tach_speeds(source, tach, times, wrong, rate, pieces)
+
+
+def _irregular(source: Source, tach: Tach, times: NDArray[np.float64], whole: int, wrong: int) -> BadInput:
+    """Why pulses at the `times` (N,) tell no speed if `wrong` of the `whole` are missing or double: mostly these are
+    missing where a shaft stands."""
+    intervals = np.diff(times)
+    longest = int(np.argmax(intervals))
+    lost = intervals[longest] / float(np.median(intervals)) - 1.0
+    if lost > REST_SHARE * wrong:
+        gap = f"none of its pulses is from {times[longest]:.4g} to {times[longest + 1]:.4g} s"
+        problem, allowed = f"{gap}, where {lost:.0f} would be if the shaft did not stand there", TURNING
+    else:
+        problem = f"{wrong} of the {whole} pulses of its tach are missing or double"
+        allowed = f"a signal with the same number of pulses in each turn, of which {MOST_MENDED:.0%} may be wrong"
+    return BadInput(problem, str(source.path), "tach.variable", tach.variable, allowed)
 
 
 def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], duration: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args
 
@@ -68,7 +69,14 @@ def _is_of_kind(error: dict[str, Any]) -> bool:
 
 
 def _is_kind(step: str | int) -> bool:
-    return isinstance(step, str) and (step in SCALARS or step[:1].isupper())
+    return isinstance(step, str) and (step in SCALARS or (step[:1].isupper() and step in _tables(BaseModel)))
+
+
+def _tables(model: type[BaseModel]) -> Iterator[str]:
+    """Names of all tables of settings, by which pydantic calls these kinds of value."""
+    for kind in model.__subclasses__():
+        yield kind.__name__
+        yield from _tables(kind)
 
 
 def _is_other_kind(error: dict[str, Any]) -> bool:
@@ -96,6 +104,9 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
         return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
     if kind == "extra_forbidden":
         known = _keys_beside(location, model)
+        homes = _homes(str(location[-1]), model)
+        if homes:
+            return f"unknown key here; it belongs {' or '.join(homes)}"
         hint = suggestion(str(location[-1]), known)
         listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
         return f"unknown key{hint}{listed}"
@@ -130,6 +141,16 @@ def _keys_beside(location: Location, model: type[BaseModel]) -> list[str]:
         if isinstance(step, str):
             table = _table_type(table.model_fields[step].annotation) or table
     return list(table.model_fields)
+
+
+def _homes(key: str, model: type[BaseModel]) -> list[str]:
+    """Where in the file a `key` is known: above its first table, or directly in which tables."""
+    tables = [
+        (f"[[{name}]]" if "tuple" in str(field.annotation) else f"[{name}]", _table_type(field.annotation))
+        for name, field in model.model_fields.items()
+    ]
+    above = ["above the first table"] if key in model.model_fields else []
+    return above + [f"in {name}" for name, table in tables if table is not None and key in table.model_fields]
 
 
 def _table_type(annotation: Any) -> type[BaseModel] | None:

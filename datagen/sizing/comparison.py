@@ -26,6 +26,8 @@ from physics.bearing import RACES
 TOLERANCE_S = 100e-6
 TOLERANCE_RAD = math.radians(0.5)
 
+CHANGING = "; the speed of the shaft changes and only its mean is used: cut the recording into pieces (cut_s)"
+
 
 def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.0) -> ScoredRecord:
     """The estimate of one record beside its truth; `factor` is what a known size of another record makes of it."""
@@ -45,13 +47,22 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.
     return ScoredRecord(
         replace(_truth(labels), pass_period=period, lag=_true_lag(sized.truth), known=sized.truth is not None),
         replace(
-            _answer(estimate), known_size_factor=known_size_factor, seconds=seconds, load_known=situation.load_known
+            _answer(estimate),
+            reason=_reason(estimate, sized),
+            known_size_factor=known_size_factor,
+            seconds=seconds,
+            load_known=situation.load_known,
         ),
         static_arc=static,
         envelope_arc=plain.lag_arc,
         events_in_time=in_time,
         events_in_arc=in_arc,
     )
+
+
+def _reason(estimate: SizeEstimate, sized: SizedRecord) -> str:
+    """Why a record has no estimate, and what may be behind it; empty if it has one."""
+    return estimate.reason + (CHANGING if sized.speed_changes and not estimate.found else "")
 
 
 def _true_lag(truth: EventTruth | None) -> float:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,9 +17,11 @@ from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.sizing.stated_situation import reason_against, situation_of, speed_found, wrong_speed
 from datagen.sizing.stored_record import StoredRecord, stored_record
+from labels.features.jumps import without_jumps
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
+from physics.operation import RPM
 
 if TYPE_CHECKING:
     import pandas
@@ -28,7 +31,8 @@ if TYPE_CHECKING:
 class SizedRecord:
     """One record: `acceleration` (T, axes), the clean one or None, its labels, what may be known of the machine, truth.
 
-    `truth` is None for recordings whose ball passes are unknown.
+    `truth` is None for recordings whose ball passes are unknown; `speed_changes` where they say how unevenly the shaft
+    turned.
     """
 
     record: int
@@ -38,6 +42,7 @@ class SizedRecord:
     labels: dict[str, Any]
     situation: Situation
     truth: EventTruth | None
+    speed_changes: bool = False
 
 
 @dataclass(frozen=True)
@@ -93,11 +98,12 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
 
 def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool) -> SizedRecord:
     record, contact = int(labels["record"]), stored.contact_stiffness() if load_known else None
-    factor = wrong_speed(record) if stored.simulated else speed_found(labels, stored.acceleration)
+    acceleration = stored.acceleration if stored.simulated else _level(stored.acceleration, labels)
+    factor = wrong_speed(record) if stored.simulated else speed_found(labels, acceleration)
     return SizedRecord(
         record=record,
         rate=float(labels["rate_hz"]),
-        acceleration=stored.acceleration,
+        acceleration=acceleration,
         clean=stored.clean,
         labels=labels,
         situation=replace(
@@ -105,4 +111,11 @@ def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool) -> Si
             polarity_known=stored.simulated,  # no recording says which way its sensor looked
         ),
         truth=stored.truth(labels),
+        speed_changes=stored.speed_changes,
     )
+
+
+def _level(acceleration: Array, labels: Mapping[str, Any]) -> Array:
+    """The acceleration (T, axes) of a recording without jumps of its sensors' bias."""
+    turns = float(labels["speed_rpm"]) * RPM / (2.0 * math.pi) * len(acceleration) / float(labels["rate_hz"])
+    return np.column_stack([without_jumps(signal, turns)[0] for signal in acceleration.T])

@@ -21,7 +21,7 @@ class StoredRecord:
     """What a shard holds of a record: `acceleration` and the `clean` one (T, axes), and whether it is `simulated`.
 
     `text` is the JSON that says how it came about ("" if there is none); `passes` are PASS_COLUMNS of its ball passes
-    by name, if any are known.
+    by name, if any are known; `speed_changes` where the angle of its shaft is stored.
     """
 
     acceleration: Array
@@ -29,6 +29,7 @@ class StoredRecord:
     simulated: bool
     text: str
     passes: dict[str, Array] | None
+    speed_changes: bool = False
 
     def contact_stiffness(self) -> tuple[float, float] | None:
         """Hertz factor and exponent from the scenario or the provenance; None if neither holds them."""
@@ -65,6 +66,7 @@ def stored_record(file: Any, position: int, record: int) -> StoredRecord:
         simulated=simulated,
         text="" if text is None else str(text[position]),
         passes=passes,
+        speed_changes="shaft_angle" in file.variables,
     )
 
 

@@ -1,6 +1,6 @@
 """The feature table: numbers that a vibration analyst would recognise, from acceleration, geometry and shaft speed.
 
-- `glitches`, `shocks`: what a recorder wrote wrongly and blows from outside, taken out first
+- `jumps`, `glitches`, `shocks`: a bias that jumps, what a recorder wrote wrongly, blows from outside: taken out first
 - `conditioning`: a signal's spectrum, raw and flattened; `envelopes`: envelope spectra of a tree of bands
 - `turning`: all of that over the angle turned, for speeds that change
 - `combs`: lines of another shaft's knocks, taken out

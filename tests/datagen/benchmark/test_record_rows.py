@@ -128,6 +128,17 @@ def test_a_shock_is_counted_and_hides_no_modulation():
     assert found.rows[0].values[column] == pytest.approx(clean.rows[0].values[column], abs=0.2)
 
 
+def test_a_bias_that_jumps_hides_no_modulation():
+    time, bpfo_hz = np.arange(24_000) / RATE, known_kinematics(labels()).bpfo * 30.0
+    signal = shaking(24_000)[:, 0] * (1.0 + 0.7 * np.cos(2.0 * np.pi * bpfo_hz * time))
+    clean, found = (
+        record_rows(each[:, None], labels(), Reading())
+        for each in (signal, signal + 30.0 * signal.std() * (time > 1.0))
+    )
+    column = FEATURE_NAMES.index("outer_strength")
+    assert found.rows[0].values[column] == pytest.approx(clean.rows[0].values[column], abs=0.05)
+
+
 @pytest.mark.parametrize("read", [read_rows, read_windows])
 def test_a_record_that_cannot_be_read_leaves_no_file_open(read, tiny_corpus, monkeypatch):
     closed = []
@@ -195,3 +206,11 @@ def test_what_comes_oftener_than_once_a_turn_is_no_glitch(glitches, drawn_over):
     signal = shaking(24_000)  # two seconds, 60 turns
     signal[150 + 290 * np.arange(glitches)] = 30.0
     assert record_rows(signal, labels(), Reading()).glitches == drawn_over
+
+
+def test_the_speed_that_was_found_is_told_and_not_the_nominal_one():
+    time = np.arange(48_000) / RATE
+    signal = shaking(48_000)[:, 0] + sum(np.sin(2.0 * np.pi * 29.1 * k * time) for k in (1, 2, 3))
+    found = record_rows(signal[:, None], labels(speed_basis="nominal"), Reading(copies_db=(-18.0, 12.0)))
+    assert found.found_rpm == pytest.approx(60.0 * 29.1, rel=1e-3)
+    assert math.isnan(RecordRows([], "too short").found_rpm)

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
 
 from datagen.drawing.measured_portrait import MeasuredPortrait
 from datagen.drawing.measured_sheet import draw_measured_sheet, heading, measured_sheet_png, summary
@@ -106,5 +108,9 @@ def test_at_a_changing_speed_the_envelope_is_drawn_over_the_angle_of_the_shaft()
     assert over_time.max() < 0.5 * amplitude[near].max()
     with house_style():
         figure = draw_measured_sheet(drawn)
-        titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert titles[4] == "Squared envelope spectrum, by angle"
+        panel = figure.axes[4]
+        FigureCanvasAgg(figure).draw()
+        legend = panel.get_legend()
+        title = next(text for text in panel.findobj(Text) if text.get_text() == "Squared envelope, by angle")
+    assert legend is not None
+    assert title.get_window_extent().x1 < legend.get_window_extent().x0

@@ -28,6 +28,7 @@ def noise(size: int = 400, seed: int = 0) -> np.ndarray:
     ("change", "message"),
     [
         (('y = "sig"', 'y = "sog"'), 'a.mat: y = "sog": the file has no such variable; did you mean "sig"?; allowed'),
+        (('y = "sig"', 'y = "SIG"'), 'a.mat: y = "SIG": the file has no such variable; did you mean "sig"?; allowed'),
         (("rate_hz = 1000\n", ""), "spec.toml: recording[1] (all): rate_hz: the sampling rate is not given"),
         (("rate_hz = 1000", "rate_hz = 0"), "spec.toml, line 6: recording[1].rate_hz = 0; allowed: a number from 100"),
         (("rate_hz = 1000", "rate_hz = -5"), "recording[1].rate_hz = -5; allowed: a number from 100 to 1e+07"),
@@ -49,7 +50,13 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
     ("more", "message"),
     [
         ('location = "iner"', 'location = "iner"; allowed: none, outer, inner, ball, cage, several, unknown; did'),
+        ('location = "outer race"', 'ball, cage, several, unknown; did you mean "outer"?'),
+        ('location = "normal"', "several, unknown; none means healthy, unknown that nobody said"),
+        ('bearing = "SKF 6203"', "allowed: one of these, or its numbers: bearing = {balls = …"),
         ('condition = "broken"', 'condition = "broken"; allowed: healthy, line, extended, unknown'),
+        ('condition = "faulty"', "allowed: healthy, line, extended, unknown; it follows from location and extent"),
+        ('condition = "heathy"', 'allowed: healthy, line, extended, unknown; did you mean "healthy"?'),
+        ("notes = {Motor = [1]}", "notes.Motor = [1]; allowed: a text in quotes or a number"),
         ('bearing = "skf_6025"', 'bearing: bearing = "skf_6025" is not in the catalogue'),
         ("bearing = {balls = 8, pitch_diameter_mm = 10, ball_diameter_mm = 8}", "8 balls of 8.000 mm do not fit"),
         ("speed_rpm = 5\nspeed_hz = 2", "speed_rpm and speed_hz set the same thing twice"),
@@ -169,6 +176,19 @@ def test_a_table_without_the_column_that_the_samples_should_be_in_is_refused(bri
     (tmp_path / "a.csv").write_text("time,acc\n0,1\n")
     message = refusal(bring, GOOD.replace("*.mat", "*.csv"), tmp_path)
     assert 'a.csv: y = "sig": the file has no such variable; allowed: acc, time' in message
+
+
+def test_names_that_hold_the_one_wanted_are_suggested(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time,acc_x,acc_y\n0,1,2\n")
+    message = refusal(bring, GOOD.replace("*.mat", "*.csv").replace("sig", "ACC"), tmp_path)
+    assert 'y = "ACC": the file has no such variable; did you mean "acc_x" or "acc_y"?' in message
+
+
+@pytest.mark.parametrize("ending", ["csv.gz", "mat.zip"])
+def test_a_packed_file_is_to_be_unpacked(ending: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / f"a.{ending}").write_bytes(b"x")
+    message = refusal(bring, GOOD.replace("*.mat", f"*.{ending}"), tmp_path)
+    assert f"a.{ending}: is packed; allowed: the file unpacked" in message
 
 
 def test_a_rate_that_contradicts_the_wave_file_is_refused(bring: Bring, tmp_path: Path) -> None:

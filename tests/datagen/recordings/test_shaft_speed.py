@@ -241,6 +241,16 @@ def test_a_vibration_is_not_taken_for_a_tach(bring: Bring, mat: Mat) -> None:
     assert refused.value.field == "tach.variable"
 
 
+def test_a_tach_of_a_shaft_that_stands_for_long_is_refused_for_that(bring: Bring, mat: Mat) -> None:
+    pulses = np.tile([0.0] * 99 + [1.0], 40)
+    pulses[500:2500] = 0.0
+    mat("a.mat", np.random.default_rng(2).standard_normal(4000), tacho=pulses)
+    with pytest.raises(BadInput, match="none of its pulses is from") as refused:
+        bring(TACH.replace("1000", "2500"))
+    assert "is from 0.1994 to 1.039 s, where 20 would be if the shaft did not stand there" in str(refused.value)
+    assert "nominal_speed_rpm" in str(refused.value)
+
+
 @pytest.mark.parametrize("wrong", [[], [37], [5, 20, 33]])
 def test_a_steady_shaft_whose_tach_loses_a_pulse_stays_steady(bring: Bring, mat: Mat, wrong: list[int]) -> None:
     pulses = np.tile([0.0] * 99 + [1.0], 40)  # 25 turns a second, one pulse a turn

@@ -46,6 +46,14 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
         ("name = 'a'\nrecording = []\n", "line 2: recording = []; allowed: at least 1"),
         ("name = 'a'\n[[recording]]\nname = 'x'\n", "recording[1].files: no files are named"),
         ("name = 'a'\n[[recording]]\nname='x'\nfiles='a'\n[[recording]]\nname='x'\nfiles='b'\n", 'are called "x"'),
+        (
+            "name = 'a'\n[[recording]]\nname = 'x'\nfiles = 'a'\nsame_samples = 'keep'\n",
+            "recording[1].same_samples: unknown key here; it belongs above the first table",
+        ),
+        (
+            "name = 'a'\nunit = 'g'\n[[recording]]\nname = 'x'\nfiles = 'a'\n",
+            "line 2: unit: unknown key here; it belongs in [defaults] or in [[recording]]",
+        ),
         ("name = 'a'\nlicense = 'x'\n[[recording]]\nname = 'x'\nfiles = 'a'\n", 'unknown key; did you mean "licence"?'),
         ("name = a\n", "not valid TOML"),
     ],

@@ -146,6 +146,28 @@ def test_a_nominal_speed_is_looked_for_and_another_one_is_not(key: str, expected
     assert record.situation.shaft_speed == pytest.approx(expected * 1200.0 * math.pi / 30.0, rel=2e-3)
 
 
+def test_a_jump_of_the_bias_changes_no_size(tmp_path: Path) -> None:
+    signal = knocks(20.0)
+    jumped = signal + 30.0 * signal.std() * (np.arange(signal.size) > 9000)
+    clean, level = sized_records(imported(tmp_path, knocks=signal, level=jumped), load_known=True)
+    assert np.abs(level.acceleration - clean.acceleration).max() < 0.1 * signal.std()
+
+
+def test_a_changing_speed_is_named_where_there_is_no_size(tmp_path: Path) -> None:
+    time = np.arange(20000) / 20000.0
+    turns = 15.0 * time + 5.0 * time**2
+    np.savez(tmp_path / "run.npz", a=noise(2), pulses=1.0 * (turns % 1.0 < 0.5))
+    spec = (
+        SPEC.replace("*.npy", "*.npz")
+        .replace('"data"', '"a"')
+        .replace("speed_rpm = 1200", 'tach = {variable = "pulses"}')
+    )
+    (tmp_path / "spec.toml").write_text(spec)
+    import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+    assert size(tmp_path / "corpus", "--json", tmp_path / "s.json")[0] == 0
+    assert "the speed of the shaft changes" in (tmp_path / "s.json").read_text()
+
+
 KNOWN = {
     "balls": 12, "pitch_diameter": 38e-3, "ball_diameter": 8e-3, "contact_angle": 0.0, "speed_rpm": 1200.0,
     "rate_hz": 2e4, "speed_basis": "nominal",

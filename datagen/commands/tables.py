@@ -48,7 +48,7 @@ def _simulated(info: Info) -> dict[str, str]:
     return {
         "could not be made": str(info.failed),
         "virtual bearings": info.bearings_text,
-        "outside the model's range": f"{info.outside_validity} records",
+        "to be read with care": f"{info.outside_validity} records",
     }
 
 

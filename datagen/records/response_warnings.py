@@ -30,8 +30,8 @@ def unset_ratio(scenario: Scenario, labels: Mapping[str, Any]) -> str:
     if not math.isnan(labels[label]):
         return ""
     return (
-        f"the {label} asked for, {target.ratio_db:g}, could not be set, as the sensor's signal or the background has no "
-        f"power{where}: the background keeps the level of its machine"
+        f"the {label} asked for, {target.ratio_db:g}, could not be set, as the sensor's signal or the background has "
+        f"no power{where}: the background keeps the level of its machine"
     )
 
 

@@ -17,7 +17,7 @@ from datagen.files.atomic import locked, write_atomically
 from datagen.files.digest import file_hash
 from datagen.files.netcdf import netcdf_bytes
 from datagen.inspection.check import check_corpus
-from datagen.recipes.recipe import Recipe
+from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 
@@ -52,6 +52,27 @@ def test_a_corpus_as_it_was_made_is_sound_and_its_scenarios_give_its_records_aga
     assert verdict.records == 14
     assert verdict.remade == (0, 6, 13)
     assert verdict.largest_difference == 0.0
+
+
+def test_a_record_made_again_is_the_stored_one_where_forces_are_stored_too(tmp_path: Path) -> None:
+    content = {
+        "name": "forces",
+        "seed": 5,
+        "signal": {"rate_hz": 65536, "duration_s": 0.3},
+        "store": {"contact_force": "all"},
+        "part": [
+            {
+                "name": "a",
+                "records": 2,
+                "machine": {"rig": "gearbox"},
+                "defect": {"condition": "line", "extent_deg": 4, "depth_um": 15},
+            }
+        ],
+    }
+    generate(parse_recipe(content, tmp_path / "recipe.toml"), tmp_path / "out", engine=Engine(workers=1))
+    verdict = check_corpus(tmp_path / "out", remake=2)
+    assert verdict.remade == (0, 1)
+    assert verdict.largest_difference == 0.0  # 1e-5 where the forces are not kept
 
 
 def test_a_check_that_is_interrupted_leaves_no_file_open(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -172,10 +172,11 @@ def test_folds_keep_the_records_of_a_bearing_together_and_use_each_record_once(c
     ("options", "message"),
     [
         (
-            (50,),
+            (50, "rate_hz"),
             "count = 50: its records are of 10 bearings, and each fold tests its own; allowed: a whole number from 2",
         ),
-        ((1,), "allowed: a whole number from 2 to 10"),
+        ((9, "rig"), "and of no rig are there more than 8 records; allowed: a whole number from 2 to 8"),
+        ((1, "rate_hz"), "allowed: a whole number from 2 to 10"),
         ((2.5,), "count = 2.5: "),
         ((3, "speed"), 'stratify = "speed": no such label; allowed: '),
         ((3, "bpfo"), 'stratify = "bpfo": this label takes other values with every record; allowed: '),

@@ -189,15 +189,37 @@ class Corpus:
     ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
         """`count` pairs (training records, test records) with about equal shares of each value of the label `stratify`.
 
-        All records of a virtual bearing (`bearing_id`) are on the same side.
+        All records of a virtual bearing (`bearing_id`) are on the same side. Raises BadInput if there are fewer
+        bearings, or fewer records of every value, than folds, and for a label of numbers with decimals.
         """
         from sklearn.model_selection import StratifiedGroupKFold
 
+        self._require_folds(count, stratify)
         table = self.labels
         record = table["record"].to_numpy()
-        folds = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
-        for train, test in folds.split(record, table[stratify], groups=table["bearing_id"]):
-            yield record[train], record[test]
+        parted = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
+        folds = parted.split(record, table[stratify].astype(str), groups=table["bearing_id"])
+        return ((record[train], record[test]) for train, test in folds)
+
+    def _require_folds(self, count: int, stratify: str) -> None:
+        """Raise BadInput unless the records can be parted into `count` folds, alike in that label."""
+        table = self.labels
+        known = [name for name in table if table[name].dtype.kind != "f"]
+        if stratify not in table or _has_decimals(table[stratify]):
+            problem = "no such label" if stratify not in table else "this label takes other values with every record"
+            raise BadInput(problem, str(self.folder), "stratify", stratify, ", ".join(known))
+        bearings = table["bearing_id"].nunique()
+        most = min(bearings, int(table[stratify].astype(str).value_counts().max()) if len(table) else 0)
+        if isinstance(count, int | np.integer) and 2 <= count <= most:
+            return
+        limit = f"of no {stratify} are there more than {most} records" if most < bearings else "each fold tests its own"
+        allowed = f"a whole number from 2 to {most}" if most > 1 else "none"
+        bearings_text = f"its records are of {bearings} bearings" if bearings != 1 else "its records are of one bearing"
+        raise BadInput(f"{bearings_text}, and {limit}", str(self.folder), "count", count, allowed)
+
+
+def _has_decimals(column: pandas.Series) -> bool:
+    return column.dtype.kind == "f" and bool((column.dropna() % 1.0 != 0.0).any())
 
 
 def _is_of_records(file: netCDF4.Dataset, variable: str) -> bool:

@@ -120,7 +120,7 @@ def _making(facts: Facts, source: str) -> Iterable[str]:
             [_solved_row(solved) for solved in facts.solved],
         )
         yield f"`error_estimate`: {LABEL['error_estimate'].sentence}\n"
-        outside = f"{info.outside_validity} of {info.records} records are outside the model's range"
+        outside = f"{info.outside_validity} of {info.records} records are to be read with care"
         yield f"{outside}{':' if facts.validity else '.'}\n"
         yield from (f"- {count}: {reason}" for reason, count in facts.validity.items())
         if info.refused:

@@ -58,7 +58,7 @@ class Terms:
 
 @dataclass(frozen=True)
 class Facts:
-    """Everything a card states; `validity` counts the records by reason for which the model is outside its range."""
+    """Everything a card states; `validity` counts the records by reason for which they are to be read with care."""
 
     info: Info
     summary: str

@@ -41,15 +41,21 @@ class Subject:
         return replace(scene, cage=replace(scene.cage, duration=duration), second_cage=second)
 
 
-def find_subject(source: str, record: int) -> Subject:
-    """The scene that `source` names: a reference scene first, or else the `record` of a recipe.
+def find_subject(source: str, record: int | None = None) -> Subject:
+    """The scene that `source` names: a reference scene first, or else the `record` of a recipe, 0 by default.
 
     G0 to F2r, and gearbox and fan for G1 and F1; @3 behind the name turns it three times as fast, ~1 lets its cage slip
     at random by 1 %, and @3~1 does both. A recipe is a file, its folder or the name of a dataset. Raises BadInput for
-    what is none of these, and for a record too short to be scored.
+    what is none of these, for a record of a reference scene, and for one too short to be scored.
     """
-    name = re.split("[@~]", source)[0]
-    return _named(source) if name in NAMES else _record_of(source, record)
+    if re.split("[@~]", source)[0] not in NAMES:
+        return _record_of(source, record or 0)
+    subject = _named(source)
+    if record is not None:
+        raise BadInput(
+            f"{source} is one scene without records", field="--record", value=record, allowed="with a recipe only"
+        )
+    return subject
 
 
 def _record_of(source: str, record: int) -> Subject:

@@ -21,7 +21,9 @@ SOURCE_HELP = (
 def chart(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of picture, CSV and JSON.")],
     source: Annotated[str, typer.Argument(metavar="RECIPE|SCENE", help=SOURCE_HELP)] = "",
-    record: Annotated[int, typer.Option(metavar="N", help="Number of the record, if a recipe is given.")] = 0,
+    record: Annotated[
+        int | None, typer.Option(metavar="N", help="Number of the record, if a recipe is given. [default: 0]")
+    ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s of signal, no slow reference.")] = False,
     rounds: Annotated[
         int, typer.Option(metavar="N", min=1, help="How often each run is repeated; the median counts.")
@@ -34,12 +36,14 @@ def chart(
     """Measure methods, models and general-purpose solvers on one scene and draw error against speed."""
     if bool(source) == stability:
         raise BadInput("give either a scene or recipe, or --stability", field="RECIPE|SCENE", value=source)
+    if stability and record is not None:
+        raise BadInput("the maps are of no record", field="--record", value=record, allowed="with a recipe only")
     written, result = _stability(out) if stability else _work_precision(source, record, quick, rounds, out)
     write_json(json_file, result)
     print("written: " + ", ".join(str(path) for path in written))
 
 
-def _work_precision(source: str, record: int, quick: bool, rounds: int, out: Path) -> tuple[list[Path], object]:
+def _work_precision(source: str, record: int | None, quick: bool, rounds: int, out: Path) -> tuple[list[Path], object]:
     from datagen.charts.measure import measure
     from datagen.charts.scenes import find_subject
     from datagen.charts.table import chart_table

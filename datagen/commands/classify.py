@@ -133,7 +133,10 @@ def print_results(tests: list[CorpusResults]) -> None:
     for test in tests:
         found = test.scores
         print(f"{found.corpus}: {found.records} records, {found.locations}")
-        for name, scores in found.models.items():
+        scored = any(found.locations.get(location) for location in LOCATIONS)
+        if not scored:
+            print("  no scores  the true class of no record is known")
+        for name, scores in found.models.items() if scored else ():
             print(f"  {name:10} {score_line(scores)}")
         for reason, count in found.rejections.items():
             print(f"  rejected   {count}: {reason}")
@@ -144,7 +147,7 @@ def print_results(tests: list[CorpusResults]) -> None:
         for race, count in found.in_mains.items():
             if count:
                 print(f"  in mains   {count}: {IN_MAINS.format(race=race)}")
-        for noisy in test.noise:
+        for noisy in test.noise if scored else ():
             for name, scores in noisy.scores.models.items():
                 print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")
         unscored = [prediction for prediction in test.predictions if prediction.truth not in LOCATIONS]

@@ -9,6 +9,7 @@ from rich.table import Table
 from datagen.corpus_files.format import IMPORTED
 from datagen.corpus_files.reading import AGAIN
 from datagen.files.byte_counts import bytes_text
+from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
     from datagen.benchmark.predictions import ModelAnswer, Prediction
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 def info_tables(info: Info) -> list[Table]:
     """The facts of a corpus, as `spallgen info` shows them."""
-    crossed = [_crossed(info, title) for title in info.crossed]
+    crossed = [_crossed(info, title) for title, rows in info.crossed.items() if _says_something(rows)]
     asked = [_asked(info)] if info.asked_by_condition else []
     refused = [_refused(info)] if info.refused else []
     return [_summary(info), _counts(info), *asked, *crossed, *refused, _ranges(info)]
@@ -48,7 +49,7 @@ def _simulated(info: Info) -> dict[str, str]:
     return {
         "could not be made": str(info.failed),
         "virtual bearings": info.bearings_text,
-        "outside the model's range": f"{info.outside_validity} records",
+        "to be read with care": f"{info.outside_validity} records",
     }
 
 
@@ -74,8 +75,18 @@ def _lost(files: dict[str, int]) -> str:
 def _counts(info: Info) -> Table:
     table = Table("label", "records by value", title="balance")
     for name, counts in info.counts.items():
+        if counts.keys() <= {UNKNOWN}:
+            continue
         table.add_row(name, ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items()))
+    nothing = [name for name, counts in info.counts.items() if counts.keys() == {UNKNOWN}]
+    if nothing:
+        table.add_row("unknown of all", ", ".join(nothing))
     return table
+
+
+def _says_something(crossed: dict[str, dict[str, int]]) -> bool:
+    """False where both labels of a table are unknown of all records."""
+    return any(counts.keys() - {UNKNOWN} for counts in crossed.values()) or bool(crossed.keys() - {UNKNOWN})
 
 
 def _asked(info: Info) -> Table:

@@ -46,8 +46,14 @@ def require_results_folder(folder: Path) -> None:
 def refuse_other_than_file(path: Path, allowed: str) -> None:
     """Raise BadInput that says what lies at `path` where no file does; nothing happens if nothing lies there."""
     if path.exists():
-        problem = "this is a folder" if path.is_dir() else "this is a pipe or a device; a file is needed"
-        raise BadInput(problem, str(path), allowed=allowed)
+        raise BadInput(no_file(path), str(path), allowed=allowed)
+
+
+def no_file(path: Path) -> str:
+    """What to say of a `path` at which no file lies: what lies there instead, or that nothing does."""
+    if not path.exists():
+        return "no such file"
+    return "this is a folder" if path.is_dir() else "this is a pipe or a device; a file is needed"
 
 
 def require_file(path: Path, field: str = OUT) -> None:

@@ -17,11 +17,13 @@ from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpus_files.reading import READ_ERRORS, unencodable
 from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path
 from datagen.errors import BadInput
+from datagen.files.atomic import is_held
 from datagen.files.digest import file_hash
 from datagen.files.netcdf import ONE_AT_A_TIME
 from datagen.inspection.conformity import violations
 from datagen.inspection.manifest_check import differences, recipe_of
 from datagen.inspection.remaking import remake_record
+from datagen.inspection.remedy import State, remedy
 from datagen.versions import program_hash
 from labels.schema import UNKNOWN
 
@@ -36,7 +38,8 @@ FORBIDDEN = "it cannot be read for lack of permission; change its permissions"
 class Verdict:
     """What a check found: `problems` are sentences (none: all is well).
 
-    `damaged` are files that are not what was written, `remedy` a sentence on how to mend that (empty: none).
+    `damaged` are files that are not what was written, `missing` how many records that were asked for are not there
+    though none of them failed, `remedy` a sentence on how to mend or finish that (empty: nothing to do).
     `remade` are the records simulated again (none with other physics than theirs), `largest_difference` the largest
     RMS difference of their acceleration from what is stored, relative to its RMS.
     """
@@ -49,6 +52,7 @@ class Verdict:
     largest_difference: float
     problems: tuple[str, ...]
     damaged: tuple[str, ...]
+    missing: int
     remedy: str
 
     @property
@@ -71,6 +75,7 @@ def check_corpus(folder: Path, remake: int = 0) -> Verdict:
         check.shard(sidecar)
     check.whole()
     check.remake(remake)
+    state = State(tuple(check.damaged), check.unfinished, check.missing, is_held(folder))
     return Verdict(
         folder=str(folder),
         shards=len(check.sidecars),
@@ -79,8 +84,9 @@ def check_corpus(folder: Path, remake: int = 0) -> Verdict:
         remade=tuple(check.remade),
         largest_difference=check.difference,
         problems=tuple(check.problems),
-        damaged=tuple(check.damaged),
-        remedy=check.remedy(),
+        damaged=state.damaged,
+        missing=state.missing,
+        remedy=remedy(manifest, folder, state),
     )
 
 
@@ -91,7 +97,10 @@ class _Check:
         self.folder, self.manifest = folder, manifest
         self.problems: list[str] = []
         self.damaged: list[str] = []
-        self.wrong_index = False
+        # Files that a run which ends writes anew: the index, the manifest, shards without sidecar.
+        self.unfinished = False
+        self.unlisted: frozenset[str] = frozenset()
+        self.missing = 0
         self.sidecars: list[Sidecar] = []
         self.records: set[int] = set()
         self.remade: list[int] = []
@@ -105,7 +114,7 @@ class _Check:
             return read_index(self.folder)
         except BadInput as problem:
             self.problems.append(str(problem))
-            self.wrong_index = True
+            self.unfinished = True
             return None
 
     def files(self) -> None:
@@ -120,15 +129,20 @@ class _Check:
                 self.sidecars.append(sidecar)
         known = {shard_path(self.folder, sidecar.shard) for sidecar in self.sidecars if sidecar.records}
         for path in sorted({*shards.glob("*.nc")} - known):
-            self.damaged.append(str(path.relative_to(self.folder)))
-            self.problems.append(f"{self.damaged[-1]}: unfinished: the sidecar that vouches for it is missing")
-        listed = {entry.file for entry in self.manifest.shards}
-        for path in sorted(known):
+            self.unfinished = True
             name = path.relative_to(self.folder).as_posix()
-            if name not in listed:
-                self.problems.append(f"manifest.json: {name} is not listed")
-            listed.discard(name)
-        self.problems += [f"{name}: missing, but listed in manifest.json" for name in sorted(listed)]
+            self.problems.append(f"{name}: unfinished: the sidecar that vouches for it is missing")
+        self._compare_lists({path.relative_to(self.folder).as_posix() for path in known})
+
+    def _compare_lists(self, known: set[str]) -> None:
+        """Find shards that only the manifest lists, or only their sidecars."""
+        listed = {entry.file for entry in self.manifest.shards}
+        self.unlisted = frozenset(known - listed)
+        if self.unlisted:
+            self.unfinished = True
+            more = f" and {len(self.unlisted) - 1} more finished shards are" if len(self.unlisted) > 1 else " is"
+            self.problems.append(f"manifest.json: {min(self.unlisted)}{more} not listed")
+        self.problems += [f"{name}: missing, but listed in manifest.json" for name in sorted(listed - known)]
 
     def shard(self, sidecar: Sidecar) -> None:
         """Find everything wrong with one shard."""
@@ -140,7 +154,7 @@ class _Check:
             self.damaged.append(entry.file)
         for sentence in (*damage, *self._wrong_shard(sidecar, dataset)):
             self.problems.append(f"{entry.file}: {sentence}")
-        if entry not in self.manifest.shards:
+        if entry not in self.manifest.shards and entry.file not in self.unlisted:
             self.problems.append(f"{entry.file}: manifest.json and its sidecar disagree about it")
         twice = self.records.intersection(sidecar.records)
         if twice:
@@ -170,10 +184,12 @@ class _Check:
         if self.index is None:
             return
         name = shard_entry(sidecar, self.folder).file
+        if name in self.unlisted and name not in self._rows_of_shard:
+            return  # both are written at the end of a run
         rows = self.index.iloc[self._rows_of_shard.get(name, [])].sort_values("position")
         stated = {c: [None if value != value else value for value in rows[c].tolist()] for c in LABEL_COLUMNS}
         if stated != sidecar.labels or rows["position"].tolist() != list(range(len(sidecar.records))):
-            self.wrong_index = True
+            self.unfinished = True
             yield "index.csv disagrees about its records"
 
     @cached_property
@@ -192,35 +208,23 @@ class _Check:
                 yield f"the recipe gives record {record} another scenario than the stored one"
                 return
 
-    def remedy(self) -> str:
-        """How to mend damaged shards and a wrong index, empty if there are none."""
-        wrong = [*self.damaged, *(["index.csv"] if self.wrong_index else [])]
-        if not wrong:
-            return ""
-        if self.manifest.imported:
-            return "to mend it, delete this folder and import the recordings again"
-        there = [name for name in wrong if (self.folder / name).exists()]
-        first = f"delete {', '.join(there)} and " if there else ""
-        same_program = self.manifest.identity.program_hash == program_hash()
-        version = "" if same_program else ", by the version of spallgen that made this corpus"
-        return f"to mend it, {first}run `spallgen generate` again with the same recipe and --out {self.folder}{version}"
-
     def whole(self) -> None:
         """Find what is wrong between the shards: records missing or twice, machines in two splits."""
         asked = {record for start, stop in self.manifest.asked for record in range(start, stop)}
         failed = {failure.record for failure in self.manifest.failed}
         missing = asked - self.records - failed
+        self.missing = len(missing)
         if missing:
             self.problems.append(
                 f"{len(missing)} of {len(asked)} records asked for are missing, the first {min(missing)}"
             )
-        self.problems += differences(self.manifest, self.folder, self.sidecars)
+        self.problems += differences(self.manifest, self.folder, self.sidecars, compare_sums=not self.unlisted)
         if failed & asked:
             self.problems.append(f"{len(failed & asked)} records could not be made; failed.jsonl says why")
         if self.index is None:
             return
         if set(self.index["record"]) != self.records or not self.index["record"].is_unique:
-            self.wrong_index = True
+            self.unfinished = True
             self.problems.append("index.csv does not list every record of the shards exactly once")
         known = self.index[self.index["bearing_id"] != UNKNOWN]
         splits = known.groupby("bearing_id")["split"].nunique()

@@ -25,15 +25,21 @@ class Remade:
 
 
 def remake_record(corpus: Corpus, record: int) -> Remade:
-    """Simulate a `record` of the `corpus` again from its stored scenario."""
+    """Simulate a `record` of the `corpus` again from its stored scenario, for the signals that are stored of it.
+
+    What is kept of a response has a part in how it is marched.
+    """
     from datagen.records.record import make_record
     from datagen.scenarios.scenario_text import scenario_of
+    from labels.variables import SIGNALS
     from physics.outcome import SimulationFailed
     from physics.rms import relative_error
 
     stored = corpus.waveform(record).astype(np.float64)
+    optional = [signal.name for signal in SIGNALS if not signal.required(imported=False)]
+    kept = tuple(name for name in optional if corpus.has(record, name))
     try:
-        again = make_record(scenario_of(str(corpus.waveform(record, "scenario")))).acceleration
+        again = make_record(scenario_of(str(corpus.waveform(record, "scenario"))), kept).acceleration
     except (BadInput, SimulationFailed) as problem:
         return Remade(None, (f"record {record} cannot be simulated again from its scenario: {problem}",))
     difference = relative_error(again.astype(np.float64), stored)

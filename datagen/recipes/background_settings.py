@@ -116,7 +116,8 @@ class BackgroundSettings(Table):
     """Band of the label snr_band_db, Hz; by default that of the envelope."""
     snr_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
     """Scales the whole background of each record to this ratio up to half the sampling rate, dB; signal and background
-    count without their means, so a tone of less than a period a record hardly counts."""
+    count without their means, so a tone of less than a period a record hardly counts. Where either has no power, the
+    level stays as it is, and the label validity says so."""
     snr_band_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
     """The same over snr_band_hz, dB."""
 

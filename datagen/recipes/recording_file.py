@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.files.places import no_file
 from datagen.formats.arrays import Arrays, choose
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import read_arrays
@@ -31,7 +32,7 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
     Raises BadInput if the file cannot be read, is no table of numbers, or holds a number that is not finite.
     """
     if not path.is_file():
-        raise BadInput("no such file", str(path), "file")
+        raise BadInput(no_file(path), str(path), "file")
     arrays = read_arrays(path, None, layout)
     rate = float(np.asarray(arrays[RATE_NAME]).squeeze()) if RATE_NAME in arrays else None
     table = _named(arrays, channels, path) if channels else _only(arrays, path)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.files.places import no_file
 from datagen.recordings.file_names import FileNames, fits, hidden, spellings
 from datagen.recordings.label_table import TableRow, read_label_table
 from datagen.recordings.settings import ALTERNATIVES, Channel, merged
@@ -110,7 +111,8 @@ class _Finder:
         places = (self.spec.source.parent / recording.table, self.root / recording.table)
         path = next((path for path in places if path.is_file()), None)
         if path is None:
-            raise BadInput("no such file", str(self.spec.source), "table", recording.table)
+            told = no_file(next(filter(Path.exists, places), places[0]))
+            raise BadInput(told, str(self.spec.source), "table", recording.table)
         self.tables.append(path)
         require_unchanged(path)
         return read_label_table(path, recording.note_columns)
@@ -127,9 +129,16 @@ class _Finder:
             if not fitting and recording.absent_files == "skip":
                 self.absent.append(pattern)
             elif not fitting:
-                raise BadInput(f"no file below {self.root} matches", place, "files", pattern)
+                raise self._unmatched(pattern, found, place)
             paths |= dict.fromkeys(fitting)
         return self._present(self._wanted(list(paths), recording, place), recording, place)
+
+    def _unmatched(self, pattern: str, found: list[Path], place: str) -> BadInput:
+        problem = f"no file below {self.root} matches"
+        if any(path.is_dir() for path in found):
+            allowed = 'the files in it, as in "folder/*.mat"'
+            return BadInput(f"{problem}, but a folder", place, "files", pattern, allowed)
+        return BadInput(problem, place, "files", pattern)
 
     def _matching(self, pattern: str) -> list[Path]:
         return sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)})
@@ -180,7 +189,9 @@ class _Finder:
 
     def _is_absent(self, row: TableRow, recording: Recording) -> None:
         if recording.absent_files == "refuse":
-            raise BadInput(f"no such file below {self.root}", row.place, "file", "|".join(row.files))
+            there = any((self.root / name).is_dir() for name in row.files)
+            told = f"this is a folder below {self.root}" if there else f"no such file below {self.root}"
+            raise BadInput(told, row.place, "file", "|".join(row.files))
         self.absent.append(row.files[0])
 
     def _refuse_idle_overrides(self, recording: Recording, place: str, paths: list[Path]) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.records.layers import Layers, background_layers, noise_along_y
 from datagen.records.profile_grid import PROFILE_POINTS
-from datagen.records.response_warnings import response_warnings
+from datagen.records.response_warnings import response_warnings, unset_ratio
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -74,8 +74,9 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     acceleration, clipped = _recorded(scenario.chain, sum(layers.values(), signal))
     stiffness_time = stiffness_axis(scenario)
     stiffness, solved_error = _stiffness(scenario, stiffness_time)
-    labels = _labels(scenario, trace, math.hypot(solved_error, interpolation_error(scenario, stiffness)))
-    labels |= sensor_labels(scenario, signal, layers, clipped)
+    labels = sensor_labels(scenario, signal, layers, clipped)
+    warnings = [*response_warnings(scenario, trace), unset_ratio(scenario, labels)]
+    labels |= _labels(scenario, trace, math.hypot(solved_error, interpolation_error(scenario, stiffness)), warnings)
     optional = _optional_signals(scenario, trace, signal, layers)
     return Record(
         index=scenario.record,
@@ -142,12 +143,11 @@ def _stacked(layers: Layers, shape: tuple[int, ...]) -> Rounded:
     return np.stack([layers.get(name, absent) for name in LAYERS]).astype(np.float32)
 
 
-def _labels(scenario: Scenario, trace: Trace, stiffness_error: float) -> dict[str, Any]:
-    """Labels of scene, run and place in the corpus."""
+def _labels(scenario: Scenario, trace: Trace, stiffness_error: float, warnings: list[str]) -> dict[str, Any]:
+    """Labels of scene, run and place in the corpus; `validity` tells the `warnings` after those of the scene."""
     values = label_values(scenario.scene)
-    warnings = [str(values["validity"]), *response_warnings(scenario, trace)]
     return values | {
-        "validity": "; ".join(filter(None, warnings)),
+        "validity": "; ".join(filter(None, [str(values["validity"]), *warnings])),
         "record": scenario.record,
         "part": scenario.part,
         **dict.fromkeys(RECORDING_LABELS, ""),

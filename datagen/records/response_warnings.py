@@ -1,6 +1,10 @@
-"""What the reader of a record must know of the response it was simulated as."""
+"""What the reader of a record must know of the response it was simulated as, and of its background."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
 
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -23,6 +27,20 @@ def _silence(trace: Trace) -> str:
         return ""
     size = rms(trace.acceleration)
     return f"the response, {size:.1g} m/s² RMS, is no larger than rounding of the contact forces: take it for silence"
+
+
+def unset_ratio(scenario: Scenario, labels: Mapping[str, Any]) -> str:
+    """That a background was not scaled to the ratio asked for, as its `labels` show; empty if it was, or has none."""
+    target = scenario.noise_target
+    if target is None or not labels["background_layers"]:
+        return ""
+    label, where = ("snr_db", "") if target.whole else ("snr_band_db", " in that band")
+    if not math.isnan(labels[label]):
+        return ""
+    return (
+        f"the {label} asked for, {target.ratio_db:g}, could not be set, as the sensor's signal or the background has "
+        f"no power{where}: the background keeps the level of its machine"
+    )
 
 
 def _chaos(trace: Trace) -> str:

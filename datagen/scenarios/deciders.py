@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 BALL_DIAMETERS = ("ball_diameter_mm", "ball_diameter_of_pitch", "ball_diameter")
 PITCH_DIAMETERS = ("pitch_diameter_mm", "pitch_diameter")
 RATED_LOADS = ("rated_load_n", "rated_load_of_static_rating")
+LOADS = ("load_n", "load_of_rated", *RATED_LOADS)
 RESONATORS = (
     "resonator_frequency_hz",
     "resonator_stiffness_n_per_m",
@@ -48,18 +49,11 @@ DECIDERS: dict[str, tuple[str, ...]] = {
     "duration_s": ("duration_s", "rate_hz", *RESONATORS),
     "entry_taper": (*ENTRY_TAPERS, *EXIT_TAPERS, *EXTENTS),
     "extent": (*EXTENTS, "table", "condition", "balls", "fill", "bearing", "rig"),
+    "equilibrium": (*LOADS, "load_deflection_n_per_m_to_n", "clearance_um", "amplitude_um", "waviness_scale"),
     "exit_taper": (*EXIT_TAPERS, *EXTENTS),
     "film_damping": ("film_damping_us", "film_damping_n_s_per_m", "film_damping", *RATED_LOADS, "clearance_um"),
     "full_scale": ("recorder_range_m_s2",),
-    "load": (
-        "load_n",
-        "load_of_rated",
-        *RATED_LOADS,
-        "load_deflection_n_per_m_to_n",
-        "clearance_um",
-        "amplitude_um",
-        "waviness_scale",
-    ),
+    "load": LOADS,
     "order": ("mounting_order", "orders"),
     "resonator_stiffness": (*RESONATORS, "outer_mass_kg", "outer_mass", "rate_hz"),
     "row": ("row", "rows", "bearing", "rig"),

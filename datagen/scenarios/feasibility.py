@@ -19,7 +19,8 @@ def require_equilibrium(scene: Scene, start: float) -> None:
     if farthest_rest(scene) < CERTAIN_REACH:
         return
     outcome = equilibrium(scene, np.array([start])).outcome(0)
-    require(outcome is not StaticOutcome.NO_EQUILIBRIUM, f"{outcome.value} of {scene.operation.load:g} N", "load")
+    problem = f"{outcome.value} of {scene.operation.load:g} N"
+    require(outcome is not StaticOutcome.NO_EQUILIBRIUM, problem, "equilibrium")
 
 
 def farthest_rest(scene: Scene) -> float:

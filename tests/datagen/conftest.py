@@ -109,7 +109,7 @@ def load_script() -> Callable[[str], ModuleType]:
 @pytest.fixture(scope="session")
 def small_chart() -> Chart:
     """A chart of one method and one model over 0.12 s."""
-    subject = find_subject("F1", 0)
+    subject = find_subject("F1")
     subject = replace(subject, scene=subject.lasting(0.12))
     named = [one for one in contestants(subject.scene, quick=True) if one.name in ("exponential_rk4", "impulse train")]
     with pytest.MonkeyPatch.context() as patch:

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -165,6 +166,31 @@ def test_folds_keep_the_records_of_a_bearing_together_and_use_each_record_once(c
         assert sorted([*train, *test]) == list(range(14))
         tested += list(test)
     assert sorted(tested) == list(range(14))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (
+            (50, "rate_hz"),
+            "count = 50: its records are of 10 bearings, and each fold tests its own; allowed: a whole number from 2",
+        ),
+        ((9, "rig"), "and of no rig are there more than 8 records; allowed: a whole number from 2 to 8"),
+        ((1, "rate_hz"), "allowed: a whole number from 2 to 10"),
+        ((2.5,), "count = 2.5: "),
+        ((3, "speed"), 'stratify = "speed": no such label; allowed: '),
+        ((3, "bpfo"), 'stratify = "bpfo": this label takes other values with every record; allowed: '),
+        ((7, "record"), "and of no record are there more than 1 records; allowed: none"),
+    ],
+)
+def test_folds_that_cannot_be_are_refused_with_what_can(options: tuple[Any, ...], message: str, corpus: Corpus) -> None:
+    with pytest.raises(BadInput) as caught:
+        corpus.folds(*options)
+    assert message in str(caught.value)
+
+
+def test_as_many_folds_as_bearings_leave_one_out(corpus: Corpus) -> None:
+    assert len(list(corpus.folds(corpus.labels["bearing_id"].nunique(), "rate_hz"))) == 10
 
 
 def test_info_counts_every_record_and_gives_the_ranges_of_the_labels(corpus: Corpus) -> None:

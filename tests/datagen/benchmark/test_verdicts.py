@@ -337,6 +337,16 @@ def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(ca
     assert "none (0.10 ≤ 0.50)" in lines[1]
 
 
+def test_models_have_no_scores_where_the_class_of_no_record_is_known(capsys):
+    outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]
+    for locations, said in (["unknown", "ball"], False), (["none", "ball"], True):
+        tested = judged(locations, [outer, healthy])
+        print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
+        shown = capsys.readouterr().out
+        assert ("no scores  the true class of no record is known" in shown) != said
+        assert ("  said       faults –" in shown) == said
+
+
 def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
     probability = [[0.02, 0.49, 0.49, 0.0, 0.0], [0.02, 0.51, 0.47, 0.0, 0.0]]
     assert judged(["outer"] * 2, probability, 0.5).verdicts[1].location.tolist() == [REJECTED, "outer"]

@@ -25,6 +25,9 @@ from physics.outcome import Outcome, SimulationFailed
         (("chart", "G1", "--stability", "--out", "OUT"), "--stability"),
         (("chart", "G1", "--out", "OUT", "--rounds", "0"), "--rounds"),
         (("chart", "datasets/quickstart", "--record", "99999", "--out", "OUT"), "record"),
+        (("chart", "G1", "--record", "3", "--out", "OUT"), "--record = 3: G1 is one scene without records"),
+        (("chart", "G1@3~1", "--record", "0", "--out", "OUT"), "--record = 0: G1@3~1 is one scene without records"),
+        (("chart", "--stability", "--record", "3", "--out", "OUT"), "--record = 3: the maps are of no record"),
     ],
 )
 def test_bad_input_ends_with_2_and_nothing_is_written(arguments, words, tmp_path):

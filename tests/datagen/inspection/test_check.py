@@ -7,16 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
+from command_line import run
 
 from datagen.corpus import Corpus
 from datagen.corpus_files.format import content_hash
 from datagen.corpus_files.shard import label_columns, shard_path, sidecar_path
 from datagen.errors import BadInput
-from datagen.files.atomic import write_atomically
+from datagen.files.atomic import locked, write_atomically
 from datagen.files.digest import file_hash
 from datagen.files.netcdf import netcdf_bytes
 from datagen.inspection.check import check_corpus
-from datagen.recipes.recipe import Recipe
+from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 
@@ -51,6 +52,27 @@ def test_a_corpus_as_it_was_made_is_sound_and_its_scenarios_give_its_records_aga
     assert verdict.records == 14
     assert verdict.remade == (0, 6, 13)
     assert verdict.largest_difference == 0.0
+
+
+def test_a_record_made_again_is_the_stored_one_where_forces_are_stored_too(tmp_path: Path) -> None:
+    content = {
+        "name": "forces",
+        "seed": 5,
+        "signal": {"rate_hz": 65536, "duration_s": 0.3},
+        "store": {"contact_force": "all"},
+        "part": [
+            {
+                "name": "a",
+                "records": 2,
+                "machine": {"rig": "gearbox"},
+                "defect": {"condition": "line", "extent_deg": 4, "depth_um": 15},
+            }
+        ],
+    }
+    generate(parse_recipe(content, tmp_path / "recipe.toml"), tmp_path / "out", engine=Engine(workers=1))
+    verdict = check_corpus(tmp_path / "out", remake=2)
+    assert verdict.remade == (0, 1)
+    assert verdict.largest_difference == 0.0  # 1e-5 where the forces are not kept
 
 
 def test_a_check_that_is_interrupted_leaves_no_file_open(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -181,3 +203,46 @@ def test_a_bearing_in_two_splits_is_found(copy: Path) -> None:
 def test_a_record_that_could_not_be_made_is_told_once_and_is_not_missing(tiny: Recipe, tmp_path: Path) -> None:
     assert not generate(tiny, tmp_path / "out", limit=4, engine=Engine(workers=1)).complete
     assert only_problem(tmp_path / "out") == "1 records could not be made; failed.jsonl says why"
+
+
+def stop_on_the_way(folder: Path) -> None:
+    """Leave of a finished corpus what a run leaves that is killed before its last shards."""
+    manifest = json.loads((folder / "manifest.json").read_text())
+    begun = manifest | {"shards": [], "bytes": 0, "seconds": 0.0, "refused": {}, "failed": []}
+    (folder / "manifest.json").write_text(json.dumps(begun))
+    for path in (folder / "index.csv", sidecar_path(folder, 4), sidecar_path(folder, 5), shard_path(folder, 5)):
+        path.unlink()
+
+
+def test_a_corpus_whose_run_was_killed_is_not_complete_and_generating_again_finishes_it(
+    copy: Path, tiny_recipe: Path
+) -> None:
+    stop_on_the_way(copy)
+    code, _, message = run("check", copy)
+    assert code == 1
+    assert "manifest.json: shards/shard_000000.nc and " in message
+    assert " more finished shards are not listed\n" in message
+    assert "of 14 records asked for are missing, the first " in message
+    assert "disagree" not in message
+    assert "delete" not in message
+    again = f"run `spallgen generate` again with the same recipe and --out {copy}\n"
+    assert message.endswith(f"it is not complete: to go on where its run stopped, {again}")
+    assert run("generate", tiny_recipe, "--out", copy, "--workers", 1)[0] == 0
+    assert check_corpus(copy).sound
+
+
+def test_a_corpus_that_a_run_is_writing_is_to_be_checked_after_it(copy: Path) -> None:
+    stop_on_the_way(copy)
+    with locked(copy):
+        verdict = check_corpus(copy)
+    assert verdict.missing > 0
+    assert verdict.remedy.startswith("a run is writing into this folder: it is not complete before that ends")
+
+
+def test_a_run_that_was_stopped_in_good_order_says_how_to_go_on(tiny: Recipe, tmp_path: Path) -> None:
+    generate(tiny, tmp_path / "out", limit=2, engine=Engine(workers=1))
+    manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
+    (tmp_path / "out" / "manifest.json").write_text(json.dumps(manifest | {"asked": [[0, 4]]}))
+    verdict = check_corpus(tmp_path / "out")
+    assert verdict.problems == ("2 of 4 records asked for are missing, the first 2",)
+    assert verdict.remedy.startswith("it is not complete: to go on where its run stopped, run `spallgen generate`")

@@ -188,5 +188,8 @@ def test_words_of_simulations_are_not_said_of_recordings(tmp_path: Path) -> None
     assert "records 2 recordings bearings, by split unknown shards 2," in shown
     for words in ("asked for", "recipe", "real time", "virtual", "model", "not applicable", "could not be made"):
         assert words not in shown
+    everything = "condition, location, rig, bearing, profile, contact_law, split"
+    assert f"part all 2 unknown of all {everything}" in shown
+    assert "records by condition and" not in shown
     Path(out / read_manifest(out).shards[0].file).unlink()
     assert "1 of 2 recordings" in " ".join(run("info", out)[1].replace("│", " ").split())

@@ -108,6 +108,7 @@ BAD = [
 ]
 BAD_RECORDINGS = [
     ("gone.npy", "rate_hz = 32768", "gone.npy: no such file"),
+    (".", "rate_hz = 32768", ": this is a folder"),
     (
         "x.abc",
         "",

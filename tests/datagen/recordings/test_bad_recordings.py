@@ -37,12 +37,16 @@ def noise(size: int = 400, seed: int = 0) -> np.ndarray:
         (('"*.mat"', '"/*.mat"'), 'recording[1] (all): files = "/*.mat"; allowed: as in "folder/*.mat"'),
         (('"*.mat"', '""'), 'recording[1] (all): files = ""; allowed: as in'),
         (('"*.mat"', '"*.tam"'), 'recording[1] (all): files = "*.tam": no file below'),
+        (('"*.mat"', '"sub"'), 'matches, but a folder; allowed: the files in it, as in "folder/*.mat"'),
+        (('y = "sig"', 'y = "sig"\ntable = "sub"'), 'spec.toml: table = "sub": this is a folder'),
+        (('y = "sig"', 'y = "sig"\ntable = "t.csv"'), 'spec.toml: table = "t.csv": no such file'),
     ],
 )  # fmt: skip
 def test_a_setting_that_is_wrong_or_missing_is_named(
     change: tuple[str, str], message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
+    (tmp_path / "sub").mkdir()
     assert message in refusal(bring, GOOD.replace(*change), tmp_path)
 
 
@@ -159,6 +163,7 @@ def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Pa
         ("file,speed_rpm\na.mat,5\n", "t.csv, line 2: speed_rpm: two sources for the speed: the SPEC also states"),
         ("file,location\nz.mat,inner\n", "a.mat is not in the table t.csv"),
         ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
+        ("file,location\na.mat,inner\nsub,inner\n", 't.csv, line 3: file = "sub": this is a folder below'),
         ("file,location\n", "t.csv: the table has no rows"),
         ('file,location\n"a.mat,inner\n', "t.csv, line 2: not a row of a CSV table: unexpected end of data"),
         ('\nfile,recording\n\na.mat,"a\nb"\n\na.mat\n', "t.csv, line 7: 1 cells, but the table has 2 columns"),
@@ -168,6 +173,7 @@ def test_a_wrong_line_of_a_label_table_is_named(
     table: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
+    (tmp_path / "sub").mkdir()
     (tmp_path / "t.csv").write_text(table)
     assert message in refusal(bring, GOOD + 'table = "t.csv"\nspeed_hz = 20\n', tmp_path)
 

@@ -67,12 +67,23 @@ def test_a_bearing_without_load_is_silent_and_its_corpus_sound_and_drawn(tmp_pat
     assert run("report", tmp_path / "out").exit_code == 0
 
 
-def test_noise_at_a_ratio_to_a_silent_bearing_keeps_the_level_of_the_machine() -> None:
-    background = {"white_rms_m_s2": 0.1, "snr_db": 10}
-    part = {"name": "idle", "records": 1, "machine": {"rig": "gearbox"}, "operation": {"load_n": 0}}
+def idle_labels(background: dict[str, object], load: float = 0.0) -> dict[str, object]:
+    part = {"name": "idle", "records": 1, "machine": {"rig": "gearbox"}, "operation": {"load_n": load}}
     signal = {"rate_hz": 20000, "duration_s": 0.2, "envelope_band_hz": [2000, 4000]}
     content = {"name": "zero", "seed": 1, "signal": signal, "background": background, "part": [part]}
-    record = make_record(draw_scenario(parse_recipe(content, Path("recipe.toml")), 0))
-    assert record.labels["background_rms"][0] == pytest.approx(0.1, rel=0.05)  # 4000 samples: 1.1 % of scatter
-    assert math.isnan(record.labels["snr_db"])  # no signal to compare with
-    assert math.isnan(record.labels["snr_band_db"])
+    return make_record(draw_scenario(parse_recipe(content, Path("recipe.toml")), 0)).labels
+
+
+def test_noise_at_a_ratio_to_a_silent_bearing_keeps_the_level_of_the_machine() -> None:
+    labels = idle_labels({"white_rms_m_s2": 0.1, "snr_db": 10})
+    assert labels["background_rms"][0] == pytest.approx(0.1, rel=0.05)  # 4000 samples: 1.1 % of scatter
+    assert math.isnan(labels["snr_db"])  # no signal to compare with
+    assert math.isnan(labels["snr_band_db"])
+
+
+@pytest.mark.parametrize("name", ["snr_db", "snr_band_db"])
+def test_a_ratio_that_could_not_be_set_is_a_reason_to_read_a_record_with_care(name: str) -> None:
+    told = f"the {name} asked for, 10, could not be set"
+    assert told in idle_labels({"white_rms_m_s2": 0.1, name: 10})["validity"]
+    assert told not in idle_labels({"white_rms_m_s2": 0.1, name: 10}, load=200.0)["validity"]
+    assert told not in idle_labels({"white_rms_m_s2": 0.1})["validity"]

@@ -12,7 +12,8 @@ from command_line import run
 
 from datagen.drawing.preview import recipe_portrait
 from datagen.errors import BadInput
-from datagen.recipes.recipe import Recipe, load_recipe
+from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
+from datagen.recipes.signal_settings import Signal
 from datagen.runs.plan import plan_shards, stored_bytes
 from datagen.runs.rates import lowest_rate
 from datagen.runs.requirements import (
@@ -22,6 +23,7 @@ from datagen.runs.requirements import (
     require_room,
 )
 from datagen.scenarios.sampling import draw_scenario
+from datagen.settings.docstrings import setting_docstrings
 
 TEXT = """name = "a"
 seed = 1
@@ -68,6 +70,15 @@ def test_a_rate_that_no_record_can_have_is_refused_with_the_lowest_that_it_can(
     assert lowest == pytest.approx(4.0 * 10548.0 / 64.0, rel=0.005)  # three digits
     (tmp_path / "recipe.toml").write_text(TEXT.replace("32768", str(1.01 * lowest)).replace("0.05", "1"))
     require_possible_rates(load_recipe(tmp_path / "recipe.toml"), ((0, 3),))
+
+
+def test_the_lowest_rates_that_the_key_states_are_those_of_the_rigs() -> None:
+    told = " ".join(setting_docstrings(Signal)["rate_hz"].split())
+    for rig in ("gearbox", "fan"):
+        part = {"name": "a", "records": 1, "machine": {"rig": rig}}
+        content = {"name": "a", "seed": 1, "signal": {"rate_hz": 32768, "duration_s": 0.1}, "part": [part]}
+        lowest = lowest_rate(draw_scenario(parse_recipe(content, Path("recipe.toml")), 0))
+        assert f"{lowest:.0f} Hz for the {rig} rig" in told
 
 
 def test_the_lowest_rate_is_that_of_the_rig_and_not_of_its_rate(tmp_path: Path) -> None:

@@ -140,6 +140,23 @@ def test_draws_refused_for_several_reasons_are_counted_and_the_last_is_told(tmp_
     )
 
 
+WAVES = """
+[part.operation]
+load_n = 0
+[[part.imperfections.waviness]]
+race = "outer"
+orders = [2, 3]
+amplitude_um = 1
+"""
+
+
+def test_a_load_follows_from_waviness_only_where_the_shaft_cannot_rest(tmp_path: Path) -> None:
+    text = '[[part]]\nname = "one"\nrecords = 1\nmachine.rig = "gearbox"\n' + WAVES
+    assert "waviness" not in words(tmp_path, text, ("load", "it gives the contact no width"))
+    message = words(tmp_path, text, ("equilibrium", "no position of the shaft carries the load of 0 N"))
+    assert message.endswith("(this also follows from part[1].imperfections.waviness[1].amplitude_um = 1.0)")
+
+
 def test_only_settings_that_hold_for_the_kind_of_spall_that_was_refused_are_told(tmp_path: Path) -> None:
     for condition, other, line in ("line", "extended", 14), ("extended", "line", 16):
         message = words(tmp_path, SPALLS, ("extent", "it is not"), kind=(condition, "outer", "tukey"))

@@ -15,13 +15,16 @@ from datagen.exits import FAILED
 def preview(
     source: Annotated[Path, typer.Argument(metavar="RECIPE|DIR", help="Recipe, or folder of a corpus.")],
     out: Annotated[Path, typer.Option("--out", metavar="FILE.png", help="Picture to write.")],
-    record: Annotated[int, typer.Option(metavar="N", help="Number of the record.")] = 0,
+    record: Annotated[
+        int | None, typer.Option(metavar="N", help="Number of the record. [default: the first that there is]")
+    ] = None,
     json_file: JsonFile = None,
 ) -> None:
     """Draw one record: trace, spectrogram, envelope spectrum, stiffness and profile."""
-    from datagen.drawing.preview import draw_preview
+    from datagen.drawing.preview import draw_preview, first_record
     from physics.outcome import SimulationFailed
 
+    record = first_record(source) if record is None else record
     try:
         drawn = draw_preview(source, record, out)
     except SimulationFailed as failure:

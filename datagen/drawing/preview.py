@@ -39,6 +39,15 @@ def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, 
     return facts
 
 
+def first_record(source: str | Path) -> int:
+    """The lowest record of the corpus in the folder `source`; 0 for one without records and for a recipe."""
+    if not manifest_path(Path(source)).is_file():
+        return 0
+    from datagen.corpus import Corpus
+
+    return int(min(Corpus(source).labels["record"], default=0))
+
+
 def preview_png(source: str | Path, record: int) -> tuple[bytes, dict[str, Any]]:
     """The sheet of `record` of a recipe or a corpus as the bytes of a PNG file, and what it shows.
 

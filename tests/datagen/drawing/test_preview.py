@@ -307,6 +307,14 @@ def test_what_cannot_be_drawn_is_refused_and_nothing_is_written(recipe_file, tmp
     assert [path.name for path in tmp_path.iterdir()] == ["recipe.toml"]
 
 
+def test_the_first_record_that_a_corpus_has_is_drawn_if_none_is_named(recipe_file, tmp_path):
+    generate(load_recipe(recipe_file), tmp_path / "corpus", records=[1], engine=Engine(workers=1))
+    for source, record in (tmp_path / "corpus", 1), (recipe_file, 0):
+        done = run("preview", source, "--out", tmp_path / "a.png")
+        assert done.exit_code == 0
+        assert done.stdout.startswith(f"record {record} of {source} is drawn in ")
+
+
 def test_a_record_that_cannot_be_simulated_ends_with_1_and_leaves_no_picture(recipe_file, tmp_path, monkeypatch):
     def fails(scenario, stored):
         raise SimulationFailed(Outcome.NOT_FINITE, "the response grows without end")

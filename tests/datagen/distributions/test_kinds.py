@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from datetime import date
 from typing import Any
 
 import numpy as np
@@ -155,6 +156,8 @@ def test_a_bare_value_takes_its_number_too_so_that_fixing_a_setting_moves_no_oth
         (math.nan, "neither a finite number"),
         ([1, 2], "neither a finite number"),
         (None, "neither a finite number"),
+        (["fan", 2.5], r'^\["fan", 2.5\] is neither a finite number'),
+        (date(2024, 1, 1), "^2024-01-01 is neither a finite number"),
     ],
 )
 def test_a_badly_written_distribution_is_refused_with_what_is_wrong(example: Any, message: str) -> None:

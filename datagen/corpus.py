@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from functools import cached_property
+from operator import index
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,8 +66,11 @@ class Corpus:
     def __len__(self) -> int:
         return len(self.labels)
 
+    def __repr__(self) -> str:
+        return f"Corpus({str(self.folder)!r})"
+
     def __getitem__(self, place: int) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        row = self.labels.iloc[place].to_dict()
+        row = self.labels.iloc[index(place)].to_dict()
         return self.waveform(row["record"]), row
 
     def waveform(self, record: int, variable: str = "acceleration") -> NDArray[Any]:

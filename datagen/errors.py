@@ -31,10 +31,11 @@ class BadInput(Exception):
 
 def setting_text(field: str, value: object) -> str:
     """A setting as TOML would have it, a long value cut short; the name alone where there is nothing to show (None)."""
-    return field if value is None else f"{field} = {_shown(value)}"
+    return field if value is None else f"{field} = {value_text(value)}"
 
 
-def _shown(value: object) -> str:
+def value_text(value: object) -> str:
+    """A value as TOML would have it, a long one cut short."""
     text = _as_toml(value)
     return text if len(text) <= 120 else f"{text[:117]}..."
 

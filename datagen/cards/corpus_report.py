@@ -29,13 +29,14 @@ class Report:
     unstated: tuple[str, ...]
 
 
-def write_report(folder: Path, out: Path | None = None) -> Report:
+def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     """Write the report of the corpus in `folder` into `out` (by default its folder `report`); raises BadInput.
 
     An earlier report there is written over; any other folder that is not empty is refused. Nothing is written before
     everything is drawn.
     """
-    out = folder / "report" if out is None else out
+    folder = Path(folder)
+    out = folder / "report" if out is None else Path(out)
     _check_folder(out)
     facts = corpus_facts(folder)
     if not facts.info.records:

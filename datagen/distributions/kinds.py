@@ -20,6 +20,7 @@ from typing import Any
 from datagen.distributions.choices import Balanced, Choice
 from datagen.distributions.distribution import Distribution, DistributionError, Fixed, Value
 from datagen.distributions.ranges import LogUniform, Normal, Uniform
+from datagen.errors import value_text
 from physics.spelling import suggestion
 
 __all__ = [
@@ -69,4 +70,6 @@ def _plain(value: object) -> Value:
         return value
     if isinstance(value, float) and math.isfinite(value):
         return value
-    raise DistributionError(f"{value!r} is neither a finite number nor a word nor a distribution ({', '.join(NAMES)})")
+    raise DistributionError(
+        f"{value_text(value)} is neither a finite number nor a word nor a distribution ({', '.join(NAMES)})"
+    )

@@ -61,11 +61,12 @@ class Verdict:
         return not self.problems
 
 
-def check_corpus(folder: Path, remake: int = 0) -> Verdict:
+def check_corpus(folder: str | Path, remake: int = 0) -> Verdict:
     """Read the whole corpus in `folder`, say everything that is wrong, and simulate `remake` of its records again.
 
     Raises BadInput if the folder holds no corpus, or one of another format.
     """
+    folder = Path(folder)
     manifest = read_manifest(folder)
     if manifest.identity.format_hash != format_hash():
         raise BadInput(f"written in another version of the format than this program's ({FORMAT})", str(folder))

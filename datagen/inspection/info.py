@@ -92,8 +92,9 @@ class Info:
         return self.shards - len(self.missing_files) - len(self.damaged_files)
 
 
-def corpus_info(folder: Path) -> Info:
+def corpus_info(folder: str | Path) -> Info:
     """The facts of the corpus in `folder`; raises BadInput if there is none."""
+    folder = Path(folder)
     corpus = Corpus(folder)
     manifest, table = corpus.manifest, corpus.labels
     signal_seconds = float(table["duration_s"].sum())

@@ -52,14 +52,14 @@ class Imported:
     few_turns: str
 
 
-def import_recordings(spec: Spec, folder: Path, root: Path | None = None, step: Say = ignore) -> Imported:
+def import_recordings(spec: Spec, folder: str | Path, root: str | Path | None = None, step: Say = ignore) -> Imported:
     """Make the corpus of the SPEC's recordings in `folder`, which must not exist or be empty.
 
     Files are looked for below `root`, by default the SPEC's own. `step` is called with how far it has got where that
     takes long. Raises BadInput for anything wrong in the SPEC or the files, before `folder` is touched.
     """
     with remembered_files():
-        return _import(spec, folder, root or _stated_root(spec), _seldom(step))
+        return _import(spec, Path(folder), Path(root) if root else _stated_root(spec), _seldom(step))
 
 
 def _seldom(step: Say) -> Say:

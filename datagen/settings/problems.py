@@ -103,6 +103,10 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
     if kind == "missing":
         return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
     if kind == "extra_forbidden":
+        top = model.model_fields.get(str(location[-1]))
+        if top is not None and len(location) > 1:
+            place = f"as [{location[-1]}]" if _table_type(top.annotation) else "above the first table of the file"
+            return f"unknown key here; it belongs to the top level, {place}"
         known = _keys_beside(location, model)
         homes = _homes(str(location[-1]), model)
         if homes:

@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 import xarray
 
+from datagen.cards.corpus_report import write_report
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
 from datagen.inspection.info import corpus_info
 from datagen.recipes.recipe import Recipe
 from datagen.recordings.importing import import_recordings
@@ -36,6 +38,24 @@ def test_labels_are_read_without_opening_a_shard(tiny_corpus: Path, monkeypatch:
     labels = Corpus(tiny_corpus).labels
     assert len(labels) == 14
     assert set(labels["rig"]) == {"gearbox", "fan"}
+
+
+def test_a_place_that_is_no_whole_number_is_none(corpus: Corpus) -> None:
+    assert np.array_equal(corpus[np.int64(3)][0], corpus[3][0])
+    for place in (slice(0, 3), 1.5, "x"):
+        with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+            corpus[place]  # type: ignore[index]
+
+
+def test_folders_may_be_given_as_text(tiny_corpus: Path, tmp_path: Path) -> None:
+    assert repr(Corpus(str(tiny_corpus))) == f"Corpus('{tiny_corpus}')"
+    assert corpus_info(str(tiny_corpus)).records == check_corpus(str(tiny_corpus)).records == 14
+    assert write_report(str(tiny_corpus), str(tmp_path / "report")).folder == str(tmp_path / "report")
+    np.save(tmp_path / "a.npy", np.random.default_rng(0).standard_normal(400))
+    settings = 'name = "r"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\n'
+    (tmp_path / "spec.toml").write_text(f'name = "s"\n[[recording]]\n{settings}')
+    spec = load_spec(str(tmp_path / "spec.toml"))
+    assert import_recordings(spec, str(tmp_path / "out"), str(tmp_path)).records == 1
 
 
 def test_a_waveform_is_what_plain_xarray_reads(corpus: Corpus) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from datetime import date
 from typing import Any
 
 import numpy as np
@@ -136,6 +137,8 @@ def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight(
         (math.nan, "neither a finite number"),
         ([1, 2], "neither a finite number"),
         (None, "neither a finite number"),
+        (["fan", 2.5], r'^\["fan", 2.5\] is neither a finite number'),
+        (date(2024, 1, 1), "^2024-01-01 is neither a finite number"),
     ],
 )
 def test_a_badly_written_distribution_is_refused_with_what_is_wrong(example: Any, message: str) -> None:

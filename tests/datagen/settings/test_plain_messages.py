@@ -83,6 +83,22 @@ def test_a_key_is_unknown_under_the_name_it_was_given_whatever_that_looks_like(
     assert message in refusal(f"{line}\n{GOOD}", tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (
+            'licence = "CC0"',
+            ".licence: unknown key here; it belongs to the top level, above the first table of the file",
+        ),
+        ("store.clean = true", ".store: unknown key here; it belongs to the top level, as [store]"),
+    ],
+)
+def test_a_key_of_the_top_level_that_came_into_a_table_is_told_its_place(
+    line: str, message: str, tmp_path: Path
+) -> None:
+    assert message in refusal(f"{GOOD}{line}\n", tmp_path)
+
+
 @pytest.mark.parametrize("when", ["1979-05-27", "07:32:00", "1979-05-27T07:32:00"])
 def test_a_date_is_shown_as_it_was_written(when: str, tmp_path: Path) -> None:
     said = refusal(GOOD.replace("seed = 1", f"seed = {when}"), tmp_path)

@@ -10,8 +10,6 @@ from collections.abc import Collection
 from numbers import Integral
 from typing import Any
 
-import numpy as np
-
 
 class InvalidParameter(ValueError):
     """A physical parameter outside its allowed range; `field` names it."""
@@ -83,18 +81,14 @@ def settle_tuples(instance: object, *fields: str) -> None:
     """
     for field in fields:
         value = getattr(instance, field)
-        require(
-            isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.ndim > 0),
-            f"{field} is of type {type(value).__name__}; it must be a sequence",
-            field,
-        )
-        object.__setattr__(instance, field, _in_tuples(value))
+        settled = _in_tuples(value)
+        require(isinstance(settled, tuple), f"{field} is of type {type(value).__name__}; it must be a sequence", field)
+        object.__setattr__(instance, field, settled)
 
 
 def _in_tuples(value: Any) -> Any:
     """The `value`, tuples in place of lists and arrays; what is one already stays the same object."""
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, tuple) and not any(isinstance(item, (list, np.ndarray)) for item in value):
+    value = value.tolist() if hasattr(value, "tolist") else value
+    if isinstance(value, tuple) and not any(isinstance(item, list) or hasattr(item, "tolist") for item in value):
         return value
     return tuple(map(_in_tuples, value)) if isinstance(value, (tuple, list)) else value

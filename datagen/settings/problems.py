@@ -103,14 +103,10 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
     if kind == "missing":
         return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
     if kind == "extra_forbidden":
-        top = model.model_fields.get(str(location[-1]))
-        if top is not None and len(location) > 1:
-            place = f"as [{location[-1]}]" if _table_type(top.annotation) else "above the first table of the file"
-            return f"unknown key here; it belongs to the top level, {place}"
-        known = _keys_beside(location, model)
         homes = _homes(str(location[-1]), model)
         if homes:
             return f"unknown key here; it belongs {' or '.join(homes)}"
+        known = _keys_beside(location, model)
         hint = suggestion(str(location[-1]), known)
         listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
         return f"unknown key{hint}{listed}"
@@ -148,13 +144,16 @@ def _keys_beside(location: Location, model: type[BaseModel]) -> list[str]:
 
 
 def _homes(key: str, model: type[BaseModel]) -> list[str]:
-    """Where in the file a `key` is known: above its first table, or directly in which tables."""
-    tables = [
-        (f"[[{name}]]" if "tuple" in str(field.annotation) else f"[{name}]", _table_type(field.annotation))
-        for name, field in model.model_fields.items()
-    ]
-    above = ["above the first table"] if key in model.model_fields else []
-    return above + [f"in {name}" for name, table in tables if table is not None and key in table.model_fields]
+    """Where in the file a `key` is known: at its top level, or directly in which tables."""
+    homes = []
+    if key in model.model_fields:
+        is_table = _table_type(model.model_fields[key].annotation)
+        homes.append("to the top level, " + (f"as [{key}]" if is_table else "above the first table of the file"))
+    for name, field in model.model_fields.items():
+        table = _table_type(field.annotation)
+        if table is not None and key in table.model_fields:
+            homes.append(f"in [[{name}]]" if "tuple" in str(field.annotation) else f"in [{name}]")
+    return homes
 
 
 def _table_type(annotation: Any) -> type[BaseModel] | None:

@@ -48,7 +48,7 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
         ("name = 'a'\n[[recording]]\nname='x'\nfiles='a'\n[[recording]]\nname='x'\nfiles='b'\n", 'are called "x"'),
         (
             "name = 'a'\n[[recording]]\nname = 'x'\nfiles = 'a'\nsame_samples = 'keep'\n",
-            "recording[1].same_samples: unknown key here; it belongs above the first table",
+            "recording[1].same_samples: unknown key here; it belongs to the top level, above the first table",
         ),
         (
             "name = 'a'\nunit = 'g'\n[[recording]]\nname = 'x'\nfiles = 'a'\n",

@@ -24,7 +24,7 @@ class Accurate:
     t = 0 on.
 
     `accuracy`: relative RMS error of the acceleration that is allowed, 1e-6 to 0.1.
-    `least_error` (m/s², RMS): an error that is always allowed.
+    `least_error` (m/s², RMS): an error that is always allowed, as is rounding of forces (physics/response/silence.py).
     `repeat`: whether, where nothing slips and the acceleration alone is kept, it stops when the response repeats itself
         from ball to ball.
 

@@ -55,16 +55,17 @@ def simulate(
         require(what in solution.keeps or not getattr(keep, what), problem, "keep")
     before = lead_in.samples(rate)
     _require_known_time(scene, rate, before)
+    rounding = silence(scene)
     if isinstance(solution, Accurate):
-        solution = replace(solution, least_error=max(solution.least_error, silence(scene)))
+        solution = replace(solution, least_error=max(solution.least_error, rounding))
     if before == 0:
         trace = _respond(scene, rate, solution, keep)
     else:
         trace = _respond_to_lead_in(scene, rate, solution, keep, before)
         trace = trace if lead_in.kept else from_start(trace)
-    silent = 0.0 < rms(trace.acceleration) <= silence(scene)
-    estimate = min(trace.error_estimate, 1.0)
-    return replace(trace, silent=True, chaotic=False, error_estimate=estimate) if silent else trace
+    if not 0.0 < rms(trace.acceleration) <= rounding:
+        return trace
+    return replace(trace, silent=True, chaotic=False, error_estimate=min(trace.error_estimate, 1.0))
 
 
 def _respond_to_lead_in(scene: Scene, rate: float, solution: Solution, keep: Kept, before: int) -> Trace:

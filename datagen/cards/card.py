@@ -109,7 +109,7 @@ def _ranges(facts: Facts) -> Iterable[str]:
 def _making(facts: Facts, source: str) -> Iterable[str]:
     info = facts.info
     yield "## How it was made\n"
-    if facts.info.origin == IMPORTED:
+    if info.origin == IMPORTED:
         yield (
             "Each record is the stored numbers of its file times their scale, in m/s², as float32; `provenance` in the "
             "shards names file, SHA-256, variables, scale and notes of each. What the SPEC does not say is unknown.\n"

@@ -13,6 +13,8 @@ from datagen.errors import BadInput
 from datagen.files.places import OUT
 
 TEMPORARY_SUFFIX = ".part"
+# By which a run holds its folder.
+LOCK = ".lock"
 NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
@@ -93,7 +95,7 @@ def locked(folder: Path) -> Iterator[None]:
     import fcntl
 
     try:
-        descriptor = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as problem:
         raise BadInput(f"cannot write into this folder: {problem.strerror}", file=str(folder)) from problem
     try:
@@ -114,7 +116,7 @@ def is_held(folder: Path) -> bool:
     import fcntl
 
     try:
-        descriptor = os.open(folder / ".lock", os.O_RDONLY)
+        descriptor = os.open(folder / LOCK, os.O_RDONLY)
     except OSError:
         return False
     try:

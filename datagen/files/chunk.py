@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 # ISA-L's first level: streams about 6 % longer than those of zlib's first, made in a tenth of the time. Its third one
 # takes twice as long for 3.5 % fewer bytes, a twentieth of what a record costs.
 ISAL_LEVEL = 1
-# Bytes. Of the 20 bytes of a column of labels ISA-L makes one stream in most processes and another, equally
-# right, in some (why was not found): in 8 runs of two workers 10 of 72 shards differed from those of one worker, with
-# zlib for short chunks none of as many.
+# Content of fewer bytes is compressed by zlib: of the 20 bytes of a column of labels ISA-L makes one stream in most
+# processes and another, equally right, in some (why was not found). In 8 runs of two workers 10 of 72 shards differed
+# from those of one worker, with zlib for short chunks none of as many.
 FEWEST_FOR_ISAL = 4096
 ZLIB_LEVEL = 1
 MODULUS = 65535

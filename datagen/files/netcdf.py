@@ -53,8 +53,8 @@ def check_compression(compression: str) -> None:
 def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | bytearray:
     """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered.
 
-    The same libraries make the same bytes of the same dataset at any time. They are made in memory: a file that netCDF
-    fills in place and that is cut short opens cleanly and holds NaN.
+    Nothing in them says when they were made. They are made in memory: a file that netCDF fills in place and that is cut
+    short opens cleanly and holds NaN.
     Signals are stored in checksummed chunks, one for each record and component.
     """
     check_compression(compression)

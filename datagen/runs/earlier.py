@@ -10,6 +10,7 @@ from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
 from datagen.corpus_files.shard import SHARDS, Sidecar, finished_shards, shards_folder
 from datagen.errors import BadInput
+from datagen.files.atomic import LOCK
 from datagen.files.places import OUT, require_folder
 
 VERSIONS = {
@@ -19,7 +20,7 @@ VERSIONS = {
     "program_hash": "the program",
 }
 # What a run leaves that was interrupted before its first shard.
-BEGINNING = (".lock", SHARDS)
+BEGINNING = (LOCK, SHARDS)
 
 
 @dataclass(frozen=True)

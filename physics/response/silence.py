@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from physics.scene import Scene
 
-# Digits of the sum of all forces that none of the methods vouches for, with room for the resonances' gain.
+# Share of the sum of all forces that no method vouches for: rounding of each, with room for the resonances' gain.
 UNSURE = 1e-12
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from datagen.drawing.frequency_panels import line_heights
-from datagen.drawing.sheet import draw_sheet, heading
+from datagen.drawing.sheet import draw_sheet, heading, summary
 from datagen.drawing.style import house_style
 from labels.truth import ball_passes
 from physics.spall import Spall
@@ -87,3 +87,14 @@ def test_a_stiffness_that_hardly_changes_is_drawn_as_a_level_line(portrait):
     steady = np.full_like(drawn.stiffness, 97.8e6) + np.linspace(0.0, 10.0, drawn.stiffness.shape[1])
     low, high = axes_of(replace(drawn, stiffness=steady), "Quasi-static stiffness").get_ylim()
     assert high - low > 1e-3 * 97.8
+
+
+@pytest.mark.parametrize(
+    ("error", "load", "said"),
+    [(1.0, 12345.6, "12346 N"), (0.9951, 9999.7, "10000 N"), (0.00049, 518.41, "518.4 N")],
+)
+def test_a_sheet_states_large_figures_without_powers_of_ten(portrait, error, load, said):
+    drawn = portrait("line, outer")
+    line = summary(replace(drawn, labels=drawn.labels | {"error_estimate": error, "load_n": load}))
+    assert f"  ·  {said}  ·  " in line
+    assert line.endswith("estimated error 100 %" if error > 0.99 else "estimated error 0.049 %")

@@ -21,6 +21,7 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
+from datagen.corpus_files.shard import finished_shards
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.recipes.store_settings import Store
 from datagen.runs.generate import corpus_identity, generate
@@ -75,9 +76,11 @@ def one_process(recipe: Recipe, records: int) -> tuple[float, float, int]:
         begin = time.process_time()
         rows = [make_shard(recipe, folder, shard, identity) for shard in planned]
         spent = time.process_time() - begin
-    assert not any(row.error or row.failed for row in rows)
+        written = list(finished_shards(folder))
+    assert not any(row.error for row in rows)
+    assert not any(shard.failed for shard in written)
     length = sum(len(shard.records) * shard.record_seconds for shard in planned)
-    return spent, length, sum(row.bytes for row in rows)
+    return spent, length, sum(shard.bytes for shard in written)
 
 
 def shares(recipe: Recipe, records: int) -> dict[str, float]:

@@ -127,7 +127,7 @@ def stiffness_error(scene: Scene, rate: float) -> dict[str, float]:
     return {"stiffness_error": error, "stiffness_said": series.error}
 
 
-def measure(scene: Scene, rate: float) -> dict[str, object]:
+def measure(scene: Scene, rate: float) -> dict[str, float]:
     """One scene's row."""
     trace = simulate(scene, rate)
     judged, apart = judge(scene, rate)
@@ -142,14 +142,14 @@ def measure(scene: Scene, rate: float) -> dict[str, object]:
     }
 
 
-def summary(rows: dict[str, dict[str, object]]) -> dict[str, object]:
+def summary(rows: dict[str, dict[str, float]]) -> dict[str, object]:
     """Counts and worst values; scenes that no two step sizes of the judge agree on are counted apart."""
     judged = {name: row for name, row in rows.items() if row["judge_apart"] <= CERTAIN * ACCURACY}
     missed = {name: row for name, row in judged.items() if row["error"] > ACCURACY}
     kept = {name: row for name, row in judged.items() if name not in missed}
 
     def of_kept(column: str) -> int:
-        return sum(row[column] for row in kept.values())
+        return sum(int(row[column]) for row in kept.values())
 
     return {
         "scenes": len(rows),

@@ -19,7 +19,9 @@ import json
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import NotRequired, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +31,7 @@ from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import measured_on
+from physics.cage import CagePath
 from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
 from physics.request import Accurate, FixedSteps, Solution
@@ -48,20 +51,40 @@ CHEAP_METHODS = ("exponential_rk4", "exponential_adams4", "runge_kutta4", "dorma
 Array = NDArray[np.float64]
 
 
-def timed(run: Callable[[], Array]) -> tuple[float, Array]:
-    """Processor time (s), the better of two, and the result."""
+class Row(TypedDict):
+    """What is found about one scene; `best` and `best_seconds` where rivals in hindsight kept the accuracy."""
+
+    seconds: float
+    error: float
+    estimate: float
+    spalls: int
+    sensitivity: float
+    chaotic: bool
+    judge_apart: float
+    changes: int
+    spectra_apart_db: float
+    own_error_over_allowed: float
+    best: NotRequired[str]
+    best_seconds: NotRequired[float]
+
+
+def timed(run: Callable[[], Trace]) -> tuple[float, Array]:
+    """Processor time (s), the better of two, and the acceleration."""
     seconds = []
     for _ in range(2):
         begin = time.process_time()
         result = run()
         seconds.append(time.process_time() - begin)
-    return min(seconds), result
+    return min(seconds), result.acceleration
 
 
 def shortened(scene: Scene, seconds: float) -> Scene:
     """Its first `seconds`."""
-    cages = [cage and replace(cage, duration=min(cage.duration, seconds)) for cage in (scene.cage, scene.second_cage)]
-    return replace(scene, cage=cages[0], second_cage=cages[1])
+
+    def cut(cage: CagePath) -> CagePath:
+        return replace(cage, duration=min(cage.duration, seconds))
+
+    return replace(scene, cage=cut(scene.cage), second_cage=scene.second_cage and cut(scene.second_cage))
 
 
 def judge(scene: Scene, rate: float) -> tuple[Trace, float]:
@@ -86,7 +109,7 @@ def rivals(scene: Scene, rate: float, exact: Array) -> dict[str, float]:
     kept = {}
     for name, setting in settings.items():
         try:
-            seconds, found = timed(lambda setting=setting: simulate(scene, rate, setting).acceleration)
+            seconds, found = timed(partial(simulate, scene, rate, setting))
         except SimulationFailed:
             continue
         if relative_error(found, exact) <= ACCURACY:
@@ -104,15 +127,15 @@ def spectral_difference(one: Array, other: Array, rate: float) -> float:
     return float(np.median(np.abs(10.0 * np.log10(sums[0, used] / sums[1, used]))))
 
 
-def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: bool) -> dict[str, object]:
+def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: bool) -> Row:
     """One scene's row; `allowed` is the accuracy and the error (m/s²) that its recipe asks for."""
     trace = simulate(scene, rate, Accurate(ACCURACY))
-    seconds, _ = timed(lambda: simulate(scene, rate, Accurate(ACCURACY)).acceleration)
+    seconds, _ = timed(partial(simulate, scene, rate, Accurate(ACCURACY)))
     judged, apart = judge(scene, rate)
     exact = judged.acceleration
     accuracy, least = allowed
     own = simulate(scene, rate, Accurate(accuracy, least_error=least))
-    row: dict[str, object] = {
+    row: Row = {
         "seconds": seconds,
         "error": relative_error(trace.acceleration, exact),
         "estimate": trace.error_estimate,
@@ -127,11 +150,11 @@ def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: 
     kept = rivals(scene, rate, exact) if hindsight and apart <= CERTAIN * ACCURACY else {}
     if kept:
         best = min(kept, key=lambda name: kept[name])
-        row |= {"best": best, "best_seconds": kept[best]}
+        row["best"], row["best_seconds"] = best, kept[best]
     return row
 
 
-def summary(rows: dict[str, dict[str, object]]) -> dict[str, object]:
+def summary(rows: dict[str, Row]) -> dict[str, object]:
     """Shares and ratios over all scenes; scenes that no two step sizes of the judge agree on are counted apart."""
     judged = [row for row in rows.values() if row["judge_apart"] <= CERTAIN * ACCURACY]
     unsettled = [row for row in rows.values() if row["judge_apart"] > CERTAIN * ACCURACY]
@@ -175,7 +198,7 @@ def main() -> None:
     recipe = load_recipe(ROOT / "datasets" / options.dataset).model_copy(update={"seed": options.seed})
     # At random: the parts and machines of a corpus take turns, so that every n-th record may be of one kind.
     records = np.random.default_rng(options.seed).choice(recipe.count, options.scenes, replace=False)
-    rows: dict[str, dict[str, object]] = {}
+    rows: dict[str, Row] = {}
     for place, record in enumerate(records.tolist()):
         scenario = draw_scenario(recipe, record)
         hindsight = options.hindsight > 0 and place % options.hindsight == 0

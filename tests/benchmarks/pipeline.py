@@ -65,7 +65,8 @@ def scratch() -> Iterator[Path]:
 
 def plain(recipe: Recipe, compression: str) -> Recipe:
     """The recipe with what is always stored and nothing else."""
-    store = Store(compression=compression, records_per_shard=recipe.store.records_per_shard)
+    settings = {"compression": compression, "records_per_shard": recipe.store.records_per_shard}
+    store = Store.model_validate(settings)
     return recipe.model_copy(update={"store": store})
 
 

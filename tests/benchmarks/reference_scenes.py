@@ -19,7 +19,9 @@ from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.request import FixedSteps, Reference
 from physics.response.periodic import METHOD as REPEATED
 from physics.rms import relative_error
+from physics.scene import Scene
 from physics.simulate import simulate
+from physics.trace import Trace
 from physics.warming import warm_up
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,9 +34,9 @@ DURATION, LONG_DURATION = 0.5, 5.0
 SLIP_SEED = 1
 
 
-def timed(scene: object, rounds: int) -> tuple[object, float]:
+def timed(scene: Scene, rounds: int) -> tuple[Trace, float]:
     """The response, and the real-time factor of the whole call: choice of tolerance, kinks, start and march."""
-    simulate(scene, RATE)
+    trace = simulate(scene, RATE)
     seconds = []
     for _ in range(rounds):
         begin = time.process_time()
@@ -70,7 +72,7 @@ def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]
     }
 
 
-def measure_rival(scene: object) -> float:
+def measure_rival(scene: Scene) -> float:
     """Real-time factor of the package's slow reference: SciPy's DOP853 with located events, rtol 1e-9."""
     simulate(scene, RATE, Reference())
     begin = time.process_time()

@@ -17,12 +17,14 @@ PAPER_FAN_TABLE = "Petersen et al. 2014, Table 2"
 PAPER_LAW = "Petersen et al. 2014, Eq. 6"
 CWRU = "Case Western Reserve University Bearing Data Center, bearing information"
 MFPT = "MFPT Society fault data sets (E. Bechhoefer), bearing information"
+XJTU = "XJTU-SY bearing datasets, bearing parameters; Wang et al. 2020, IEEE Trans. Reliab. 69"
 IMS = "IMS run-to-failure data (NASA prognostics repository), readme; Qiu et al. 2006, J. Sound Vib. 289"
 
 ASSUMED_ROLLER_LENGTH = 11e-3
 
 _ball_law = Sourced(1.5, "1", PAPER_LAW, note="balls")
 _usual_conformity = assumed(DEFAULT_CONFORMITY, "1", "groove radius / ball diameter, usual for steel ball bearings")
+_usual_play = assumed(3e-6, "m", "a usual fit: half of a diametral play of 6 µm when mounted")
 _conformity_without_effect = assumed(DEFAULT_CONFORMITY, "1", "without effect: rollers touch along lines")
 
 
@@ -99,8 +101,30 @@ SKF_6205 = CatalogBearing(
     pitch_diameter=Sourced(39.04e-3, "m", CWRU, note="1.537 in"),
     ball_diameter=Sourced(7.94e-3, "m", CWRU, note="0.3126 in"),
     load_deflection=_from_geometry(39.04e-3, 7.94e-3),
-    clearance=assumed(3e-6, "m", "a usual fit: half of a diametral play of 6 µm when mounted"),
+    clearance=_usual_play,
     contact_angle=Sourced(0.0, "rad", CWRU),
+)
+
+SKF_6203 = CatalogBearing(
+    title="SKF 6203-2RS deep groove ball bearing (CWRU, fan end)",
+    balls=Sourced(8, "1", CWRU),
+    rows=Sourced(1, "1", CWRU),
+    pitch_diameter=Sourced(28.499e-3, "m", CWRU, note="1.122 in"),
+    ball_diameter=Sourced(6.746e-3, "m", CWRU, note="0.2656 in"),
+    load_deflection=_from_geometry(28.499e-3, 6.746e-3),
+    clearance=_usual_play,
+    contact_angle=Sourced(0.0, "rad", CWRU),
+)
+
+LDK_UER204 = CatalogBearing(
+    title="LDK UER204 insert ball bearing (XJTU-SY)",
+    balls=Sourced(8, "1", XJTU),
+    rows=assumed(1, "1", "the source gives one set of 8 balls"),
+    pitch_diameter=Sourced(34.55e-3, "m", XJTU),
+    ball_diameter=Sourced(7.92e-3, "m", XJTU),
+    load_deflection=_from_geometry(34.55e-3, 7.92e-3),
+    clearance=_usual_play,
+    contact_angle=Sourced(0.0, "rad", XJTU),
 )
 
 NICE_MFPT = CatalogBearing(
@@ -110,7 +134,7 @@ NICE_MFPT = CatalogBearing(
     pitch_diameter=Sourced(31.62e-3, "m", MFPT, note="1.245 in"),
     ball_diameter=Sourced(5.969e-3, "m", MFPT, note="0.235 in; the source says roller diameter"),
     load_deflection=_from_geometry(31.62e-3, 5.969e-3),
-    clearance=assumed(3e-6, "m", "a usual fit: half of a diametral play of 6 µm when mounted"),
+    clearance=_usual_play,
     contact_angle=Sourced(0.0, "rad", MFPT),
     exponent=assumed(1.5, "1", "taken for balls: the source gives a diameter but neither type nor length"),
 )
@@ -138,6 +162,8 @@ BEARINGS: dict[str, CatalogBearing] = {
     "koyo_1205": KOYO_1205,
     "nachi_2206gk": NACHI_2206GK,
     "skf_6205": SKF_6205,
+    "skf_6203": SKF_6203,
+    "ldk_uer204": LDK_UER204,
     "nice_mfpt": NICE_MFPT,
     "rexnord_za2115": REXNORD_ZA2115,
 }

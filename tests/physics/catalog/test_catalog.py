@@ -81,7 +81,7 @@ def test_the_bpfo_of_the_fan_rig_is_76_74_hz(authority, fan):
     assert computed == pytest.approx(check["value"], abs=check["tolerance"])  # digits printed
 
 
-@pytest.mark.parametrize("name", ["skf_6205", "nice_mfpt", "rexnord_za2115"])
+@pytest.mark.parametrize("name", ["skf_6205", "skf_6203", "ldk_uer204", "nice_mfpt", "rexnord_za2115"])
 def test_the_published_geometries_give_their_published_ball_pass_frequencies(authority, name):
     published, ring = authority("published_geometry")[name], bearing(name)
     assert (ring.balls, ring.rows) == (published["balls"], published["rows"])
@@ -107,7 +107,7 @@ def test_the_other_rigs_run_at_their_published_speed_and_load(authority, name, e
 
 
 def test_factors_without_a_source_come_from_geometry_and_say_that_they_are_assumed():
-    for name in ("skf_6205", "nice_mfpt"):
+    for name in ("skf_6205", "skf_6203", "ldk_uer204", "nice_mfpt"):
         ring = bearing(name)
         assert ring.load_deflection == load_deflection_factor(ring.pitch_diameter, ring.ball_diameter)
         assert BEARINGS[name].load_deflection.assumed

@@ -83,6 +83,12 @@ def coarse(signal: Signal, rate: float, _: np.random.Generator, steps: float) ->
     return Recorded(np.round(signal / step) * step, rate)
 
 
+def stepping(signal: Signal, rate: float, random: np.random.Generator, height: float) -> Recorded:
+    """The record with a step of its offset, so many times its RMS, anywhere in its middle half."""
+    at = round(random.uniform(0.25, 0.75) * len(signal))
+    return Recorded(signal + height * signal.std(axis=0) * (np.arange(len(signal)) >= at)[:, None], rate)
+
+
 def humming(signal: Signal, rate: float, _: np.random.Generator, hertz: float) -> Recorded:
     """The record with hum of its own RMS at a mains frequency and a third of that at its third harmonic."""
     turn = 2.0 * np.pi * hertz * np.arange(len(signal))[:, None] / rate
@@ -115,6 +121,7 @@ DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]
     "speed stated 4 % too low, as nominal": partial(misstated, by=0.96, nominal=True),
     "clipped at 3 times its RMS": partial(clipped, at=3.0),
     "in 100 steps up to its peak": partial(coarse, steps=100.0),
+    "with a step of its offset, 5 times its RMS": partial(stepping, height=5.0),
     "with as much mains hum": partial(humming, hertz=50.0),
     "with knocks of another shaft, 9.3 a second": partial(knocking, hertz=9.3),
     "with knocks of another shaft, 41 a second": partial(knocking, hertz=41.0),

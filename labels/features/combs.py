@@ -49,18 +49,35 @@ SIDEBAND_WIDTH, SIDEBAND_SPREAD = 0.01, 0.001
 WIDEST_OF_COMB = 0.2
 # Components to each side of a line that it fills, of a Hann window, and strong lines of the vibration nearly so.
 LINE_REACHES = 2.01
+# Where the median beside a comb's lines is this many times the usual height, they reach as far; the median of noise is
+# within a tenth.
+BESIDE_A_LINE = 1.3
 # Lines between those of a comb that must be readable to show that it is a multiple.
 FEWEST_BETWEEN = 3
 
 
 def without_combs(excess: Array, step: float, combs: list[float], shaft_hz: float) -> Array:
     """The spectra (B, F) over their floor, components `step` (Hz) apart, with those near lines of `combs` (Hz) set to
-    the floor, 1."""
-    margin = max(SHAFT_MARGIN * shaft_hz, LINE_REACHES * step)
+    the floor, 1, as far as the lines of each comb reach."""
     for comb in combs:
+        margin = _reach(excess.mean(axis=0), step, comb, SHAFT_MARGIN * shaft_hz)
         if margin < WIDEST_OF_COMB * comb:
             excess = np.where(near_multiples(excess.shape[-1], step, comb, margin), 1.0, excess)
     return excess
+
+
+def _reach(mean: Array, step: float, comb: float, widest: float) -> float:
+    """How far (Hz) from multiples of `comb` (Hz) its lines stand out of the bands' `mean` (F,).
+
+    To where the median over the multiples falls to the usual height, or `widest`, and at least as far as a line reaches
+    that does not vary. More would take lines of a race that lie beside.
+    """
+    multiples = np.round(comb * np.arange(1, LOOKED_AT[-1] + 1) / step).astype(np.int64)
+    away = np.arange(int(LINE_REACHES) + 1, int(widest / step) + 1)
+    inside = multiples[multiples + int(widest / step) < mean.size]
+    beside = np.concatenate([mean[inside - away[:, None]], mean[inside + away[:, None]]], axis=1)
+    ends = ~(np.median(beside, axis=1) > BESIDE_A_LINE * np.median(mean)) if inside.size else np.zeros(away.size, bool)
+    return LINE_REACHES * step + step * (int(ends.argmax()) if ends.any() else away.size)
 
 
 def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags, doubt: float = 0.0) -> list[float]:

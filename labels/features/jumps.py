@@ -13,9 +13,9 @@ from physics.arrays import Array
 # In fewer turns of the shaft nothing says what is usual.
 FEWEST_TURNS = 8
 FEWEST_SAMPLES_A_TURN = 16
-# Height of a jump over the usual standard deviation within a turn. Over the two turns in which a jump is looked for,
-# the slope of no drift makes more than 7 of its own.
-OVER_SPREAD = 10.0
+# Height of a jump over the usual standard deviation within a turn. Right at a place a drift makes 0.9 of its own, and
+# a swing or a square wave once a turn makes 2; pulses once a turn make 3 at most, and are gone over whole turns.
+OVER_SPREAD = 4.0
 # Turns to both sides of a jump from which its height is taken, and from which it must show that it is no drift.
 REACH, NEAR = 2.0, 0.25
 # Turns for each jump; what comes oftener belongs to the machine and is left alone.

@@ -47,6 +47,21 @@ def test_a_comb_is_found_at_its_rate_and_its_lines_are_set_to_the_floor(order, s
     assert np.array_equal(left[:, away], excess[:, away])
 
 
+def test_a_line_close_beside_one_of_a_comb_is_left():
+    rate, place = 0.31 * SHAFT, round(17 * 0.31 * SHAFT / STEP) + 5
+    excess = spectrum(*multiples(rate, 200), place * STEP)
+    assert combs(excess) == pytest.approx([rate], abs=STEP / 10)
+    assert np.all(without(excess)[:, place] > 20.0)
+
+
+def test_lines_of_a_comb_that_varies_are_taken_out_as_far_as_they_reach():
+    rate = 1.37 * SHAFT
+    away = np.abs(np.arange(COUNT) * STEP / rate - np.round(np.arange(COUNT) * STEP / rate)) * rate
+    excess = spectrum() + 60.0 * np.exp(-0.5 * (away / (2.0 * STEP)) ** 2) * (np.arange(COUNT) * STEP > 0.5 * rate)
+    assert combs(excess) == pytest.approx([rate], abs=STEP / 5)
+    assert np.all(without(excess)[:, : round(8.5 * rate / STEP)].mean(axis=0) < 5.0)
+
+
 def test_a_comb_whose_every_other_line_is_strong_is_told_by_all():
     rate = 0.31 * SHAFT
     excess = spectrum(*multiples(rate, 200), height=15.0)

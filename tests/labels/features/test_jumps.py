@@ -27,6 +27,14 @@ def test_jumps_are_taken_out_and_nothing_else_is(heights):
     assert np.abs(found - noise()).max() < 0.5
 
 
+@pytest.mark.parametrize("height", [4.5, -5.0, 7.0])
+def test_a_jump_of_a_few_times_the_spread_is_taken_out_too(height):
+    found, count = without_jumps(noise() + steps(height), TURNS)
+    assert count == 1
+    # Least squares place such a step within a few samples, as noise may hide its edge.
+    assert np.count_nonzero(np.abs(found - noise()) > 0.5) <= 3
+
+
 @pytest.mark.parametrize("place", [0.02, 0.031, 0.5, 0.977])
 def test_a_jump_is_found_near_the_ends_too(place):
     found, count = without_jumps(noise() + 30.0 * (place * TIME[-1] < TIME), TURNS)

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from functools import cached_property
+from numbers import Integral
 from operator import index
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -41,7 +42,7 @@ class Corpus:
     """
 
     def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(folder).expanduser()
         self._root = self.folder.absolute()  # the caller may change its directory
         self.manifest: Manifest = read_manifest(self.folder)
         self._shards = OpenShards(self._root)
@@ -160,10 +161,11 @@ class Corpus:
         """What `to_numpy` gives of `records` (all, in order, if not given), in batches: pairs of records (B,) and
         their arrays (B, …) with B ≤ `size`.
 
-        Only one batch is in memory at a time. Raises BadInput if its records differ in shape, or for a size below 1.
+        Only one batch is in memory at a time. Raises BadInput if its records differ in shape, or unless `size` is a
+        whole number from 1 on.
         """
-        if size < 1:
-            raise BadInput(field="size", value=size, allowed="1 or more")
+        if not isinstance(size, Integral) or size < 1:
+            raise BadInput(field="size", value=size, allowed="a whole number from 1 on")
         chosen = np.asarray(list(self.labels["record"] if records is None else records))
         for start in range(0, chosen.size, size):
             batch = chosen[start : start + size]

@@ -279,8 +279,16 @@ def test_masks_and_fractions_are_no_record_indices(corpus: Corpus, chosen: objec
 def test_no_records_and_no_size_of_batches_are_refused(corpus: Corpus) -> None:
     with pytest.raises(BadInput, match="no record was chosen"):
         corpus.to_numpy("acceleration", [])
-    with pytest.raises(BadInput, match="size = 0; allowed: 1 or more"):
+    with pytest.raises(BadInput, match="size = 0; allowed: a whole number from 1 on"):
         list(corpus.batches(0))
+    with pytest.raises(BadInput, match=r"size = 2\.5; allowed: a whole number from 1 on"):
+        list(corpus.batches(2.5))  # type: ignore[arg-type]
+
+
+def test_a_folder_may_be_named_by_the_sign_for_ones_home(corpus: Corpus, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(corpus.folder.parent))
+    with Corpus(f"~/{corpus.folder.name}") as same:
+        assert len(same) == len(corpus)
 
 
 def test_everything_of_a_record_is_its_own_and_may_be_closed_and_pickled(corpus: Corpus) -> None:

@@ -23,12 +23,13 @@ RECORDS_A_TASK = 24
 
 @dataclass(frozen=True)
 class CorpusRows:
-    """The `rows` of features of records of a corpus; by record, where any, why it was `rejected`, how many glitches and
-    shocks it had, the races that hide `in_mains`, and the speed that was found, rpm. `raw` are its windows for models
-    that take them instead."""
+    """The `rows` of features of records of a corpus; by record, where any, why it was `rejected`, how many jumps,
+    glitches and shocks it had, the races that hide `in_mains`, and the speed that was found, rpm. `raw` are its windows
+    for models that take them instead."""
 
     rows: Rows
     rejected: dict[int, str] = field(default_factory=dict)
+    jumps: dict[int, int] = field(default_factory=dict)
     glitches: dict[int, int] = field(default_factory=dict)
     shocks: dict[int, int] = field(default_factory=dict)
     in_mains: dict[int, tuple[str, ...]] = field(default_factory=dict)
@@ -61,6 +62,7 @@ def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:
     return CorpusRows(
         joined([feature_rows([], 0), *parts]),
         {record: of.reason for record, of in found.items() if of.reason},
+        {record: of.jumps for record, of in found.items() if of.jumps},
         {record: of.glitches for record, of in found.items() if of.glitches},
         {record: of.shocks for record, of in found.items() if of.shocks},
         {record: of.in_mains for record, of in found.items() if of.in_mains},

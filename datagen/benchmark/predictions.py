@@ -19,6 +19,7 @@ FACTS = (
     "bearing_id",
     "truth",
     "rejected",
+    "levelled",
     "despiked",
     "shocks_cut",
     "in_mains",
@@ -46,15 +47,17 @@ class ModelAnswer:
 
 @dataclass(frozen=True)
 class Prediction:
-    """What is known of a record (`truth`, its location), why it was `rejected` ("" if it was not), how many glitches
-    were drawn over and shocks cut, which races hide `in_mains` ("", "outer", "inner" or "outer inner"), at which speed
-    of the shaft its lines were looked for (None without features), and the answer of each of the `models`."""
+    """What is known of a record (`truth`, its location), why it was `rejected` ("" if it was not), how many jumps were
+    levelled, glitches drawn over and shocks cut, which races hide `in_mains` ("", "outer", "inner" or "outer inner"),
+    at which speed of the shaft its lines were looked for (None without features), and the answer of each of the
+    `models`."""
 
     record: int
     recording: str
     bearing_id: str
     truth: str
     rejected: str
+    levelled: int
     despiked: int
     shocks_cut: int
     in_mains: str
@@ -80,6 +83,7 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             bearing_id=str(row["bearing_id"]),
             truth=str(row["location"]),
             rejected=str(tested.reasons[place]),
+            levelled=int(tested.jumps[place]),
             despiked=int(tested.glitches[place]),
             shocks_cut=int(tested.shocks[place]),
             in_mains=str(tested.in_mains[place]),

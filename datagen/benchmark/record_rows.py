@@ -51,11 +51,12 @@ class Row:
 
 @dataclass(frozen=True)
 class RecordRows:
-    """The rows of one record, why it must not be classified ("" if it may), how many glitches were drawn over in it and
-    how many shocks cut, and the races whose faults hide among multiples of the mains."""
+    """The rows of one record, why it must not be classified ("" if it may), how many jumps were levelled, glitches
+    drawn over and shocks cut in it, and the races whose faults hide among multiples of the mains."""
 
     rows: list[Row]
     reason: str
+    jumps: int = 0
     glitches: int = 0
     shocks: int = 0
     in_mains: tuple[str, ...] = ()
@@ -88,22 +89,22 @@ def record_rows(
         return RecordRows([], reason)
     rows: list[Row] = []
     reasons: list[str] = []
-    glitches = shocks = 0
+    jumps = glitches = shocks = 0
     turns = kinematics.shaft_hz * len(signals) / rate
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
-        drawn_over = cut = 0
+        levelled = drawn_over = cut = 0
         if not is_dead(signal):
-            signal, _ = without_jumps(signal, turns)
+            signal, levelled = without_jumps(signal, turns)
             signal, drawn_over = without_glitches(signal, turns)
             signal, cut = without_shocks(signal, turns)
         found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
-        glitches, shocks = glitches + drawn_over, shocks + cut
+        jumps, glitches, shocks = jumps + levelled, glitches + drawn_over, shocks + cut
         rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
     step = piece_count(len(signals), rate, reading.window) * rate / len(signals)
     # Over the angle of a shaft that changes its speed, mains is no line and nothing is left out for it.
     in_mains = races_in_mains(kinematics, step) if turning is None else ()
-    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", glitches, shocks, in_mains)
+    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", jumps, glitches, shocks, in_mains)
 
 
 def signal_rows(

@@ -15,8 +15,8 @@ class CorpusScores:
     """Scores of every model, the rule first, on the `records` of a `corpus` (its folder).
 
     `locations` counts the records by their true location, `rejections` by the reason why none of them can be judged;
-    `despiked` and `shocks_cut` count the glitches and shocks taken out, and the records that had any; `in_mains` counts
-    the records in which the faults of a race hide among multiples of the mains.
+    `levelled`, `despiked` and `shocks_cut` count the jumps, glitches and shocks taken out, and the records that had
+    any; `in_mains` counts the records in which the faults of a race hide among multiples of the mains.
     """
 
     corpus: str
@@ -24,6 +24,7 @@ class CorpusScores:
     records: int
     locations: dict[str, int]
     rejections: dict[str, int]
+    levelled: dict[str, int]
     despiked: dict[str, int]
     shocks_cut: dict[str, int]
     in_mains: dict[str, int]

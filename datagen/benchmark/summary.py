@@ -50,6 +50,7 @@ def summarise(tested: Tested) -> CorpusScores:
         records=len(tested.labels),
         locations={name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
         rejections=dict(Counter(str(reason) for reason in tested.reasons if reason)),
+        levelled={"records": int((tested.jumps > 0).sum()), "jumps": int(tested.jumps.sum())},
         despiked={"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
         shocks_cut={"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
         in_mains={race: int((np.char.find(tested.in_mains, race) >= 0).sum()) for race in RACES},

@@ -52,9 +52,9 @@ class Verdicts:
 class Tested:
     """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
 
-    `reasons` (R,) say why a record was rejected, `glitches` (R,) how many were drawn over in it, `shocks`
-    (R,) how many were cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks between,
-    `found_rpm` (R,) the speed of the shaft that was found, NaN without features.
+    `reasons` (R,) say why a record was rejected, `jumps` (R,) how many were levelled in it, `glitches` (R,) how many
+    drawn over, `shocks` (R,) how many cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks
+    between, `found_rpm` (R,) the speed of the shaft that was found, NaN without features.
     """
 
     folder: Path
@@ -62,6 +62,7 @@ class Tested:
     truth: NDArray[np.str_]
     classes: NDArray[np.str_]
     reasons: NDArray[np.str_]
+    jumps: NDArray[np.int64]
     glitches: NDArray[np.int64]
     shocks: NDArray[np.int64]
     in_mains: NDArray[np.str_]
@@ -91,9 +92,9 @@ def judge(
     """
     records = labels["record"].to_numpy(np.int64)
     reasons = np.array([found.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
-    glitches, shocks = (
+    jumps, glitches, shocks = (
         np.array([counts.get(record, 0) for record in records.tolist()], dtype=np.int64)
-        for counts in (found.glitches, found.shocks)
+        for counts in (found.jumps, found.glitches, found.shocks)
     )
     in_mains = np.array([" ".join(found.in_mains.get(record, ())) for record in records.tolist()], dtype=np.str_)
     verdicts = [_of_rule(rule, found.rows, records, reasons)]
@@ -104,6 +105,7 @@ def judge(
         truth=true_locations(labels),
         classes=true_classes(labels),
         reasons=reasons,
+        jumps=jumps,
         glitches=glitches,
         shocks=shocks,
         in_mains=in_mains,

@@ -18,7 +18,7 @@ from labels.schema import LOCATIONS
 if TYPE_CHECKING:
     from datagen.benchmark.model_scores import Scores
     from datagen.benchmark.plan import Benchmark
-    from datagen.benchmark.results import CorpusResults, Results
+    from datagen.benchmark.results import CorpusResults, CorpusScores, Results
     from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
@@ -140,10 +140,7 @@ def print_results(tests: list[CorpusResults]) -> None:
             print(f"  {name:10} {score_line(scores)}")
         for reason, count in found.rejections.items():
             print(f"  rejected   {count}: {reason}")
-        if found.despiked["glitches"]:
-            print("  despiked   {glitches} glitches in {records} records".format(**found.despiked))
-        if found.shocks_cut["shocks"]:
-            print("  shocks cut {shocks} in {records} records".format(**found.shocks_cut))
+        print_mended(found)
         for race, count in found.in_mains.items():
             if count:
                 print(f"  in mains   {count}: {IN_MAINS.format(race=race)}")
@@ -153,6 +150,16 @@ def print_results(tests: list[CorpusResults]) -> None:
         unscored = [prediction for prediction in test.predictions if prediction.truth not in LOCATIONS]
         if unscored:
             show_tables([verdict_table(unscored, list(found.models))])
+
+
+def print_mended(found: CorpusScores) -> None:
+    """Print what was taken out of the signals of a corpus before anything was read from them."""
+    if found.levelled["jumps"]:
+        print("  levelled   {jumps} jumps in {records} records".format(**found.levelled))
+    if found.despiked["glitches"]:
+        print("  despiked   {glitches} glitches in {records} records".format(**found.despiked))
+    if found.shocks_cut["shocks"]:
+        print("  shocks cut {shocks} in {records} records".format(**found.shocks_cut))
 
 
 def score_line(scores: Scores) -> str:

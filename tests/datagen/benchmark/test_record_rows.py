@@ -116,6 +116,14 @@ def test_glitches_are_counted_and_make_no_record_impulsive():
         assert row.values[column] == pytest.approx(clean.rows[0].values[column], abs=0.01)
 
 
+def test_jumps_are_counted_and_change_no_feature_much():
+    signal = shaking(24_000)[:, :1]
+    jumped = signal + 8.0 * (np.arange(24_000) >= 10_000)[:, None]
+    clean, found = (record_rows(each, labels(), Reading()) for each in (signal, jumped))
+    assert (clean.jumps, found.jumps) == (0, 1)
+    assert found.rows[0].values == pytest.approx(clean.rows[0].values, abs=0.2)
+
+
 def test_a_shock_is_counted_and_hides_no_modulation():
     """A machine that shakes harder at each passing ball shows it with a shock of 300 times its RMS too."""
     time, bpfo_hz = np.arange(24_000) / RATE, known_kinematics(labels()).bpfo * 30.0

@@ -15,6 +15,7 @@ OF_A_CORPUS = [
     "records",
     "locations",
     "rejections",
+    "levelled",
     "despiked",
     "shocks_cut",
     "in_mains",
@@ -23,8 +24,8 @@ OF_A_CORPUS = [
 
 
 def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_like_the_rest(made_scores):
-    scores = CorpusScores("out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {"rule": made_scores(detection_auc=HALF)})
-    said = Prediction(3, "x", "b", "none", "", 0, 0, "", 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)})
+    scores = CorpusScores("out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, {"rule": made_scores(detection_auc=HALF)})
+    said = Prediction(3, "x", "b", "none", "", 0, 0, 0, "", 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)})
     test = CorpusResults(scores, [said], [NoisyScores(-5.0, 2, scores)])
     results = Results("out/t", Options(), {"training_records": 7, "importances": {}}, [test], 1.5)
     found = json.loads(plain_json(results.to_dict()))
@@ -37,7 +38,7 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
     assert held["models"]["rule"]["detection_auc"] == {"value": 0.5, "low": 0.25, "high": 0.75}
     assert "minus_rule" not in held["models"]["rule"]
     facts = {"record": 3, "recording": "x", "bearing_id": "b", "truth": "none", "rejected": ""}
-    counts = {"despiked": 0, "shocks_cut": 0, "in_mains": "", "found_speed_rpm": 1798.5}
+    counts = {"levelled": 0, "despiked": 0, "shocks_cut": 0, "in_mains": "", "found_speed_rpm": 1798.5}
     assert held["predictions"] == [facts | counts | {"rule": {"location": "none", "score": 0.5, "alarm": 1.0}}]
 
 

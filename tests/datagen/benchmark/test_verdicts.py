@@ -87,7 +87,7 @@ def test_pooled_draws_keep_what_each_draw_says_of_every_record():
     one = judged(["none", "outer"], np.array([[0.9, 0.1, 0, 0, 0], [0.2, 0.8, 0, 0, 0]]))
     other = replace(one, in_mains=np.array(["inner", "outer"]), glitches=np.array([3, 0]))
     pooled, draws = pooled_draws([one, other]), (one, other)
-    for name in ("truth", "classes", "reasons", "glitches", "shocks", "in_mains"):
+    for name in ("truth", "classes", "reasons", "jumps", "glitches", "shocks", "in_mains"):
         assert list(getattr(pooled, name)) == [value for draw in draws for value in getattr(draw, name)], name
     for said, of_draws in zip(pooled.verdicts, zip(*(draw.verdicts for draw in draws), strict=True), strict=True):
         assert said.name == of_draws[0].name
@@ -137,6 +137,7 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     rows = CorpusRows(
         rows.rows[:2],
         rejected={2: "too short"},
+        jumps={2: 1},
         glitches={1: 4},
         shocks={1: 2},
         in_mains={0: ("outer",)},
@@ -146,11 +147,12 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     tested = judge(Path("made-up"), labels, rows, RULE, models, 0.0, True)
     summary = summarise(tested)
     assert summary.rejections == {"too short": 1}
+    assert summary.levelled == {"records": 1, "jumps": 1}
     assert summary.despiked == {"records": 1, "glitches": 4}
     assert summary.shocks_cut == {"records": 1, "shocks": 2}
     assert summary.in_mains == {"outer": 1, "inner": 0}
     first, second, third = predictions = record_predictions(tested)
-    assert (first.rejected, second.despiked, third.rejected) == ("", 4, "too short")
+    assert (first.rejected, second.despiked, third.levelled, third.rejected) == ("", 4, 1, "too short")
     assert (first.found_speed_rpm, third.found_speed_rpm) == (1798.51, None)
     assert (first.in_mains, second.in_mains) == ("outer", "")
     assert first.models["rule"].alarm == RULE.threshold
@@ -158,12 +160,13 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     assert np.isnan(third.models["said"].alarm)
     table = prediction_table(["rule", "said"], [("made-up", predictions)]).splitlines()
     assert table[0].startswith(
-        "corpus,record,recording,bearing_id,truth,rejected,despiked,shocks_cut,in_mains,found_speed_rpm,rule_location,"
+        "corpus,record,recording,bearing_id,truth,rejected,levelled,despiked,shocks_cut,in_mains,"
+        "found_speed_rpm,rule_location,"
     )
     location, score, alarm = table[1].split(",")[-3:]
     assert (location, float(alarm)) == ("outer", 0.7)
     assert float(score) == pytest.approx(0.8, abs=1e-5)  # probabilities of 0 are taken as 1e-6
-    assert ",too short,0,0,,,rejected," in table[3]
+    assert ",too short,1,0,0,,,rejected," in table[3]
 
 
 def with_unjudged_records():
@@ -364,7 +367,7 @@ def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
 def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, message):
     where = {"none": 1.0 - score, "outer": score, "inner": 0.0}
     answers = {"forest": ModelAnswer(location, score, 0.73, where), "rule": ModelAnswer("inner", 30.0, 9.0)}
-    table = verdict_table([Prediction(0, "a", "b", "unknown", "", 0, 0, "", None, answers)], ["forest", "rule"])
+    table = verdict_table([Prediction(0, "a", "b", "unknown", "", 0, 0, 0, "", None, answers)], ["forest", "rule"])
     columns = {str(column.header): list(column.cells) for column in table.columns}
     assert (columns["forest"], columns["rule"]) == ([message], ["inner"])
     assert "a spall, and the alarm above which one is called" in str(table.caption)

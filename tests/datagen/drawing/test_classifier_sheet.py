@@ -26,7 +26,7 @@ def summary(made_scores, none, outer):
     if none and outer:
         scores = replace(scores, detection_auc=HALF)
     locations = {"none": none, "outer": outer, "inner": 0}
-    return CorpusScores("out/made", False, none + outer, locations, {}, {}, {}, {}, {"rule": scores})
+    return CorpusScores("out/made", False, none + outer, locations, {}, {}, {}, {}, {}, {"rule": scores})
 
 
 @pytest.fixture

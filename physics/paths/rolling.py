@@ -80,14 +80,14 @@ def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float
 
 def roll(
     surface: Surface,
-    half: float,
+    ends: tuple[float, float],
     race: str,
     race_radius: float,
     ball_radius: float,
     step: float,
     lips: Array | None = None,
 ) -> Rolled:
-    """A ball rolled over the `surface` of a spall of half width `half` (rad), with the path of its centre.
+    """A ball rolled over the `surface` of a spall between its `ends` (rad), with the path of its centre.
 
     `step` is the wanted distance between the arcs of the path (rad); between its `lips` (L,), rad, rising, the surface
     has no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
@@ -95,15 +95,17 @@ def roll(
     """
     ball = Ball(race_radius, ball_radius, -1.0 if race == "outer" else 1.0)
     lips = np.zeros(0) if lips is None else lips
-    count = max(FEWEST_STEPS, math.ceil(2.0 * half / step))
-    fine = 2.0 * half / (count * POINTS_A_STEP)
-    probe = surface(np.linspace(-half, half, count * POINTS_A_STEP + 1))
+    (start, stop), length = ends, ends[1] - ends[0]
+    count = max(FEWEST_STEPS, math.ceil(length / step))
+    fine = length / (count * POINTS_A_STEP)
+    probe = surface(np.linspace(start, stop, count * POINTS_A_STEP + 1))
     beyond, reach = _margins(np.concatenate([probe, surface(lips)]), race, ball, fine)
     first, last = -beyond * POINTS_A_STEP, (count + beyond) * POINTS_A_STEP
-    points = -half + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
+    points = start + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
 
     def inside(arc: Array, order: int = 0) -> Array:
-        return np.where(np.abs(arc) < half * (1.0 - 1e-12), surface(arc, order), 0.0)
+        margin = 1e-12 * length
+        return np.where((arc > start + margin) & (arc < stop - margin), surface(arc, order), 0.0)
 
     depth = inside(points)
     # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.

@@ -48,6 +48,18 @@ def test_a_table_of_a_gentle_surface_is_followed_by_the_ball(gearbox, race):
 
 
 @RACES
+@pytest.mark.parametrize("extent", [0.04, 0.0531, 0.3])
+def test_a_ball_hangs_on_the_wall_of_a_table_wherever_in_the_spall_it_is(gearbox, race, extent):
+    angle, walls = np.array([-0.02, -0.00713, 0.0113, 0.02]), np.array([3e-6, 8e-6, 8e-6, 3e-6])
+    path = build_path(table(race, angle, walls, extent), gearbox.bearing)
+    away = np.array([0.001, 0.003, 0.006])
+    radius, ball = gearbox.bearing.raceway_radius(race), gearbox.bearing.ball_radius
+    for arcs in (-0.02 + away, 0.02 - away):
+        assert path.depth(arcs) == pytest.approx(hanging(race, radius, ball, away), abs=1e-12)
+    assert path.depth(np.array([-0.0201, 0.0201])) == pytest.approx([0.0, 0.0], abs=0.0)
+
+
+@RACES
 def test_a_table_is_given_in_the_direction_of_rising_angle_on_either_race(gearbox, build_scene, race):
     spall = table(race, [-0.15, -0.14, 0.15], [0.0, 5e-6, 0.0], 0.3)
     scene = build_scene(gearbox, spall)
@@ -174,3 +186,17 @@ def test_the_path_over_a_spall_of_metres_has_bounded_cells_and_is_as_exact_as_ov
     drops = [build_path(one, bearing).depth(arcs - one.extent / 2.0) for one in (whole, beginning)]
     assert np.std(drops[1]) > 1e-6
     assert np.sqrt(np.mean((drops[0] - drops[1]) ** 2)) < 2e-9
+
+
+@pytest.mark.parametrize("count", [8, 20, 60])
+@pytest.mark.parametrize("tapers", [(0.3, 0.06), (0.01, 0.0)])
+def test_beside_tapers_the_path_follows_rough_values_of_any_kind(gearbox, count, tapers):
+    values = np.random.default_rng(count).normal(0.0, 1e-6, count)
+    values[[0, -1]] = 0.0
+    spall = Spall("outer", 1, BOTTOM, 0.6, 8e-6, *tapers, "tukey", 1e-6, tuple(values))
+    arcs = np.linspace(-0.2999, 0.2999, 20_001)
+    floor = CubicSpline(np.linspace(-0.3, 0.3, count), values, bc_type="natural")(arcs)
+    rise = np.cos(np.pi * np.clip((0.3 + arcs) / tapers[0], 0.0, 1.0))
+    fall = np.cos(np.pi * np.clip((0.3 - arcs) / tapers[1], 0.0, 1.0)) if tapers[1] else -1.0
+    expected = 8e-6 * np.minimum(0.5 - 0.5 * rise, 0.5 - 0.5 * fall) + floor
+    assert np.abs(build_path(spall, gearbox.bearing).depth(arcs) - expected).max() < 2e-10

@@ -27,7 +27,7 @@ def sloped(depth):
 
 
 def rolled(depth, race, half=HALF, step=STEP):
-    return roll(sloped(depth), half, race, RACE[race], BALL, step).path[:2]
+    return roll(sloped(depth), (-half, half), race, RACE[race], BALL, step).path[:2]
 
 
 def gap(depth):
@@ -76,7 +76,7 @@ def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
 @RACES
 @pytest.mark.parametrize("steps", [800, 801])  # the corner lies on a node, or in the middle between two
 def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slope(race, steps):
-    path = roll(sloped(gap(1e-3)), HALF, race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5)).path
+    path = roll(sloped(gap(1e-3)), (-HALF, HALF), race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5)).path
     assert path.arc.size == steps + 1
     found = branches(path)
     assert found.edges[1:-1] == pytest.approx([0.0], abs=1e-9)
@@ -89,7 +89,7 @@ def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slop
 @RACES
 @pytest.mark.parametrize("seed", range(3))
 def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
-    path = roll(sloped(bumpy(seed, 8e-6)), HALF, race, RACE[race], BALL, STEP).path
+    path = roll(sloped(bumpy(seed, 8e-6)), (-HALF, HALF), race, RACE[race], BALL, STEP).path
     found = branches(path)
     assert 2 < found.edges.size < 20
     width, rise = np.diff(found.arc), np.diff(found.drop)
@@ -130,7 +130,7 @@ def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
 def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(race, ball_share):
     ball = ball_share * RACE[race]
     half = 0.98 * math.asin(ball_share)
-    arcs, drop, _, _ = roll(sloped(gap(5e-3)), half, race, RACE[race], ball, STEP).path
+    arcs, drop, _, _ = roll(sloped(gap(5e-3)), (-half, half), race, RACE[race], ball, STEP).path
     exact, _ = deep_gap_drop(race, RACE[race], ball)
     assert np.max(np.abs(drop - np.minimum(exact(half - np.abs(arcs)), 5e-3))) < ROUNDING * 10  # steep: more rounding
 
@@ -190,7 +190,7 @@ def test_over_a_taper_the_ball_runs_on_the_curve_one_radius_off_it(race, taper):
             return depth * np.sin(0.5 * np.pi * into) ** 2
         return -np.sign(arc) * depth * 0.5 * np.pi / width * np.sin(np.pi * into)
 
-    arcs, drop, slope, _ = roll(surface, HALF, race, RACE[race], BALL, STEP).path
+    arcs, drop, slope, _ = roll(surface, (-HALF, HALF), race, RACE[race], BALL, STEP).path
     # Points of the taper near its edge and the ball that lies on each of them, along the normal there.
     touched = -HALF + width * np.linspace(1e-5, 0.3, 4001)
     radius, tilt = RACE[race] + outward * surface(touched), outward * surface(touched, 1)
@@ -215,7 +215,7 @@ def test_a_ball_turns_around_a_lip_wherever_it_lies_between_points(race):
             return np.interp(arc, knots, depths)
         return np.concatenate([[0.0], np.diff(depths) / np.diff(knots), [0.0]])[np.searchsorted(knots, arc)]
 
-    arcs, drop, slope, _ = roll(surface, HALF, race, RACE[race], BALL, STEP, knots).path
+    arcs, drop, slope, _ = roll(surface, (-HALF, HALF), race, RACE[race], BALL, STEP, knots).path
     near = np.abs(arcs - lip) < 1e-3
     radius, away = RACE[race] + outward * 2e-6, lip - arcs[near]
     hanging = np.sqrt(BALL**2 - (radius * np.sin(away)) ** 2)
@@ -240,12 +240,12 @@ def test_a_bump_that_holds_the_ball_over_less_than_a_step_is_not_passed_over(rac
 
         return surface
 
-    low = roll(sloped(crests(0.0)), half, race, RACE[race], BALL, STEP)
+    low = roll(sloped(crests(0.0)), (-half, half), race, RACE[race], BALL, STEP)
     path, without = low.path, smooth_branches(low)
     assert np.min(np.abs(path.arc - middle)) == pytest.approx(0.5 * step)
     corner = float(np.interp(middle, without.arc, without.drop))
     surface = crests(20e-6 - corner + 15e-9)  # holds the ball 15 nm higher than its neighbours, over a µm
-    found = smooth_branches(roll(sloped(surface), half, race, RACE[race], BALL, STEP))
+    found = smooth_branches(roll(sloped(surface), (-half, half), race, RACE[race], BALL, STEP))
     near = np.abs(found.edges - middle) < 0.5 * step
     assert np.count_nonzero(near) == 2
     assert 0.0 < np.ptp(found.edges[near]) < 0.5 * step
@@ -266,7 +266,7 @@ def test_a_path_over_roughness_is_the_same_with_steps_eight_times_as_short(race,
         return rough(arc, order) + (10e-6 if order == 0 else 0.0)
 
     arcs = np.linspace(-half, half, 400_001)
-    long, short = (smooth_branches(roll(surface, half, race, RACE[race], BALL, step / n)) for n in (1, 8))
+    long, short = (smooth_branches(roll(surface, (-half, half), race, RACE[race], BALL, step / n)) for n in (1, 8))
     assert long.edges.size > 100
     drops = [np.interp(arcs, found.arc, found.drop) for found in (long, short)]
     np.testing.assert_allclose(*drops, rtol=0, atol=2e-9)  # chords of 2 µm, and corners of bumps less than 6 µm apart
@@ -375,7 +375,7 @@ def test_a_ball_falls_to_the_floor_of_a_hole_deeper_than_itself_and_is_found_the
         bumps = 1e-6 * np.cos(4e2 * arc)
         return np.full_like(arc, floor) + bumps if order == 0 else -4e-4 * np.sin(4e2 * arc)
 
-    path = roll(surface, half, race, RACE[race], BALL, STEP).path
+    path = roll(surface, (-half, half), race, RACE[race], BALL, STEP).path
     # A ball that touches neither edge from beside its centre rests on the floor, a little above its deepest points.
     free = np.abs(path.arc) < half - 1.05 * math.asin(BALL / RACE[race])
     assert free.sum() > 500

@@ -38,7 +38,7 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    _sync_folder(path.parent)
+    sync_folder(path.parent)
 
 
 def write_file(path: Path, data: bytes, option: str) -> None:
@@ -72,7 +72,8 @@ def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
         raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
 
 
-def _sync_folder(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
+    """Have what lies in `folder`, by name, on the disk; OSError if that cannot be."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(descriptor)

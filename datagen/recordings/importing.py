@@ -128,7 +128,7 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
 
 def _require_new(folder: Path) -> None:
     require_folder(folder)
-    if folder.absolute() == Path.cwd():
+    if folder.resolve() == Path.cwd():
         raise BadInput(
             "an import puts a folder of its own in this place, and the current one cannot be replaced", str(folder),
             "--out", allowed="another folder, new or empty",

@@ -453,6 +453,25 @@ def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: B
     assert sorted(tmp_path.glob(".*")) == sorted(others)
 
 
+def test_what_an_import_of_the_same_number_left_is_in_nobodys_way(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    left = tmp_path / f".corpus.{socket.gethostname()}.{os.getpid()}.part" / "shards"
+    left.mkdir(parents=True)
+    (left / "shard_000007.nc").write_bytes(b"half")
+    mat("a.mat")
+    assert len(bring(SPEC)) == 1
+    assert not (tmp_path / "corpus" / "shards" / "shard_000007.nc").exists()
+    assert not list(tmp_path.glob(".*"))
+
+
+def test_an_import_fills_the_empty_folder_that_a_link_leads_to(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    (tmp_path / "large disk").mkdir()
+    (tmp_path / "corpus").symlink_to(tmp_path / "large disk")
+    mat("a.mat")
+    assert len(bring(SPEC)) == 1
+    assert (tmp_path / "corpus").is_symlink()
+    assert (tmp_path / "large disk" / "manifest.json").is_file()
+
+
 SPEC = '[[recording]]\nname = "a"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 1000\n'
 
 

@@ -81,9 +81,14 @@ def sync_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
+def is_temporary(path: Path) -> bool:
+    """True if `path` is called like a file that a writer had not finished, and is no folder."""
+    return path.name.startswith(".") and path.name.endswith(TEMPORARY_SUFFIX) and not path.is_dir()
+
+
 def sweep_temporaries(folder: Path) -> None:
     """Delete what killed writers left in `folder`. Call it with the folder locked."""
-    for path in folder.glob(f".*{TEMPORARY_SUFFIX}"):
+    for path in filter(is_temporary, folder.glob(f".*{TEMPORARY_SUFFIX}")):
         path.unlink(missing_ok=True)
 
 

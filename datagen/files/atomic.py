@@ -44,13 +44,13 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
 def write_file(path: Path, data: bytes, option: str) -> None:
     """Put `data` at `path`, which the user has named with an `option`, whole or not at all; raises BadInput.
 
-    A pipe or a device is written to as it is, and not replaced by a file.
+    A pipe or a device is written to as it is, and not replaced by a file; nor is a link, but what it leads to.
     """
     try:
         if path.exists() and not path.is_file():
             path.write_bytes(data)
         else:
-            write_atomically(path, data)
+            write_atomically(Path(os.path.realpath(path)), data)
     except OSError as problem:
         raise BadInput(f"cannot write this file: {problem.strerror}", str(path), option) from None
 
@@ -58,17 +58,17 @@ def write_file(path: Path, data: bytes, option: str) -> None:
 def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
     """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput.
 
-    Where the first of them cannot be written, a folder that was not there before is not left there either.
+    Where the first of them cannot be written, folders that were not there before are not left there either.
     """
-    new = not folder.exists()
+    new = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             write_atomically(folder / name, content)
     except OSError as problem:
-        if new:
-            with suppress(OSError):
-                folder.rmdir()
+        with suppress(OSError):
+            for path in new:
+                path.rmdir()
         raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
 
 

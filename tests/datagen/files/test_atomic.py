@@ -140,6 +140,15 @@ def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Pat
     assert [path.name for path in tmp_path.iterdir()] == ["pipe"]
 
 
+def test_a_link_to_a_file_stays_one(tmp_path: Path) -> None:
+    (tmp_path / "far").mkdir()
+    (tmp_path / "model").symlink_to(tmp_path / "far" / "model")
+    for content in (b"a new file", b"written over"):
+        write_file(tmp_path / "model", content, "--save")
+        assert (tmp_path / "far" / "model").read_bytes() == content
+    assert (tmp_path / "model").is_symlink()
+
+
 def test_a_file_that_cannot_be_written_is_told_with_its_option(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="--save: cannot write this file: No such file or directory"):
         write_file(tmp_path / "absent" / "model", b"", "--save")
@@ -153,10 +162,10 @@ def test_results_that_do_not_fit_leave_the_disk_as_it_was(
         raise OSError(errno.ENOSPC, "no space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    folder = tmp_path / "results"
+    folder = tmp_path / "mine" / "results"
     if there:
-        folder.mkdir()
+        folder.mkdir(parents=True)
     with pytest.raises(BadInput, match="cannot write here: no space left on device"):
         write_results(folder, {"a.json": b"{}", "a.png": b"png"})
     assert folder.exists() == there
-    assert list(tmp_path.rglob("*")) == ([folder] if there else [])
+    assert sorted(tmp_path.rglob("*")) == ([folder.parent, folder] if there else [])

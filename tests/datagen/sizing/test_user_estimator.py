@@ -65,6 +65,16 @@ def asked(answer: Any) -> SizeEstimate:
     return estimator.estimate(np.zeros((4, 2)), 1000.0, None)  # type: ignore[arg-type]
 
 
+def test_an_estimator_that_changes_its_record_changes_a_copy() -> None:
+    def silences(acceleration: np.ndarray, rate: float, situation: Situation) -> SizeEstimate:
+        acceleration[:] = 0.0
+        return GOOD
+
+    record = np.ones((16, 2))
+    assert UserEstimator("mine:silences", silences, "").estimate(record, 1000.0, MACHINE) is GOOD
+    assert (record == 1.0).all()
+
+
 @pytest.mark.parametrize("problem", WRONG)
 def test_what_is_no_estimate_is_named_with_what_is_due(problem: str) -> None:
     with pytest.raises(BadInput) as refused:

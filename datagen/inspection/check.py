@@ -15,7 +15,7 @@ from datagen.corpus_files.format import FORMAT, content_hash, format_hash
 from datagen.corpus_files.index import LABEL_COLUMNS, read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpus_files.reading import READ_ERRORS, unencodable
-from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path
+from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path, shards_folder
 from datagen.errors import BadInput
 from datagen.files.atomic import is_held
 from datagen.files.digest import file_hash
@@ -120,7 +120,7 @@ class _Check:
 
     def files(self) -> None:
         """Read every sidecar, and find files that do not belong together."""
-        shards = self.folder / "shards"
+        shards = shards_folder(self.folder)
         for path in sorted(shards.glob("*.json")):
             sidecar = read_sidecar(path)
             if sidecar is None:

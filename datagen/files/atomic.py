@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -15,6 +16,8 @@ from datagen.files.places import OUT
 TEMPORARY_SUFFIX = ".part"
 # By which a run holds its folder.
 LOCK = ".lock"
+# Seconds, in all and between two tries, that a run waits for what may be but the moment of a look by `is_held`.
+PATIENCE, PAUSE = 0.2, 0.01
 NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
@@ -98,14 +101,12 @@ def locked(folder: Path) -> Iterator[None]:
 
     The lock dies with its process. On a file system without locks, as some network ones are, nothing is held.
     """
-    import fcntl
-
     try:
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as problem:
         raise BadInput(f"cannot write into this folder: {problem.strerror}", file=str(folder)) from problem
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        _take(descriptor)
     except BlockingIOError as problem:
         os.close(descriptor)
         raise BadInput("another run is writing into this folder", file=str(folder)) from problem
@@ -115,6 +116,21 @@ def locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(descriptor)
+
+
+def _take(descriptor: int) -> None:
+    """Lock an open file for this process alone; BlockingIOError if another holds it for longer than a look at it."""
+    import fcntl
+
+    given_up = time.monotonic() + PATIENCE
+    while True:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return
+        except BlockingIOError:
+            if time.monotonic() >= given_up:
+                raise
+        time.sleep(PAUSE)
 
 
 def is_held(folder: Path) -> bool:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import signal
 import subprocess
@@ -14,6 +15,7 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.files.atomic import (
+    LOCK,
     locked,
     opened_atomically,
     sweep_temporaries,
@@ -125,6 +127,15 @@ def test_a_folder_in_use_is_refused_until_its_holder_dies(tmp_path: Path) -> Non
     holder.stdout.close()
     with locked(tmp_path):
         pass
+
+
+def test_a_run_that_begins_while_another_looks_whether_the_folder_is_held_is_not_refused(tmp_path: Path) -> None:
+    look = os.open(tmp_path / LOCK, os.O_RDONLY | os.O_CREAT, 0o644)
+    fcntl.flock(look, fcntl.LOCK_SH)
+    end_of_look = threading.Timer(0.03, os.close, (look,))
+    end_of_look.start()
+    with locked(tmp_path):
+        end_of_look.join()
 
 
 def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from scipy.io import wavfile
 from datagen.corpus import Corpus
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
+from datagen.files import places
 from datagen.files.digest import file_hash
 from datagen.inspection.check import check_corpus
 from datagen.inspection.info import corpus_info
@@ -212,6 +213,26 @@ def test_the_current_folder_is_refused_before_anything_is_read(
     assert code == 2
     assert "the current one cannot be replaced; allowed: another folder, new or empty" in message
     assert list(here.iterdir()) == []
+
+
+@pytest.mark.parametrize("cause", ["mounted", "parent"])
+def test_a_folder_that_cannot_be_replaced_is_refused_before_anything_is_read(
+    cause: str, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mat("a.mat")
+    parent = tmp_path / "parent"
+    out = parent / "out"
+    out.mkdir(parents=True)
+    if cause == "mounted":
+        monkeypatch.setattr(Path, "is_mount", lambda path: path == out)
+    else:
+        monkeypatch.setattr(places, "_writable", lambda folder: folder != parent)
+    (tmp_path / "spec.toml").write_text(
+        'name = "set"\n[[recording]]\nname = "all"\nfiles = "absent.mat"\ny = "sig"\nunit = "g"\n'
+    )
+    code, _, message = run("import", tmp_path / "spec.toml", "--out", out)
+    assert code == 2
+    assert {"mounted": "mounted on cannot be replaced", "parent": f"cannot write into {parent}"}[cause] in message
 
 
 def test_a_relative_folder_is_put_where_it_says(mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.cards.facts import Facts
-from datagen.corpus_files.index import PLACE_COLUMNS, index_path
+from datagen.corpus_files.index import INDEX, PLACE_COLUMNS, index_path
 from datagen.corpus_files.shard import SHARDS
 from datagen.files.digest import file_hash
 from labels.schema import LABELS
@@ -35,7 +35,6 @@ CONTEXT: dict[str, Any] = {
 TYPES = {"str": "sc:Text", "float64": "sc:Float", "int64": "sc:Integer", "bool": "sc:Boolean"}
 # By version 1.0, beside what every corpus has; version is recommended.
 REQUIRED = ("license", "url", "creator", "datePublished")
-INDEX = "index.csv"
 
 
 def croissant_text(folder: Path, facts: Facts, out: Path) -> str:

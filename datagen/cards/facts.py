@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import Manifest
 from datagen.inspection.info import Info, corpus_info
+from labels.schema import SPLITS, UNKNOWN
 
 if TYPE_CHECKING:
     import pandas
 
-SPLIT_ORDER = ("train", "validation", "test", "unknown")
+SPLIT_ORDER = (*SPLITS, UNKNOWN)
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ class Facts:
 
 
 def corpus_facts(folder: Path) -> Facts:
-    """The facts of the corpus in `folder`; raises BadInput if there is none, or none of its records is made."""
+    """The facts of the corpus in `folder`; raises BadInput if there is none. One record at least must be made."""
     corpus = Corpus(folder)
     manifest, table = corpus.manifest, corpus.labels
     return Facts(

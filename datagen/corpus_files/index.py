@@ -22,6 +22,7 @@ from labels.schema import LABELS
 if TYPE_CHECKING:
     import pandas
 
+INDEX = "index.csv"
 PLACE_COLUMNS = ("shard", "position")
 LABEL_COLUMNS = tuple(column for label in LABELS for column in label.columns)
 COLUMN_TYPES = {column: label.dtype for label in LABELS for column in label.columns}
@@ -33,7 +34,7 @@ Row = tuple[Any, ...]
 
 def index_path(folder: Path) -> Path:
     """Where the index of the corpus `folder` lies."""
-    return folder / "index.csv"
+    return folder / INDEX
 
 
 def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:

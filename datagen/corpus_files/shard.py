@@ -158,10 +158,14 @@ def is_whole(folder: Path, sidecar: Sidecar) -> bool:
 
 
 def finished_shards(folder: Path) -> Iterator[Sidecar]:
-    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of its size."""
-    for path in sorted(shards_folder(folder).glob("shard_*.json")):
+    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of its size.
+
+    Copies of a sidecar under another name do not count.
+    """
+    # Names have six digits, and more from shard 1 000 000 on.
+    for path in sorted(shards_folder(folder).glob("shard_*.json"), key=lambda path: (len(path.name), path.name)):
         sidecar = read_sidecar(path)
-        if sidecar is not None and is_whole(folder, sidecar):
+        if sidecar is not None and path == sidecar_path(folder, sidecar.shard) and is_whole(folder, sidecar):
             yield sidecar
 
 

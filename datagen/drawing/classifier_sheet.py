@@ -64,9 +64,9 @@ def draw_scores(axes: Axes, test: CorpusScores) -> None:
         shift = (place - 0.5 * (len(models) - 1)) * 0.16
         for spot, found in enumerate(scores.headline.values()):
             if np.isfinite(found.value):
-                axes.plot([spot + shift] * 2, [found.low, found.high], color=COLOURS[place % 6], linewidth=2)
-                axes.plot(spot + shift, found.value, "o", color=COLOURS[place % 6], markersize=4)
-        axes.plot([], [], "o-", color=COLOURS[place % 6], label=name)
+                axes.plot([spot + shift] * 2, [found.low, found.high], color=_colour(place), linewidth=2)
+                axes.plot(spot + shift, found.value, "o", color=_colour(place), markersize=4)
+        axes.plot([], [], "o-", color=_colour(place), label=name)
     axes.set_xticks(range(len(words)), words)
     axes.set_xlim(-0.5, len(words) - 0.5)
     axes.set_ylim(0.0, 1.03)
@@ -123,7 +123,7 @@ def draw_reliability(axes: Axes, test: CorpusScores) -> None:
     for place, (name, scores) in enumerate(test.models.items()):
         if scores.calibration:
             curve = scores.calibration.reliability
-            axes.plot(curve["predicted"], curve["observed"], "o-", color=COLOURS[place % 6], markersize=3, label=name)
+            axes.plot(curve["predicted"], curve["observed"], "o-", color=_colour(place), markersize=3, label=name)
     axes.legend(loc="upper left")
     axes.set_xlabel("predicted probability of a spall")
     axes.set_ylabel("share of spalls")
@@ -139,12 +139,12 @@ def draw_against(axes: Axes, test: CorpusScores, quantity: str) -> None:
     for place, scores in enumerate(models.values()):
         table = scores.accuracy_against.get(quantity, [])
         at, value = [point["at"] for point in table], np.array([point["accuracy"] for point in table])
-        axes.plot(at, value, "o-", color=COLOURS[place % 6], markersize=3)
+        axes.plot(at, value, "o-", color=_colour(place), markersize=3)
         axes.fill_between(
             at,
             [point["low"] for point in table],
             [point["high"] for point in table],
-            color=COLOURS[place % 6],
+            color=_colour(place),
             alpha=0.1,
             linewidth=0,
         )
@@ -175,11 +175,15 @@ def draw_curve(axes: Axes, results: Results) -> None:
     for place, (name, points) in enumerate(results.learning_curve.items()):
         bearings = [point["bearings"] for point in points]
         axes.plot(
-            bearings, [point["value"] for point in points], "o-", color=COLOURS[place + 1], markersize=3, label=name
+            bearings, [point["value"] for point in points], "o-", color=_colour(place + 1), markersize=3, label=name
         )
         low, high = [point["low"] for point in points], [point["high"] for point in points]
-        axes.fill_between(bearings, low, high, color=COLOURS[place + 1], alpha=0.15, linewidth=0)
+        axes.fill_between(bearings, low, high, color=_colour(place + 1), alpha=0.15, linewidth=0)
     axes.set_xlabel("virtual bearings learned from")
     axes.set_ylabel("balanced accuracy, records")
     axes.set_title("learning curve")
     axes.legend(loc="lower right")
+
+
+def _colour(place: int) -> str:
+    return COLOURS[place % len(COLOURS)]

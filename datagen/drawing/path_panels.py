@@ -100,11 +100,9 @@ def load_over_spall(portrait: Portrait, spall: Spall, k: int) -> tuple[Array, Ar
     time = np.linspace(max(start, 0.0), min(stop, portrait.duration), POINTS)
     row, ball = spall.row - 1, int(table.ball[k]) - 1
     load = equilibrium(scene, time).ball_load[:, row, ball]
-    cage = scene.cage if row == 0 or scene.second_cage is None else scene.second_cage
     bearing = scene.rig.bearing
-    angle = cage.angle(time) + ball * bearing.spacing + row * bearing.stagger
-    race_speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
-    return spall.travel_sign * wrap(angle - spall.angle - race_speed * time), load
+    angle = scene.cage_of(spall.row).angle(time) + ball * bearing.spacing + row * bearing.stagger
+    return spall.travel_sign * wrap(angle - spall.angle - scene.race_speed(spall.race) * time), load
 
 
 def load_around(scene: Scene) -> tuple[Array, Array]:

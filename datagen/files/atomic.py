@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -15,6 +16,8 @@ from datagen.files.places import OUT
 TEMPORARY_SUFFIX = ".part"
 # By which a run holds its folder.
 LOCK = ".lock"
+# Seconds, in all and between two tries, that a run waits for what may be but the moment of a look by `is_held`.
+PATIENCE, PAUSE = 0.2, 0.01
 NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
@@ -38,19 +41,19 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    _sync_folder(path.parent)
+    sync_folder(path.parent)
 
 
 def write_file(path: Path, data: bytes, option: str) -> None:
     """Put `data` at `path`, which the user has named with an `option`, whole or not at all; raises BadInput.
 
-    A pipe or a device is written to as it is, and not replaced by a file.
+    A pipe or a device is written to as it is, and not replaced by a file; nor is a link, but what it leads to.
     """
     try:
         if path.exists() and not path.is_file():
             path.write_bytes(data)
         else:
-            write_atomically(path, data)
+            write_atomically(Path(os.path.realpath(path)), data)
     except OSError as problem:
         raise BadInput(f"cannot write this file: {problem.strerror}", str(path), option) from None
 
@@ -58,21 +61,22 @@ def write_file(path: Path, data: bytes, option: str) -> None:
 def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
     """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput.
 
-    Where the first of them cannot be written, a folder that was not there before is not left there either.
+    Where the first of them cannot be written, folders that were not there before are not left there either.
     """
-    new = not folder.exists()
+    new = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             write_atomically(folder / name, content)
     except OSError as problem:
-        if new:
-            with suppress(OSError):
-                folder.rmdir()
+        with suppress(OSError):
+            for path in new:
+                path.rmdir()
         raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
 
 
-def _sync_folder(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
+    """Have what lies in `folder`, by name, on the disk; OSError if that cannot be."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(descriptor)
@@ -80,9 +84,14 @@ def _sync_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
+def is_temporary(path: Path) -> bool:
+    """True if `path` is called like a file that a writer had not finished, and is no folder."""
+    return path.name.startswith(".") and path.name.endswith(TEMPORARY_SUFFIX) and not path.is_dir()
+
+
 def sweep_temporaries(folder: Path) -> None:
     """Delete what killed writers left in `folder`. Call it with the folder locked."""
-    for path in folder.glob(f".*{TEMPORARY_SUFFIX}"):
+    for path in filter(is_temporary, folder.glob(f".*{TEMPORARY_SUFFIX}")):
         path.unlink(missing_ok=True)
 
 
@@ -92,14 +101,12 @@ def locked(folder: Path) -> Iterator[None]:
 
     The lock dies with its process. On a file system without locks, as some network ones are, nothing is held.
     """
-    import fcntl
-
     try:
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as problem:
         raise BadInput(f"cannot write into this folder: {problem.strerror}", file=str(folder)) from problem
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        _take(descriptor)
     except BlockingIOError as problem:
         os.close(descriptor)
         raise BadInput("another run is writing into this folder", file=str(folder)) from problem
@@ -109,6 +116,21 @@ def locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(descriptor)
+
+
+def _take(descriptor: int) -> None:
+    """Lock an open file for this process alone; BlockingIOError if another holds it for longer than a look at it."""
+    import fcntl
+
+    given_up = time.monotonic() + PATIENCE
+    while True:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return
+        except BlockingIOError:
+            if time.monotonic() >= given_up:
+                raise
+        time.sleep(PAUSE)
 
 
 def is_held(folder: Path) -> bool:

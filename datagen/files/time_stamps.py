@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import struct
 
-SIGNATURE = b"\x89HDF\r\n\x1a\n"
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 SUPERBLOCKS = (2, 3)
 SUPERBLOCK_BYTES = 48  # with addresses of 8 bytes
 ROOT_ADDRESS = 36
@@ -24,7 +24,9 @@ def clear_time_stamps(image: bytearray) -> None:
 
     A file that is laid out in another way, or whose header does not have the checksum that it should, stays as it is.
     """
-    if len(image) < SUPERBLOCK_BYTES or not image.startswith(SIGNATURE) or image[8] not in SUPERBLOCKS or image[9] != 8:
+    if len(image) < SUPERBLOCK_BYTES or not image.startswith(HDF5_SIGNATURE):
+        return
+    if image[8] not in SUPERBLOCKS or image[9] != 8:
         return
     (start,) = struct.unpack_from("<Q", image, ROOT_ADDRESS)
     flags = image[start + HEADER_FLAGS] if image.startswith(HEADER_START, start) else 0

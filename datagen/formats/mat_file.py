@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.files.time_stamps import HDF5_SIGNATURE
 from datagen.formats.arrays import Arrays
 from datagen.formats.netcdf_file import read_netcdf
 
-HDF5_MARK = b"\x89HDF\r\n\x1a\n"
 USER_BLOCK = 512
 NUMBERS, COMPLEX = "iufb", "c"
 Found = dict[str, NDArray[Any]]
@@ -29,10 +29,10 @@ def read_mat(path: Path) -> Arrays:
     counted from 0, column by column: "S[2].F", "C[2]".
     """
     with path.open("rb") as file:
-        start = file.read(USER_BLOCK + len(HDF5_MARK))
-    if start.startswith(HDF5_MARK):
+        start = file.read(USER_BLOCK + len(HDF5_SIGNATURE))
+    if start.startswith(HDF5_SIGNATURE):
         return read_netcdf(path)
-    return _read_hdf5(path) if start[USER_BLOCK:] == HDF5_MARK else _read_old(path)
+    return _read_hdf5(path) if start[USER_BLOCK:] == HDF5_SIGNATURE else _read_old(path)
 
 
 def _element(name: str, index: int, size: int) -> str:

@@ -15,7 +15,7 @@ from datagen.corpus_files.format import FORMAT, content_hash, format_hash
 from datagen.corpus_files.index import LABEL_COLUMNS, read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpus_files.reading import READ_ERRORS, unencodable
-from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path
+from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path, shards_folder, sidecar_path
 from datagen.errors import BadInput
 from datagen.files.atomic import is_held
 from datagen.files.digest import file_hash
@@ -120,12 +120,15 @@ class _Check:
 
     def files(self) -> None:
         """Read every sidecar, and find files that do not belong together."""
-        shards = self.folder / "shards"
+        shards = shards_folder(self.folder)
         for path in sorted(shards.glob("*.json")):
             sidecar = read_sidecar(path)
             if sidecar is None:
                 self.damaged.append(str(path.relative_to(self.folder)))
                 self.problems.append(f"{self.damaged[-1]}: cannot be read")
+            elif path != (own := sidecar_path(self.folder, sidecar.shard)):
+                name = path.relative_to(self.folder).as_posix()
+                self.problems.append(f"{name}: by what it says this is {own.name} under another name")
             else:
                 self.sidecars.append(sidecar)
         known = {shard_path(self.folder, sidecar.shard) for sidecar in self.sidecars if sidecar.records}

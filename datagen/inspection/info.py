@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import ShardEntry
+from datagen.files.time_stamps import HDF5_SIGNATURE
 from datagen.inspection.asked_for import asked_of
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS, UNKNOWN
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 
 COUNTED = ("condition", "location", "rig", "bearing", "profile", "contact_law", "split", "part")
 CROSSED = (("condition", "location"), ("condition", "split"), ("rig", "split"))
-# Of every HDF5 file. What a crash of the whole computer leaves may have the size of one and hold nothing but zeros.
-BEGINNING = b"\x89HDF\r\n\x1a\n"
 
 
 @dataclass(frozen=True)
@@ -135,12 +134,15 @@ def _records_of(shards: Iterable[ShardEntry]) -> dict[str, int]:
 
 
 def _is_damaged(path: Path, size: int) -> bool:
-    """Whether a file that is there is seen at once not to be the shard that was written, of that `size`."""
+    """Whether a file that is there is seen at once not to be the shard that was written, of that `size`.
+
+    What a crash of the whole computer leaves may have the size of a shard and hold nothing but zeros.
+    """
     if not path.is_file():
         return False
     try:
         with path.open("rb") as file:
-            return path.stat().st_size != size or file.read(len(BEGINNING)) != BEGINNING
+            return path.stat().st_size != size or file.read(len(HDF5_SIGNATURE)) != HDF5_SIGNATURE
     except OSError:
         return True
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from datagen.corpus_files.format import data_hash
-from datagen.corpus_files.manifest import Manifest
+from datagen.corpus_files.manifest import Manifest, manifest_path
 from datagen.corpus_files.shard import Sidecar
 from datagen.errors import BadInput
 
@@ -27,7 +27,7 @@ def recipe_of(manifest: Manifest, folder: Path) -> tuple[Recipe | None, list[str
         same = data_hash(manifest.recipe) == manifest.identity.recipe_hash
         return None, [] if same else ["manifest.json: its SPEC and files do not have the hash that it states"]
     try:
-        recipe = parse_recipe(manifest.recipe, folder / "manifest.json")
+        recipe = parse_recipe(manifest.recipe, manifest_path(folder))
     except BadInput as problem:
         return None, [f"manifest.json: its recipe cannot be read: {problem}"]
     if recipe.hash[:16] != manifest.identity.recipe_hash:

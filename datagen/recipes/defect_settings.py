@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
-from datagen.distributions.kinds import Distribution, Fixed, Uniform
+from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.operation_settings import Degrees
 from datagen.recipes.profile_table import ProfileTable
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
@@ -28,7 +28,6 @@ Combination = tuple[str, str, str]
 KIND = ("condition", "race", "profile")  # what a combination is of
 PlaceOf = Callable[[str], str]
 FILE_SCHEMA = {"type": "string"}
-ANYWHERE = Uniform(0.0, 360.0)
 IN_THE_LOAD_ZONE = Fixed(270.0)
 
 

@@ -71,10 +71,7 @@ class RecordedLayerSettings(Table):
         """The recording (N, C) in units of the file; BadInput if the file is gone or another than was described."""
         if not self.at_hand:
             raise BadInput(f"the recording (SHA-256 {self.sha256}) is not at hand", file=self.path or self.file)
-        samples, sha256 = _loaded(self.path, self.channels, self.csv)
-        if sha256 != self.sha256:
-            raise BadInput("the recording has changed since the recipe was read", self.path, "sha256", sha256)
-        return samples
+        return _loaded(self.path, self.sha256, self.channels, self.csv)
 
 
 def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
@@ -102,9 +99,12 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
 
 
 @lru_cache(maxsize=4)
-def _loaded(path: str, channels: tuple[str, ...] | None, layout: CsvLayout) -> tuple[NDArray[np.float32], str]:
-    samples = read_background(Path(path), channels, layout).samples
-    return samples, file_hash(Path(path))
+def _loaded(path: str, sha256: str, channels: tuple[str, ...] | None, layout: CsvLayout) -> NDArray[np.float32]:
+    """The recording (N, C) in the file with these bytes; BadInput if it has others by now."""
+    samples, found = read_background(Path(path), channels, layout).samples, file_hash(Path(path))
+    if found != sha256:
+        raise BadInput("the recording has changed since the recipe was read", path, "sha256", found)
+    return samples
 
 
 def _refused(problem: str, field: str, allowed: str = "") -> PydanticCustomError:

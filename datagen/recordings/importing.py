@@ -128,7 +128,14 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
 
 def _require_new(folder: Path) -> None:
     require_folder(folder)
-    if folder.absolute() == Path.cwd():
+    if folder.exists():
+        require_folder(folder.resolve().parent)  # beside which the new one is filled
+    if folder.resolve().is_mount():
+        raise BadInput(
+            "an import puts a folder of its own in this place, and one that a file system is mounted on cannot be "
+            "replaced", str(folder), "--out", allowed="a folder in it, or another one, new or empty",
+        )  # fmt: skip
+    if folder.resolve() == Path.cwd():
         raise BadInput(
             "an import puts a folder of its own in this place, and the current one cannot be replaced", str(folder),
             "--out", allowed="another folder, new or empty",

@@ -10,28 +10,31 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
-from datagen.files.atomic import TEMPORARY_SUFFIX
+from datagen.files.atomic import TEMPORARY_SUFFIX, sync_folder
 
 
 @contextmanager
 def staged(folder: Path) -> Iterator[Path]:
     """A folder beside `folder` that takes its place at the end, or is gone if anything goes wrong.
 
-    What goes wrong in the block is left as it is: it may be a recording that cannot be read.
+    A link is left where it is, and the folder that it leads to is filled. What goes wrong in the block is left as it
+    is: it may be a recording that cannot be read.
     """
-    folder = folder.absolute()
+    folder = folder.resolve()
     beginning = f".{folder.name}.{socket.gethostname()}."
     staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
     _sweep(folder.parent, beginning)
     try:
         with writing(folder):
-            (staging / "shards").mkdir(parents=True)
+            shards_folder(staging).mkdir(parents=True)
         yield staging
         with writing(folder):
             if folder.exists():
                 folder.rmdir()
             staging.rename(folder)
+            sync_folder(folder.parent)
     finally:
         shutil.rmtree(staging, ignore_errors=True)
 
@@ -46,11 +49,14 @@ def writing(folder: Path) -> Iterator[None]:
 
 
 def _sweep(place: Path, beginning: str) -> None:
-    """Delete what imports of the same name left in `place` whose process, on this computer, was killed."""
+    """Delete what imports of the same name left in `place` whose process, on this computer, was killed.
+
+    What one of this process's own number left is of an earlier process: in containers numbers return.
+    """
     name = re.compile(re.escape(beginning) + r"(\d+)" + re.escape(TEMPORARY_SUFFIX))
     for path in place.glob(".*") if place.is_dir() else ():
         found = name.fullmatch(path.name)
-        if found and not _alive(int(found[1])):
+        if found and (int(found[1]) == os.getpid() or not _alive(int(found[1]))):
             shutil.rmtree(path, ignore_errors=True)
 
 

@@ -10,7 +10,7 @@ from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
 from datagen.corpus_files.shard import SHARDS, Sidecar, finished_shards, shards_folder
 from datagen.errors import BadInput
-from datagen.files.atomic import LOCK
+from datagen.files.atomic import LOCK, is_temporary
 from datagen.files.places import OUT, require_folder
 
 VERSIONS = {
@@ -91,7 +91,7 @@ def _refuse_strangers(folder: Path) -> None:
     """Raise BadInput if `folder` holds what an interrupted beginning of a run does not explain."""
     if not folder.exists():
         return
-    names = [path.name for path in folder.iterdir() if path.name not in BEGINNING and not path.name.endswith(".part")]
+    names = [path.name for path in folder.iterdir() if path.name not in BEGINNING and not is_temporary(path)]
     strangers = sorted(names) or sorted(path.name for path in shards_folder(folder).glob("*.nc"))
     if strangers:
         raise BadInput(f"this folder holds no corpus but other things ({', '.join(strangers[:3])})", str(folder), OUT)

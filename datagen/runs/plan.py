@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from operator import index
 
 import numpy as np
 
@@ -146,11 +147,12 @@ def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) 
     if limit is not None and records is not None:
         raise BadInput("give only one of them: a limit or a list of records", field="--limit, --records")
     if records is not None:
-        if not records:
+        listed = [index(record) for record in records]
+        if not listed:
             raise BadInput("no record is listed", field="--records")
-        for record in records:
+        for record in listed:
             recipe.require(record, "--records")
-        return add_spans((), ((record, record + 1) for record in records))
+        return add_spans((), ((record, record + 1) for record in listed))
     if limit is not None and limit < 1:
         raise BadInput(field="--limit", value=limit, allowed="1 or more")
     return ((0, min(limit or recipe.count, recipe.count)),)

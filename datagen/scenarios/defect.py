@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.defect_settings import ANYWHERE, IN_THE_LOAD_ZONE, Combination, DefectSettings, SpallSettings
+from datagen.recipes.defect_settings import IN_THE_LOAD_ZONE, Combination, DefectSettings, SpallSettings
+from datagen.recipes.operation_settings import ANY_ANGLE
 from datagen.recipes.profile_table import ProfileTable
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
@@ -72,7 +73,7 @@ def _draw_all(
     for item in range(count):
         if item > 0:
             pick = draw.picker("spall", item)
-            angle += pick.number(settings.separation_deg or ANYWHERE, DEGREES_PER_RADIAN)
+            angle += pick.number(settings.separation_deg or ANY_ANGLE, DEGREES_PER_RADIAN)
         shape = _draw_shape(settings, race, profile, bearing, pick)
         if item == 0:
             rows = _rows(word, bearing, pick)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from operator import index
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM, OperationSettings
@@ -31,6 +32,7 @@ from physics.spall import Spall
 
 def draw_scenario(recipe: Recipe, record: int) -> Scenario:
     """Scenario of `record` (0 ≤ record < recipe.count); BadInput if its part can hardly be drawn."""
+    record = index(record)  # of numpy's whole numbers too, which JSON lacks
     place = recipe.place(record)
     part = recipe.part[place.part]
     machine = draw_machine(recipe, place.part, place.machine, place.machine_in_part)

@@ -20,6 +20,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
         text = path.read_text(encoding="utf-8-sig")
         content = tomllib.loads(text)
         largest = max(map(abs, _whole_numbers(content)), default=0)
+        digits = len(str(largest))
     except OSError as error:
         raise BadInput(f"cannot be read: {error.strerror}", file=str(path)) from None
     except UnicodeDecodeError:
@@ -31,7 +32,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     except ValueError:  # a number of thousands of digits
         raise BadInput("a whole number in it has too many digits", file=str(path), allowed=RANGE) from None
     if largest >= LARGEST_WHOLE:
-        raise BadInput(f"a whole number in it is too long: {len(str(largest))} digits", file=str(path), allowed=RANGE)
+        raise BadInput(f"a whole number in it is too long: {digits} digits", file=str(path), allowed=RANGE)
     return content, text
 
 

@@ -13,10 +13,11 @@ def in_blocks(calls: Iterator[Any], workers: int) -> Iterator[Any]:
     """The results, in order, of the `calls` (of joblib's `delayed`), made by so many processes.
 
     The calls are drawn here, some at a time, as drawing one reads a record: a thread of joblib's that goes on reading
-    netCDF files after an error crashes whoever opens the next one. Raises what a call or its drawing raises.
+    netCDF files after an error crashes whoever opens the next one. What a call is given it may change, in every
+    process: joblib's own way would map long arrays for reading only. Raises what a call or its drawing raises.
     """
     from joblib import Parallel
 
-    with Parallel(n_jobs=workers) as parallel:
+    with Parallel(n_jobs=workers, max_nbytes=None) as parallel:
         while block := list(islice(calls, CALLS_AT_ONCE * workers)):
             yield from parallel(block)

@@ -31,14 +31,14 @@ class UserEstimator:
     allowed: str
 
     def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
-        """What the user's object makes of acceleration (T, axes), m/s², sampled at `rate` (Hz).
+        """What the user's object makes of acceleration (T, axes), m/s², sampled at `rate` (Hz); it is given a copy.
 
         Raises BadInput if it raises, or gives something else.
         """
         method = getattr(self.made, "estimate", None)
         subject = "it" if method is None else "its method estimate"
         with user_code(self.name, f"{subject} fails"):
-            estimate: SizeEstimate = (method or self.made)(acceleration, rate, situation)
+            estimate: SizeEstimate = (method or self.made)(acceleration.copy(), rate, situation)
         problem = _against(estimate)
         if problem:
             raise BadInput(f"{subject} gave {problem}", field=FIELD, value=self.name, allowed=self.allowed)

@@ -190,6 +190,7 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
         ("film_damping_us = {uniform = [1e-308, 1e308]}", "allowed: a number from 0 to 1e+06"),
         (f"balls = {'9' * 400}", "a whole number in it is too long: 400 digits"),
         (f"balls = {'9' * 5000}", "a whole number in it has too many digits"),
+        (f"balls = 0x{'f' * 5000}", "a whole number in it has too many digits"),
         (f"balls = {'[' * 100_000}", "nested too deeply"),
     ],
 )

@@ -17,7 +17,6 @@ from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
 from physics.arrays import Array
 
-# The axis that is used: y, or the only one of a recording.
 # Samples from an event to the peak of its prewhitened energy.
 ONSET = 1.8
 # Longest spall that is reported, rad: half the race.

@@ -54,6 +54,14 @@ def test_a_shard_without_a_single_good_record_has_a_sidecar_only(tmp_path: Path)
     assert [sidecar.settled for sidecar in finished_shards(tmp_path)] == [{0}]
 
 
+def test_finished_shards_come_by_number_and_copies_of_sidecars_do_not_count(tmp_path: Path) -> None:
+    for shard in (1_000_000, 999_999, 2):
+        write(tmp_path, [], shard, failed=(Failure(shard, "no equilibrium"),))
+    for name in ("shard_000002 (1).json", "shard_000003.json"):
+        (tmp_path / "shards" / name).write_bytes(sidecar_path(tmp_path, 2).read_bytes())
+    assert [sidecar.shard for sidecar in finished_shards(tmp_path)] == [2, 999_999, 1_000_000]
+
+
 def test_a_shard_counts_as_finished_only_with_a_readable_sidecar_and_a_file_of_its_size(
     tmp_path: Path, make_plain_record: Maker
 ) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import signal
 import subprocess
@@ -14,6 +15,7 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.files.atomic import (
+    LOCK,
     locked,
     opened_atomically,
     sweep_temporaries,
@@ -127,6 +129,15 @@ def test_a_folder_in_use_is_refused_until_its_holder_dies(tmp_path: Path) -> Non
         pass
 
 
+def test_a_run_that_begins_while_another_looks_whether_the_folder_is_held_is_not_refused(tmp_path: Path) -> None:
+    look = os.open(tmp_path / LOCK, os.O_RDONLY | os.O_CREAT, 0o644)
+    fcntl.flock(look, fcntl.LOCK_SH)
+    end_of_look = threading.Timer(0.03, os.close, (look,))
+    end_of_look.start()
+    with locked(tmp_path):
+        end_of_look.join()
+
+
 def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -138,6 +149,15 @@ def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Pat
         os.close(reader)
     assert pipe.is_fifo()
     assert [path.name for path in tmp_path.iterdir()] == ["pipe"]
+
+
+def test_a_link_to_a_file_stays_one(tmp_path: Path) -> None:
+    (tmp_path / "far").mkdir()
+    (tmp_path / "model").symlink_to(tmp_path / "far" / "model")
+    for content in (b"a new file", b"written over"):
+        write_file(tmp_path / "model", content, "--save")
+        assert (tmp_path / "far" / "model").read_bytes() == content
+    assert (tmp_path / "model").is_symlink()
 
 
 def test_a_file_that_cannot_be_written_is_told_with_its_option(tmp_path: Path) -> None:
@@ -153,10 +173,10 @@ def test_results_that_do_not_fit_leave_the_disk_as_it_was(
         raise OSError(errno.ENOSPC, "no space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    folder = tmp_path / "results"
+    folder = tmp_path / "mine" / "results"
     if there:
-        folder.mkdir()
+        folder.mkdir(parents=True)
     with pytest.raises(BadInput, match="cannot write here: no space left on device"):
         write_results(folder, {"a.json": b"{}", "a.png": b"png"})
     assert folder.exists() == there
-    assert list(tmp_path.rglob("*")) == ([folder] if there else [])
+    assert sorted(tmp_path.rglob("*")) == ([folder.parent, folder] if there else [])

@@ -112,6 +112,13 @@ def test_a_missing_shard_and_one_without_sidecar_are_found(copy: Path) -> None:
     assert "records asked for are missing" in problems
 
 
+def test_a_copy_of_a_sidecar_under_another_name_is_found(copy: Path) -> None:
+    content = (copy / "shards" / "shard_000000.json").read_bytes()
+    (copy / "shards" / "shard_000000 (1).json").write_bytes(content)
+    problem = "shards/shard_000000 (1).json: by what it says this is shard_000000.json under another name"
+    assert only_problem(copy) == problem
+
+
 def test_a_value_that_is_not_finite_is_found(copy: Path) -> None:
     def spoil(dataset: xarray.Dataset) -> xarray.Dataset:
         dataset["envelope"][0, 5] = np.nan

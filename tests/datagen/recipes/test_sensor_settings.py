@@ -13,6 +13,7 @@ from scipy.io import savemat, wavfile
 from datagen.distributions.kinds import Fixed
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
+from datagen.recipes.recording_settings import RecordedLayerSettings
 
 BASE = """name = "try"
 seed = 1
@@ -217,6 +218,21 @@ def test_a_recipe_kept_as_data_describes_its_recording_but_cannot_draw_without_i
     assert (recipe.drawable, elsewhere.drawable) == (True, False)
     with pytest.raises(BadInput, match=r"good\.npy: the recording \(SHA-256 [0-9a-f]{64}\) is not at hand"):
         elsewhere.part[0].background.recording.load()
+
+
+def test_a_recording_that_changes_is_refused_by_the_old_recipe_and_taken_by_one_read_again(tmp_path: Path) -> None:
+    def read(value: float) -> RecordedLayerSettings:
+        np.save(tmp_path / "good.npy", np.full(SAMPLES, value))
+        return load(tmp_path, RECORDING.format(file="good.npy") + "rate_hz = 32768").part[0].background.recording
+
+    old = read(1.0)
+    assert (old.load() == 1.0).all()
+    assert (read(2.0).load() == 2.0).all()
+    unread = read(3.0)
+    read(4.0)
+    with pytest.raises(BadInput, match="the recording has changed since the recipe was read"):
+        unread.load()
+    assert (old.load() == 1.0).all()  # kept from before
 
 
 def test_another_recording_is_another_recipe(folder: Path, tmp_path: Path) -> None:

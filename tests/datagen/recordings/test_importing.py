@@ -21,6 +21,7 @@ from scipy.io import wavfile
 from datagen.corpus import Corpus
 from datagen.drawing.preview import draw_preview
 from datagen.errors import BadInput
+from datagen.files import places
 from datagen.files.digest import file_hash
 from datagen.inspection.check import check_corpus
 from datagen.inspection.info import corpus_info
@@ -212,6 +213,26 @@ def test_the_current_folder_is_refused_before_anything_is_read(
     assert code == 2
     assert "the current one cannot be replaced; allowed: another folder, new or empty" in message
     assert list(here.iterdir()) == []
+
+
+@pytest.mark.parametrize("cause", ["mounted", "parent"])
+def test_a_folder_that_cannot_be_replaced_is_refused_before_anything_is_read(
+    cause: str, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mat("a.mat")
+    parent = tmp_path / "parent"
+    out = parent / "out"
+    out.mkdir(parents=True)
+    if cause == "mounted":
+        monkeypatch.setattr(Path, "is_mount", lambda path: path == out)
+    else:
+        monkeypatch.setattr(places, "_writable", lambda folder: folder != parent)
+    (tmp_path / "spec.toml").write_text(
+        'name = "set"\n[[recording]]\nname = "all"\nfiles = "absent.mat"\ny = "sig"\nunit = "g"\n'
+    )
+    code, _, message = run("import", tmp_path / "spec.toml", "--out", out)
+    assert code == 2
+    assert {"mounted": "mounted on cannot be replaced", "parent": f"cannot write into {parent}"}[cause] in message
 
 
 def test_a_relative_folder_is_put_where_it_says(mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -451,6 +472,25 @@ def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: B
     assert not dead.exists()
     assert all(path.is_dir() for path in others)
     assert sorted(tmp_path.glob(".*")) == sorted(others)
+
+
+def test_what_an_import_of_the_same_number_left_is_in_nobodys_way(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    left = tmp_path / f".corpus.{socket.gethostname()}.{os.getpid()}.part" / "shards"
+    left.mkdir(parents=True)
+    (left / "shard_000007.nc").write_bytes(b"half")
+    mat("a.mat")
+    assert len(bring(SPEC)) == 1
+    assert not (tmp_path / "corpus" / "shards" / "shard_000007.nc").exists()
+    assert not list(tmp_path.glob(".*"))
+
+
+def test_an_import_fills_the_empty_folder_that_a_link_leads_to(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    (tmp_path / "large disk").mkdir()
+    (tmp_path / "corpus").symlink_to(tmp_path / "large disk")
+    mat("a.mat")
+    assert len(bring(SPEC)) == 1
+    assert (tmp_path / "corpus").is_symlink()
+    assert (tmp_path / "large disk" / "manifest.json").is_file()
 
 
 SPEC = '[[recording]]\nname = "a"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 1000\n'

@@ -262,6 +262,20 @@ def test_a_folder_with_other_things_is_refused(tiny: Recipe, tmp_path: Path) -> 
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
 
 
+def test_what_no_writer_of_shards_left_is_other_things(tiny: Recipe, tmp_path: Path) -> None:
+    (tmp_path / "thesis.part").write_text("x")
+    (tmp_path / ".corpus.host.1.part").mkdir()  # of an import that was killed
+    with pytest.raises(BadInput, match=r"other things \(\.corpus\.host\.1\.part, thesis\.part\)"):
+        generate(tiny, tmp_path, engine=ALONE)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".corpus.host.1.part", "thesis.part"]
+
+
+def test_a_corpus_goes_on_beside_what_an_import_left(tiny: Recipe, copy: Path) -> None:
+    (copy / ".corpus.host.1.part").mkdir()
+    assert generate(tiny, copy, engine=ALONE).complete
+    assert (copy / ".corpus.host.1.part").is_dir()
+
+
 def test_a_file_in_the_place_of_the_folder_is_refused(tiny: Recipe, tmp_path: Path) -> None:
     (tmp_path / "out").write_text("x")
     with pytest.raises(BadInput, match="in the way"):

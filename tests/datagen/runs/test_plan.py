@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from datagen.errors import BadInput
@@ -56,6 +58,11 @@ def test_a_selection_is_everything_a_prefix_or_a_list(tiny: Recipe) -> None:
     assert selection(tiny, 5, None) == ((0, 5),)
     assert selection(tiny, 99, None) == ((0, 14),)
     assert selection(tiny, None, [9, 3, 4, 9]) == ((3, 5), (9, 10))
+
+
+def test_records_may_be_listed_in_numpys_numbers(tiny: Recipe) -> None:
+    spans = selection(tiny, None, np.array([7, 2, 3]))
+    assert json.dumps(spans) == "[[2, 4], [7, 8]]"  # as the manifest keeps them
 
 
 def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:

@@ -7,6 +7,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from datagen.errors import BadInput
@@ -16,6 +17,7 @@ from datagen.scenarios.drawn_rig import BEARING_NUMBERS, CONFORMITIES, RATED_NUM
 from datagen.scenarios.redraw import MOST_ATTEMPTS
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.scenarios.scenario_text import scenario_json
 from physics import catalog
 from physics.bearing import Bearing
 from physics.hertz import contact_width
@@ -50,6 +52,11 @@ def recipe_of(*parts: dict[str, Any], seed: int = 5, **settings: Any) -> Recipe:
     signal = {"rate_hz": 65536, "duration_s": 0.1}
     content = {"name": "r", "seed": seed, "signal": signal, "part": list(parts)} | settings
     return parse_recipe(content, Path("recipe.toml"))
+
+
+def test_a_record_may_be_numbered_by_numpy() -> None:
+    recipe = recipe_of(HEALTHY)
+    assert scenario_json(draw_scenario(recipe, np.int64(3))) == scenario_json(draw_scenario(recipe, 3))
 
 
 def draw(records: int = 1, **settings: Any) -> list[Scenario]:

@@ -45,6 +45,18 @@ def test_an_error_stops_the_drawing_of_calls() -> None:
     assert len(READERS) < 40
 
 
+def negated(record: NDArray[np.float64]) -> float:
+    """The first value of a long `record`, whose sign is changed in place, as an estimator of somebody's may do."""
+    record *= -1.0
+    return float(record[0])
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_long_records_may_be_changed_whatever_the_number_of_processes(workers: int) -> None:
+    records = (np.full(1_000_000, float(number)) for number in range(1, 3))
+    assert list(in_blocks((joblib.delayed(negated)(record) for record in records), workers)) == [-1.0, -2.0]
+
+
 def test_records_to_learn_sizes_from_are_read_by_the_thread_that_asks(monkeypatch: pytest.MonkeyPatch) -> None:
     situation = Situation(12, 2, 38.75e-3, 7.12e-3, 190.0)
     listened: list[int] = []

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from command_line import run
+from joblib.externals.loky import get_reusable_executor
 
 from datagen.errors import BadInput
 from datagen.sizing.comparison import score_record
@@ -65,6 +66,16 @@ def asked(answer: Any) -> SizeEstimate:
     return estimator.estimate(np.zeros((4, 2)), 1000.0, None)  # type: ignore[arg-type]
 
 
+def test_an_estimator_that_changes_its_record_changes_a_copy() -> None:
+    def silences(acceleration: np.ndarray, rate: float, situation: Situation) -> SizeEstimate:
+        acceleration[:] = 0.0
+        return GOOD
+
+    record = np.ones((16, 2))
+    assert UserEstimator("mine:silences", silences, "").estimate(record, 1000.0, MACHINE) is GOOD
+    assert (record == 1.0).all()
+
+
 @pytest.mark.parametrize("problem", WRONG)
 def test_what_is_no_estimate_is_named_with_what_is_due(problem: str) -> None:
     with pytest.raises(BadInput) as refused:
@@ -114,6 +125,13 @@ def test_a_function_is_asked_like_a_method(tmp_path: Path, monkeypatch: pytest.M
         find_estimator("own_functions:seven").estimate(np.zeros((4, 2)), 1000.0, MACHINE)
 
 
+@pytest.fixture
+def new_workers() -> None:
+    """Worker processes that an earlier test has left end: new ones import from what the test puts on PYTHONPATH."""
+    get_reusable_executor().shutdown(wait=True)
+
+
+@pytest.mark.usefixtures("new_workers")
 @pytest.mark.parametrize("workers", [1, 2])
 def test_the_command_ends_with_2_and_writes_nothing(
     workers: int, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -130,6 +148,7 @@ def test_the_command_ends_with_2_and_writes_nothing(
     assert not out.exists()
 
 
+@pytest.mark.usefixtures("new_workers")
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_class_is_made_once_in_every_process(
     workers: int, tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -81,8 +81,8 @@ ROLLED = (
     "the path of a ball rolled over the surface s. Outer race: rho(phi) = min over theta of R cos(theta - phi) - "
     "sqrt(Rb^2 - R^2 sin(theta - phi)^2) with R(theta) = Ro + s(theta), path = rho - (Ro - Rb). Inner race: rho(phi) = "
     "max of R cos(theta - phi) + sqrt(Rb^2 - R^2 sin(theta - phi)^2) with R(theta) = Ri - s(theta), "
-    "path = Ri + Rb - rho. Ro, Ri = (Dp +- Db cos(alpha)) / 2, Rb = Db / 2. Bumps proud of the race (s below 0) lift the "
-    "ball beyond the edges of the spall too. Sought on a grid over a rough surface, the extremum needs steps of "
+    "path = Ri + Rb - rho. Ro, Ri = (Dp +- Db cos(alpha)) / 2, Rb = Db / 2. Bumps proud of the race (s below 0) lift "
+    "the ball beyond the edges of the spall too. Sought on a grid over a rough surface, the extremum needs steps of "
     "0.3 um along the race: with 1 um the response was 4e-4 of its RMS off; a table of the path that is read linearly "
     "needs nodes 0.1 um apart"
 )

@@ -10,5 +10,5 @@
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
 - what all of them use: `errors` (what a person wrote, refused), `progress` (how far a command has got), `exits` (how
-  programs end), `garbage` (looked for seldom), `versions`
+  programs end), `garbage` (looked for seldom), `processes` (none outlives its parent), `versions`
 """

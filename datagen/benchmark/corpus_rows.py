@@ -14,6 +14,7 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordRows, feature_rows, record_rows
 from datagen.benchmark.rows import Rows, joined
 from datagen.corpus import Corpus
+from datagen.processes import processes
 from datagen.progress import Count, ignore
 from labels.features.turning import Turning
 from labels.variables import SHAFT_ANGLE
@@ -74,12 +75,12 @@ def _results(
     folder: Path, tasks: Sequence[NDArray[np.int64]], reading: Reading, workers: int
 ) -> Generator[dict[int, RecordRows], None, None]:
     """What each task finds, in order, as it comes."""
-    from joblib import Parallel, delayed, parallel_config
+    from joblib import Parallel, delayed
 
     if workers <= 1 or len(tasks) < 2:
         return (_task(folder, task, reading) for task in tasks)
-    with parallel_config(backend="loky", inner_max_num_threads=1):
-        parallel = Parallel(n_jobs=workers, batch_size=1, max_nbytes=None, return_as="generator")
+    with processes(workers):
+        parallel = Parallel(batch_size=1, return_as="generator")
     results: Generator[dict[int, RecordRows], None, None] = parallel(
         delayed(_task)(folder, task, reading) for task in tasks
     )

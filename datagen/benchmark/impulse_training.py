@@ -15,6 +15,7 @@ from datagen.benchmark.record_rows import feature_rows, signal_rows
 from datagen.benchmark.rows import joined
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
+from datagen.processes import processes
 from datagen.progress import Count
 from labels.classifier.classes import HEALTHY
 from labels.schema import LOCATIONS
@@ -48,11 +49,11 @@ def impulse_training(
 
     `count` is called with how many are done.
     """
-    from joblib import Parallel, delayed, parallel_config
+    from joblib import Parallel, delayed
 
     machines = MACHINES if records is None else max(FEWEST_BEARINGS, records // len(LOCATIONS))
-    with parallel_config(backend="loky", inner_max_num_threads=1):
-        parallel = Parallel(n_jobs=workers, return_as="generator")
+    with processes(workers):
+        parallel = Parallel(return_as="generator")
     found: list[TrainingSet] = []
     with closing(parallel(delayed(_machine)(machine, ingredients, reading) for machine in range(machines))) as results:
         for part in results:

@@ -60,10 +60,12 @@ def load_trained(path: Path) -> Trained:
     try:
         with path.open("rb") as file:
             _require_same(path, _head(file.readline(LONGEST_HEAD)))
-            trained = pickle.loads(zlib.decompress(file.read()))
+            kept = file.read()
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path), TRAIN) from None
-    except (zlib.error, pickle.UnpicklingError, EOFError, AttributeError, ImportError):
+    try:
+        trained = pickle.loads(zlib.decompress(kept))
+    except Exception:  # whatever a damaged pickle leads to
         trained = None
     if not isinstance(trained, Trained):
         raise BadInput("is damaged", str(path), TRAIN, allowed=AGAIN)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -29,7 +30,10 @@ def write_atomically(path: Path, data: bytes | memoryview) -> None:
 
 @contextmanager
 def opened_atomically(path: Path) -> Iterator[BinaryIO]:
-    """A file to write into that is at `path` once the block ends well; after anything else the old one is as it was."""
+    """A file to write into that is at `path` once the block ends well; after anything else the old one is as it was.
+
+    Who may read the old one may read the new one, and nobody else.
+    """
     # A name that no other thread, process or computer has; mkstemp would hide the file from all but its owner.
     temporary = path.with_name(f".{path.name}.{os.urandom(8).hex()}{TEMPORARY_SUFFIX}")
     try:
@@ -37,6 +41,8 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
             yield file
             file.flush()
             os.fsync(file.fileno())
+        with suppress(OSError):  # a new file, or a file system without such rights
+            temporary.chmod(stat.S_IMODE(path.stat().st_mode))
         os.replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)

@@ -129,16 +129,19 @@ def _laid_out(stored: dict[str, _Stored], attributes: dict[str, Any], compressio
     import netCDF4
 
     file = netCDF4.Dataset("shard.nc", mode="w", format="NETCDF4", memory=IMAGE_BLOCK)
-    file.setncatts(attributes)
-    sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
-    for dim, size in sizes.items():
-        file.createDimension(dim, size)
-    for name, one in stored.items():
-        target = _create(file, name, one, compression)
-        target.setncatts(one.attributes)
-        if with_values and one.values.size:
-            target[...] = one.values
-    image = bytearray(file.close())
+    try:
+        file.setncatts(attributes)
+        sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
+        for dim, size in sizes.items():
+            file.createDimension(dim, size)
+        for name, one in stored.items():
+            target = _create(file, name, one, compression)
+            target.setncatts(one.attributes)
+            if with_values and one.values.size:
+                target[...] = one.values
+    finally:
+        # Left open, it would be closed by whichever thread the collector runs in.
+        image = bytearray(file.close())
     clear_time_stamps(image)
     return image
 

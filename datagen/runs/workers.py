@@ -3,25 +3,18 @@
 from __future__ import annotations
 
 import asyncio
-import os
-import signal
 import threading
-import time
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.garbage import collect_seldom
+from datagen.processes import processes
 
 BACKENDS = ("loky", "dask")
 MOST_WORKERS = 1024  # more are a slip of the finger, and would bring the machine to a halt
-PARENT_POLL = 0.25
 SCHEDULER_PATIENCE = 5.0  # s
-# Bytes by which a worker may grow. loky takes 300 MB for a leak, warns of it and starts another worker, where psutil is
-# installed; but long records take more, and their arrays are kept for the next ones (physics/freed_memory.py).
-GROWTH = 4 << 30
 
 
 @dataclass(frozen=True)
@@ -53,30 +46,6 @@ class WorkerLost(RuntimeError):
     """A worker process died, or a task ran out of time; what had been finished is on the disk."""
 
 
-def watch_parent(parent: int) -> None:
-    """Start a thread that ends this process within a second of the death of its `parent`; Ctrl-C, and SIGTERM to the
-    whole group, are left to the parent."""
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)
-    threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
-
-
-def _begin_worker(parent: int) -> None:
-    """What every worker process on this machine does first: watch its `parent`, start fast, and let itself grow."""
-    from joblib.externals.loky import process_executor
-
-    watch_parent(parent)
-    collect_seldom()
-    # No setting of loky's has this bound; where a version of it has another name, workers are replaced as before.
-    process_executor._MAX_MEMORY_LEAK_SIZE = GROWTH
-
-
-def _exit_with(parent: int) -> None:
-    while os.getppid() == parent:
-        time.sleep(PARENT_POLL)
-    os._exit(1)
-
-
 def _workers_unless_told() -> int:
     """As many as the caller's `joblib.parallel_config` asks for, or one on every processor."""
     from joblib import cpu_count, effective_n_jobs
@@ -101,17 +70,7 @@ def engaged(engine: Engine) -> Iterator[None]:
         yield
     else:
         # One worker works in this process, where threads that wait for each other would cost more than they bring.
-        with (
-            threadpool_limits(limits=1),
-            parallel_config(
-                backend="loky",
-                n_jobs=engine.workers or _workers_unless_told(),
-                inner_max_num_threads=1,
-                max_nbytes=None,
-                initializer=_begin_worker,
-                initargs=(os.getpid(),),
-            ),
-        ):
+        with threadpool_limits(limits=1), processes(engine.workers or _workers_unless_told()):
             yield
 
 

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
+from datagen.processes import processes
+
 CALLS_AT_ONCE = 4  # for each process
 
 
@@ -13,11 +15,13 @@ def in_blocks(calls: Iterator[Any], workers: int) -> Iterator[Any]:
     """The results, in order, of the `calls` (of joblib's `delayed`), made by so many processes.
 
     The calls are drawn here, some at a time, as drawing one reads a record: a thread of joblib's that goes on reading
-    netCDF files after an error crashes whoever opens the next one. What a call is given it may change, in every
-    process: joblib's own way would map long arrays for reading only. Raises what a call or its drawing raises.
+    netCDF files after an error crashes whoever opens the next one. What a call is given it may change. Raises
+    what a call or its drawing raises.
     """
     from joblib import Parallel
 
-    with Parallel(n_jobs=workers, max_nbytes=None) as parallel:
+    with processes(workers):
+        parallel = Parallel()
+    with parallel:
         while block := list(islice(calls, CALLS_AT_ONCE * workers)):
             yield from parallel(block)

@@ -4,6 +4,7 @@ import errno
 import fcntl
 import os
 import signal
+import stat
 import subprocess
 import sys
 import threading
@@ -65,6 +66,14 @@ def test_a_written_file_may_be_read_by_whom_the_user_s_mask_allows(tmp_path: Pat
     (tmp_path / "plain").write_bytes(b"x")
     write_atomically(tmp_path / "a", b"x")
     assert (tmp_path / "a").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+def test_who_may_read_a_file_stays_who_may_read_what_replaces_it(tmp_path):
+    secret = tmp_path / "report.json"
+    secret.write_bytes(b"old")
+    secret.chmod(0o600)
+    write_atomically(secret, b"new")
+    assert (secret.read_bytes(), stat.S_IMODE(secret.stat().st_mode)) == (b"new", 0o600)
 
 
 def test_what_a_killed_writer_leaves_is_swept(tmp_path: Path) -> None:

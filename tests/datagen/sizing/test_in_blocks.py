@@ -71,7 +71,10 @@ def test_records_to_learn_sizes_from_are_read_by_the_thread_that_asks(monkeypatc
 
     monkeypatch.setattr(training_rows, "sized_records", records)
     monkeypatch.setattr(training_rows, "gather_evidence", hears_nothing)
-    with joblib.parallel_config(backend="threading"):
-        assert training_rows.trials(Path(), ("train",), 2) == []
+    monkeypatch.setattr(
+        "datagen.sizing.in_blocks.processes",
+        lambda count: joblib.parallel_config(backend="threading", n_jobs=count),
+    )
+    assert training_rows.trials(Path(), ("train",), 2) == []
     assert len(listened) == 3 * 40  # as it is, in noise, and a part
     assert set(READERS) == {threading.current_thread()}

@@ -15,7 +15,7 @@ SMALLEST_CONFORMITY = 0.501
 
 @dataclass(frozen=True)
 class Bearing:
-    """A radially loaded bearing with one or more staggered rows of rolling elements (SI units).
+    """A radially loaded bearing with one row of rolling elements, or two staggered rows (SI units).
 
     `load_deflection` is K of F = K δⁿ for one rolling element between both races (N/mⁿ, δ along the contact normal),
     `exponent` is n: 3/2 for balls, 10/9 for rollers [P14 Eq. 6]. `clearance` is radial: half the diametral play.

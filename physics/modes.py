@@ -40,12 +40,12 @@ def coupled_matrix(rig_matrix: Array, bearing: Array) -> Array:
     bearing = np.asarray(bearing, dtype=np.float64)
     require(bearing.shape == (2, 2), f"bearing matrix has the shape {bearing.shape}; it must be (2, 2)")
     require(bool(np.all(np.isfinite(bearing))), "bearing matrix holds a value that is not finite")
-    matrix = np.array(rig_matrix)
-    matrix[0:2, 0:2] += bearing
-    matrix[0:2, 2:4] -= bearing
-    matrix[2:4, 0:2] -= bearing
-    matrix[2:4, 2:4] += bearing
-    return matrix
+    coupled = np.array(rig_matrix)
+    coupled[0:2, 0:2] += bearing
+    coupled[0:2, 2:4] -= bearing
+    coupled[2:4, 0:2] -= bearing
+    coupled[2:4, 2:4] += bearing
+    return coupled
 
 
 def modes(rig: Rig, stiffness: Array, damping: Array) -> Modes:

@@ -60,7 +60,7 @@ class Contestant:
 
     `run_with_state` is run once more, untimed, where `run` keeps no state, for the error of the stiffness. A response
     that repeats itself is marched to its end there, as it is for everybody who asks for its state. `part`: it is run on
-    the first part of the scene only, being slow.
+    the first part of the scene only, being slow. `substeps`: steps a sample, of a method with fixed steps.
     """
 
     group: str
@@ -70,6 +70,7 @@ class Contestant:
     read: Callable[[Scene, float, Raw], Response]
     part: bool = False
     run_with_state: Callable[[Scene, float], Raw] | None = None
+    substeps: int | None = None
 
     def response(self, scene: Scene, rate: float, result: Raw) -> Response:
         """What `result` of a run says, with the displacement of a run that keeps the state if there is one."""
@@ -111,7 +112,7 @@ def _march(name: str, steps: int) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
         return simulate(scene, rate, FixedSteps(steps, name), keep=Kept(state=True))
 
-    return Contestant(METHOD, name, f"{steps} steps a sample", run, _of_trace)
+    return Contestant(METHOD, name, f"{steps} steps a sample", run, _of_trace, substeps=steps)
 
 
 def _choosing(name: str, accuracy: float, *, repeat: bool) -> Contestant:

@@ -11,7 +11,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from datagen.charts.contestants import METHOD, Contestant, contestants
+from datagen.charts.contestants import Contestant, contestants
 from datagen.charts.response import Response, of_trace
 from datagen.charts.response_errors import SCORED_FROM, ResponseErrors, response_errors
 from datagen.charts.scenes import Subject
@@ -42,7 +42,8 @@ RIVAL = "numbalsoda"
 class Run:
     """One contestant at one setting: `seconds` of processor for `duration` (s) of signal, median of the rounds.
 
-    `real_time` is duration over seconds; `failure` the sentence with which it gave up, or empty.
+    `real_time` is duration over seconds; `failure` the sentence with which it gave up, or empty; `substeps` the steps a
+    sample of a method with fixed steps.
     """
 
     group: str
@@ -53,6 +54,7 @@ class Run:
     real_time: float
     score: ResponseErrors | None
     failure: str
+    substeps: int | None = None
 
 
 @dataclass(frozen=True)
@@ -164,6 +166,7 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
             real_time=math.nan,
             score=None,
             failure=str(failure),
+            substeps=contestant.substeps,
         )
     found = response_errors(scene, subject.rate, response, reference)
     speed = scene.duration / seconds
@@ -176,6 +179,7 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
         real_time=speed,
         score=found,
         failure="",
+        substeps=contestant.substeps,
     )
 
 
@@ -205,9 +209,8 @@ def stability_edges(scene: Scene, rate: float, runs: list[Run]) -> dict[str, flo
     rest = equilibrium(scene, np.zeros(1))
     edges = {}
     for name, method in METHODS.items():
-        coarsest = next((run for run in runs if run.name == name and run.group == METHOD and not run.failure), None)
-        if method.limits != NO_MODES and coarsest is not None:
+        coarsest = next((run for run in runs if run.name == name and run.substeps and not run.failure), None)
+        if method.limits != NO_MODES and coarsest is not None and coarsest.substeps:
             longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
-            steps = int(coarsest.setting.split()[0])
-            edges[name] = coarsest.real_time * longest * rate * steps
+            edges[name] = coarsest.real_time * longest * rate * coarsest.substeps
     return edges

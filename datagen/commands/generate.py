@@ -12,6 +12,7 @@ from datagen.commands.progress_display import show_records
 from datagen.errors import BadInput
 from datagen.exits import FAILED
 from datagen.files.byte_counts import bytes_text
+from datagen.files.places import FAILURES
 
 if TYPE_CHECKING:
     from datagen.runs.run import Summary
@@ -67,7 +68,7 @@ def _print_run(run: Summary) -> None:
     for failure in run.failed[:3]:
         complain(f"record {failure.record} could not be made: {failure.reason.strip().splitlines()[-1]}")
     if len(run.failed) > 3:
-        complain(f"and {len(run.failed) - 3} more; failed.jsonl in {run.folder} lists all")
+        complain(f"and {len(run.failed) - 3} more; {FAILURES} in {run.folder} lists all")
     if run.problem:
         complain(run.problem)
     print(

@@ -11,6 +11,7 @@ from datagen.errors import BadInput
 
 OUT = "--out"
 MANIFEST = "manifest.json"
+FAILURES = "failed.jsonl"
 
 
 def require_folder(folder: Path, field: str = OUT) -> None:

@@ -20,6 +20,7 @@ from datagen.errors import BadInput
 from datagen.files.atomic import is_held
 from datagen.files.digest import file_hash
 from datagen.files.netcdf import ONE_AT_A_TIME
+from datagen.files.places import FAILURES
 from datagen.inspection.conformity import violations
 from datagen.inspection.manifest_check import differences, recipe_of
 from datagen.inspection.remaking import remake_record
@@ -224,7 +225,7 @@ class _Check:
             )
         self.problems += differences(self.manifest, self.folder, self.sidecars, compare_sums=not self.unlisted)
         if failed & asked:
-            self.problems.append(f"{len(failed & asked)} records could not be made; failed.jsonl says why")
+            self.problems.append(f"{len(failed & asked)} records could not be made; {FAILURES} says why")
         if self.index is None:
             return
         if set(self.index["record"]) != self.records or not self.index["record"].is_unique:

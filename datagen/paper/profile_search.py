@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, SIXTH, harmonics
 from datagen.paper.figure09_envelope_spectra import envelope_line
 from datagen.paper.scenes import (
+    SEEDS,
     SHORTEST_WAVE,
     WAVY_DEPTH,
     WAVY_DEVIATION,
@@ -34,7 +35,7 @@ SHORTEST_WAVES_MM = (0.4, 1.0, 2.0, 4.0)
 SMOOTH_DEPTHS_UM, TAPERS_DEG = (4.0, 8.0, 12.0, 15.0), (0.3, 1.0, 3.0, 10.0)
 WAVES_PER_SPACING = (3, 4, 5, 6, 7, 10)
 WAVE_SIZES_UM = ((4.0, 2.0), (8.0, 6.0))
-ROUGH_SEEDS = 10
+ROUGH_SEEDS = len(SEEDS)  # whose line spalls the chapters have simulated already
 MOST_RECORDS = 0.8
 
 

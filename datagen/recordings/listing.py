@@ -19,6 +19,8 @@ from datagen.recordings.unchanged import require_unchanged
 
 SPEED_SETTINGS = ALTERNATIVES[0]
 
+NOT_SETTINGS = ("name", "files", "leave_out", "table", "note_columns", "absent_files", "override")
+
 
 @dataclass(frozen=True, eq=False)
 class Request:
@@ -204,7 +206,7 @@ class _Finder:
                     )  # fmt: skip
 
     def _requests(self, recording: Recording, place: str, path: Path, row: TableRow | None) -> Iterator[Request]:
-        of_recording = {name: value for name, value in recording.given().items() if name not in _NOT_SETTINGS}
+        of_recording = {name: value for name, value in recording.given().items() if name not in NOT_SETTINGS}
         settings = merged(self.spec.defaults.given(), of_recording)
         where = row.place if row else place
         if row:
@@ -215,9 +217,6 @@ class _Finder:
                 settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
         for channel in _channels(settings, where):
             yield Request(recording.name, path, self._name(path), channel, settings, where)
-
-
-_NOT_SETTINGS = ("name", "files", "leave_out", "table", "note_columns", "absent_files", "override")
 
 
 def _leads_nowhere(path: Path) -> bool:

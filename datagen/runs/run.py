@@ -24,6 +24,7 @@ from datagen.corpus_files.shard import (
 )
 from datagen.files.atomic import NO_SPACE, write_atomically
 from datagen.files.byte_counts import bytes_text
+from datagen.files.places import FAILURES
 from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
@@ -263,7 +264,7 @@ class Run:
         return sorted((*self.manifest.failed, *lost), key=lambda failure: failure.record)
 
     def _write_failures(self) -> None:
-        path = self.folder / "failed.jsonl"
+        path = self.folder / FAILURES
         failures = self._failures()
         if failures:
             write_atomically(path, "".join(f"{json.dumps(asdict(failure))}\n" for failure in failures).encode())

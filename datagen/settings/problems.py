@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
@@ -152,7 +152,8 @@ def _homes(key: str, model: type[BaseModel]) -> list[str]:
     for name, field in model.model_fields.items():
         table = _table_type(field.annotation)
         if table is not None and key in table.model_fields:
-            homes.append(f"in [[{name}]]" if "tuple" in str(field.annotation) else f"in [{name}]")
+            is_list = get_origin(field.annotation) is tuple
+            homes.append(f"in [[{name}]]" if is_list else f"in [{name}]")
     return homes
 
 

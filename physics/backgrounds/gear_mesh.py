@@ -9,7 +9,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
-from physics.checks import require_between, require_count, require_not_negative
+from physics.checks import require_between, require_count, require_not_negative, settle_tuples
 
 MOST_TEETH = 1000
 MOST_SIDEBANDS = 50
@@ -33,6 +33,7 @@ class GearMesh:
     sidebands: int = 1
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "amplitudes")
         require_count("teeth", self.teeth, 1, MOST_TEETH)
         require_count("other_teeth", self.other_teeth, 0, MOST_TEETH, what="other teeth")
         require_count("sidebands", self.sidebands, 0, MOST_SIDEBANDS)

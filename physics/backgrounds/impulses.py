@@ -8,7 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics.arrays import Array
-from physics.checks import require, require_below_nyquist, require_between, require_not_negative, require_positive
+from physics.checks import (
+    require,
+    require_below_nyquist,
+    require_between,
+    require_not_negative,
+    require_positive,
+    settle_tuples,
+)
 from physics.recursive_filter import filtered
 
 MOST_PER_SECOND = 10_000.0
@@ -48,6 +55,7 @@ class Impulses:
     resonances: tuple[Resonance, ...]
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "resonances")
         require_between("per_second", self.per_second, 0.0, MOST_PER_SECOND, what="impulses per second")
         require_not_negative("amplitude", self.amplitude, "m/s²", what="impulse amplitude")
         require_between("spread", self.spread, 0.0, 5.0, what="impulse spread")

@@ -8,7 +8,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
-from physics.checks import require_not_negative, require_positive
+from physics.checks import require_not_negative, require_positive, settle_tuples
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,7 @@ class MainsHum:
     amplitudes: tuple[float, ...]
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "amplitudes")
         require_positive("frequency", self.frequency, "Hz", what="mains frequency")
         for amplitude in self.amplitudes:
             require_not_negative("amplitudes", amplitude, "m/s²", what="hum amplitude")

@@ -9,7 +9,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
-from physics.checks import require_count, require_not_negative
+from physics.checks import require_count, require_not_negative, settle_tuples
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,7 @@ class ShaftHarmonics:
     first_order: int = 1
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "amplitudes")
         require_count("first_order", self.first_order, 1, 1000, what="first order")
         for amplitude in self.amplitudes:
             require_not_negative("amplitudes", amplitude, "m/s²", what="shaft harmonic amplitude")

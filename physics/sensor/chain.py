@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from physics.arrays import Array
-from physics.checks import require_not_negative
+from physics.checks import require_not_negative, settle_tuples
 from physics.response.resampling import decimate
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.sensor.mounting import Mounting, mounted
@@ -26,6 +26,7 @@ class SensorChain:
     recorder: Recorder | None = None
 
     def __post_init__(self) -> None:
+        settle_tuples(self, "modes")
         require_not_negative("resonator_gain", self.resonator_gain)
 
     @property

@@ -23,7 +23,10 @@ CUBIC = 4
 
 @dataclass(frozen=True)
 class SensorMode:
-    """A resonance of `frequency` (Hz), `damping` (share of critical) and `gain` (1: the mass itself is measured)."""
+    """A resonance of `frequency` (Hz), `damping` (share of critical) and `gain` (1: the mass itself is measured).
+
+    InvalidParameter unless the frequency is above 0, the damping above 0 and 0.7 at most, and the gain finite.
+    """
 
     frequency: float
     damping: float

@@ -81,7 +81,7 @@ def test_the_table_has_a_row_for_every_run(small_chart):
 def test_an_edge_is_the_speed_at_the_longest_stable_step_however_fine_the_run_it_is_told_from():
     scene, name = reference_scene("F1", 0.1), "runge_kutta4"
     # A step of one sample at ten times real time, or of a quarter of it at 2.5 times: the same cost a step.
-    runs = [Run("method", name, f"{steps} steps", 0.1, 0.01 * steps, 10.0 / steps, None, "") for steps in (1, 4)]
+    runs = [Run("method", name, f"{steps} steps", 0.1, 0.01 * steps, 10.0 / steps, None, "", steps) for steps in (1, 4)]
     one, four = (measuring.stability_edges(scene, RATE, [run])[name] for run in runs)
     assert one == pytest.approx(four, rel=1e-12)
     # The classical method holds an undamped mode to 2.83 and modes with up to 30 % of damping to 2.59 at least; the

@@ -11,6 +11,8 @@ from physics.backgrounds.recording import draw_starts
 from physics.backgrounds.shaft_harmonics import ShaftHarmonics, shaft_harmonics
 from physics.backgrounds.white import white_noise
 from physics.checks import InvalidParameter
+from physics.sensor.chain import SensorChain
+from physics.sensor.mode import SensorMode
 
 RATE, SAMPLES = 8192.0, 16384  # bins 0.5 Hz apart
 
@@ -245,3 +247,19 @@ def test_stretches_of_a_recording_start_anywhere_that_fits():
 def test_a_recording_shorter_than_the_record_is_refused_and_not_repeated():
     with pytest.raises(InvalidParameter, match="the recording holds 9 samples; a record needs 10"):
         draw_starts(np.random.default_rng(1), 9, 10)
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda sequence: SensorChain(sequence([SensorMode(900.0, 0.1)])),
+        lambda sequence: Impulses(1.0, 0.1, 0.5, sequence([Resonance(900.0, 0.1)])),
+        lambda sequence: GearMesh(20, sequence([1.0, 0.5])),
+        lambda sequence: ShaftHarmonics(sequence([1.0, 0.5])),
+        lambda sequence: MainsHum(50.0, sequence([1.0, 0.5])),
+    ],
+    ids=["chain", "impulses", "gear mesh", "shaft harmonics", "hum"],
+)
+def test_layers_that_lists_describe_are_those_of_tuples(build):
+    assert build(list) == build(tuple)
+    assert hash(build(list)) == hash(build(tuple))

@@ -125,6 +125,7 @@ DISTURBANCES: dict[str, Callable[[Signal, float, np.random.Generator], Recorded]
     "with as much mains hum": partial(humming, hertz=50.0),
     "with knocks of another shaft, 9.3 a second": partial(knocking, hertz=9.3),
     "with knocks of another shaft, 41 a second": partial(knocking, hertz=41.0),
+    "with knocks of another shaft, 57 a second": partial(knocking, hertz=57.0),
 }
 
 

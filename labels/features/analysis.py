@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from labels.band_tree import COMMON_BANDWIDTH
-from labels.features.combs import foreign_combs, without_combs
+from labels.features.combs import MOST_COMBS, foreign_combs, race_combs, without_combs
 from labels.features.conditioning import Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, find_family
@@ -70,28 +70,36 @@ class Analysis:
         top = max(self.top_hz, VIBRATION_ORDERS * self.given.shaft_hz)
         return vibration_lines(self.record, self.given.shaft_hz, min(top, self.record.bandwidth))
 
-    @cached_property
+    @property
     def speed(self) -> Speed:
-        """The refined speed of the shaft; where it changes, the mean that follows exactly from its turning.
+        """The refined speed of the shaft; where it changes, the mean that follows exactly from its turning."""
+        return self._speed_and_combs[0]
+
+    @cached_property
+    def _speed_and_combs(self) -> tuple[Speed, list[float]]:
+        """The refined speed, and the rates (Hz) of other shafts that would have moved it.
 
         Knocks of another shaft can lie near multiples of this one, and near a race's line, at a wrong speed. So where
         the speed found is not the one stated, it is looked for again without the lines of such combs.
         """
         spectrum, power = self.vibration_with_shaft
         if self.record.turning is not None:
-            return refine_speed(spectrum, self.envelopes, self.given, exact=True)
-        speed = refine_speed(spectrum, self.envelopes, self.given)
-        if abs(speed.shaft_hz / self.given.shaft_hz - 1.0) < AS_STATED:
-            return speed
-        excess, step, stated = self.envelopes.excess, self.envelopes.step, self.given.shaft_hz
-        mains = mains_components(excess.shape[-1], step)
-        combs = foreign_combs(np.where(mains, 1.0, excess), step, self.given, ~mains, self.given.speed_within)
-        if not combs:
-            return speed
-        lines = lines_in(without_combs(power, self.record.step, combs, stated), self.record.step)
-        return refine_speed(
-            lines, replace(self.envelopes, excess=without_combs(excess, step, combs, stated)), self.given
-        )
+            return refine_speed(spectrum, self.envelopes, self.given, exact=True), []
+        stated, step, envelopes = self.given.shaft_hz, self.envelopes.step, self.envelopes
+        speed, found = refine_speed(spectrum, envelopes, self.given), list[float]()
+        mains = mains_components(envelopes.excess.shape[-1], step)
+        while abs(speed.shaft_hz / stated - 1.0) >= AS_STATED and len(found) < MOST_COMBS:
+            excess = np.where(mains, 1.0, envelopes.excess)
+            combs = race_combs(excess, step, self.given.at(speed.shaft_hz), ~mains)
+            if not found:
+                combs += foreign_combs(excess, step, self.given, ~mains, self.given.speed_within)
+            if not combs:
+                break
+            found += combs
+            power = without_combs(power, self.record.step, combs, stated)
+            envelopes = replace(envelopes, excess=without_combs(envelopes.excess, step, combs, stated))
+            speed = refine_speed(lines_in(power, self.record.step), envelopes, self.given)
+        return speed, found
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -105,9 +113,10 @@ class Analysis:
         taken_out = shaft_components(excess.shape[-1], step, shaft_hz)
         if self.record.turning is None:
             taken_out |= mains_components(excess.shape[-1], step)
-        excess = np.where(taken_out, 1.0, excess)
-        combs = foreign_combs(excess, step, self.kinematics, ~taken_out)
-        return lines_in(without_combs(excess, step, combs, shaft_hz), step)
+        excess = without_combs(np.where(taken_out, 1.0, excess), step, self._speed_and_combs[1], shaft_hz)
+        for look_for in (foreign_combs, race_combs):
+            excess = without_combs(excess, step, look_for(excess, step, self.kinematics, ~taken_out), shaft_hz)
+        return lines_in(excess, step)
 
     @cached_property
     def all_envelope_lines(self) -> Lines:

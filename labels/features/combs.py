@@ -52,6 +52,9 @@ LINE_REACHES = 2.01
 # Where the median beside a comb's lines is this many times the usual height, they reach as far; the median of noise is
 # within a tenth.
 BESIDE_A_LINE = 1.3
+# Most parts into which the lines of a race are divided; which share of the lines between them stands out in a comb of
+# another shaft, and which share of their height these have.
+MOST_RACE_PARTS, SHARE_BETWEEN, AS_HIGH = 12, 0.9, 0.5
 # Lines between those of a comb that must be readable to show that it is a multiple.
 FEWEST_BETWEEN = 3
 
@@ -100,6 +103,56 @@ def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags
         found.append(comb)
         free &= ~near_multiples(mean.size, step, comb, margin)
     return found
+
+
+def race_combs(excess: Array, step: float, known: Kinematics, readable: Flags) -> list[float]:
+    """Rates (Hz) of impulse trains of which every third to twelfth line passes for one of a race.
+
+    In spectra (B, F) over their floor, as `foreign_combs` takes them. Between the lines of a race nothing stands as
+    high as they do, but for what cage and shaft make. Halves of BPFO are in recordings of faults.
+    """
+    lines, shaft = lines_in(excess, step), known.shaft_hz
+    slowest = max(SLOWEST * shaft, 4.0 * step)
+    found = []
+    for race in (known.bpfo, known.bpfi):
+        family = find_family(lines, race * shaft, SLIP_TOLERANCE, shaft, SLIP_PRIOR)
+        band = int(family.evidence.argmax())
+        if family.evidence[band] < EVIDENT:
+            continue
+        clearest = Lines(lines.cumulated[band : band + 1], step)
+        for part in range(MOST_RACE_PARTS, 2, -1):
+            rate = float(family.fundamental[band]) / part
+            if rate < slowest or _of_parts(rate / shaft, known):
+                continue
+            if _all_as_high(clearest, readable, rate, part):
+                found.append(rate)
+                break
+    return found
+
+
+def _of_parts(order: float, known: Kinematics) -> bool:
+    """Whether a comb of this `order` is one of the shaft, of a race or of balls, or of halves of these, or of one to
+    three turns of the cage over a race."""
+    whole = np.array([known.bpfo, known.bpfi, 2.0 * known.ball_spin])
+    cages = np.outer([1.0, 2.0, 3.0], [known.ftf, 1.0 - known.ftf]).reshape(-1)
+    parts = np.concatenate([whole, 0.5 * whole, cages])
+    of_shaft = abs(2.0 * order - round(2.0 * order)) < 2.0 * OF_BEARING
+    return of_shaft or bool(np.any(np.abs(order / parts - 1.0) < OF_BEARING))
+
+
+def _all_as_high(lines: Lines, readable: Flags, rate: float, part: int) -> bool:
+    """Whether the multiples of `rate` (Hz) stand about as high as every `part`th of them, as far as those stand out."""
+    count = min(LOOKED_AT[-1], int((readable.size - 3) * lines.step / rate))
+    multiple = np.arange(1, count + 1)
+    nats = harmonic_evidence(lines, np.array([rate]), rate, 0.0, count)[:, 0, 0]
+    seen = readable[np.round(multiple * rate / lines.step).astype(np.int64)]
+    of_race = seen & (multiple % part == 0)
+    ends = np.flatnonzero(of_race & (nats <= STANDS_OUT))
+    of_race &= multiple < (multiple[ends[0]] if ends.size else count + 1)
+    between = seen & (multiple % part != 0) & (multiple < multiple[of_race].max(initial=0))
+    stand = between & (nats > STANDS_OUT)
+    enough = between.sum() >= FEWEST_LINES and stand.sum() >= SHARE_BETWEEN * between.sum()
+    return bool(enough and np.median(nats[between]) > AS_HIGH * np.median(nats[of_race]))
 
 
 def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:

@@ -1,10 +1,12 @@
 """Combs of other shafts, on spectra of noise with lines at written places."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
-from labels.features.combs import foreign_combs, without_combs
+from labels.features.combs import foreign_combs, race_combs, without_combs
 from labels.features.families import find_family
 from labels.features.kinematics import bearing_kinematics
 
@@ -161,3 +163,54 @@ def test_families_are_looked_for_without_the_combs_of_other_shafts(impulse_train
     whole = find_family(found.all_envelope_lines, order * SHAFT, 0.01, SHAFT, 0.01)
     assert whole.evidence.max() > 100.0
     assert found.envelope_family(order).evidence.max() < 5.0
+
+
+def race(excess):
+    return race_combs(excess, STEP, BEARING, np.ones(excess.shape[-1], dtype=bool))
+
+
+@pytest.mark.parametrize(("order", "part"), [("bpfo", 4), ("bpfo", 5), ("bpfi", 4), ("bpfi", 8)])
+def test_a_comb_of_which_some_lines_pass_for_those_of_a_race_is_told(order, part):
+    rate = getattr(BEARING, order) * SHAFT / part
+    found = race(spectrum(*multiples(rate, 24)))
+    assert found[0] == pytest.approx(rate, abs=STEP / 10)
+    # Some of its lines may pass for those of the other race too.
+    assert np.ptp(found) < STEP / 10
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        faulty(BEARING.bpfo * 0.99, 2, 2),
+        faulty(BEARING.bpfi * 1.01, 5, 1),
+        multiples(0.5 * BEARING.bpfo * SHAFT, 30),
+        multiples(0.5 * BEARING.bpfi * SHAFT, 30),
+        multiples(BEARING.ftf * SHAFT, 100),
+        multiples((1.0 - BEARING.ftf) * SHAFT, 60),
+        multiples(0.5 * SHAFT, 60),
+        faulty(BEARING.bpfo, 0, 0) + multiples(0.31 * SHAFT, 8),
+    ],
+    ids=[
+        "outer race", "inner race", "half of BPFO", "half of BPFI", "cage over outer", "cage over inner",
+        "half the shaft", "a slower comb that fades before the second line of the race",
+    ],
+)  # fmt: skip
+def test_what_a_bearing_makes_is_no_part_of_a_slower_comb(lines):
+    assert race(spectrum(*lines)) == []
+
+
+def test_lines_half_as_high_between_those_of_a_race_are_no_comb():
+    rate = BEARING.bpfo * SHAFT / 3
+    excess = spectrum(*multiples(rate, 24), height=8.0)
+    own = np.round(np.array(multiples(3 * rate, 7)) / STEP).astype(int)
+    excess[:, own] += 40.0
+    assert race(excess) == []
+
+
+def test_knocks_that_pass_for_a_race_at_a_wrong_speed_move_no_nominal_speed(impulse_train):
+    """Every fourth knock comes when a ball would pass the inner race of a shaft 4 % faster than the nominal one."""
+    nominal = dataclasses.replace(BEARING, speed_within=0.05)
+    order = 1.04 * nominal.bpfi / 4.0
+    found = analyse(impulse_train(order, duration=2.0, shaft_hz=SHAFT, snr_db=0.0), 20_000.0, nominal)
+    assert found.speed.shaft_hz == pytest.approx(SHAFT, rel=0.003)
+    assert found.race_family(found.envelope_lines, "inner").evidence.max() < 8.0

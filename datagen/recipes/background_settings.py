@@ -96,7 +96,8 @@ class ImpulseSettings(Table):
 
 
 class BackgroundSettings(Table):
-    """Layers that belong to the virtual machine, the same in all its records, in absolute units."""
+    """Layers that belong to the virtual machine, the same in all its records, in absolute units. A ratio, if asked for,
+    is drawn for each record."""
 
     white_rms_m_s2: Acceleration = Fixed(0.0)
     """Standard deviation of white noise on each axis, from 0 to half the sampling rate, m/s²."""

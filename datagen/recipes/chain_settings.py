@@ -35,7 +35,8 @@ class ChainSettings(Table):
     resonator_gain: Gain = Fixed(1.0)
     """Factor of the resonator's acceleration."""
     mounting_cutoff_hz: Frequency | None = None
-    """Frequency at which the mounting passes half the power, Hz; no low-pass if not given."""
+    """Frequency at which the mounting passes half the power, Hz; no low-pass if not given. The filter is digital, so
+    near half the sampling rate its phase depends on that."""
     mounting_order: Annotated[Distribution, Whole(1, HIGHEST_ORDER)] = Fixed(6)
     """Order of the mounting's Butterworth low-pass; no effect without mounting_cutoff_hz."""
     recorder_range_m_s2: Annotated[Distribution, Between(1e-6, 1e9)] | None = None

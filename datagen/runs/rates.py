@@ -8,7 +8,7 @@ from datagen.scenarios.scenario import Scenario
 from physics.integrators.propagator import reach
 from physics.motion import motion_model
 from physics.outcome import SimulationFailed
-from physics.response.oversampling import MOST_OVERSAMPLING, SAMPLES_PER_FAST_PERIOD, oversampling
+from physics.response.oversampling import MOST_OVERSAMPLING, SAMPLES_WHERE_RAISED, oversampling
 
 
 def against_rate(scenario: Scenario) -> str:
@@ -23,7 +23,7 @@ def against_rate(scenario: Scenario) -> str:
 def lowest_rate(scenario: Scenario) -> float:
     """The sampling rate (Hz) below which the fastest mode of the scenario's rig cannot be held."""
     radians_a_second = reach(motion_model(scenario.scene), 1.0)
-    return radians_a_second / (2.0 * math.pi) * SAMPLES_PER_FAST_PERIOD / MOST_OVERSAMPLING
+    return radians_a_second / (2.0 * math.pi) * SAMPLES_WHERE_RAISED / MOST_OVERSAMPLING
 
 
 class TooLowRates:

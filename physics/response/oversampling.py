@@ -11,12 +11,12 @@ from physics.scene import Scene
 
 # Samples of a period of the fastest mode, at least and at a raised rate. Contacts jump, and what that makes above half
 # of the raised rate folds into the band that is kept, which at 2 kHz holds a fortieth of the whole: with four samples
-# up to 1.5e-2 of that. It falls with the third power of the rate and costs little, as steps stay as long as they are.
-SAMPLES_PER_FAST_PERIOD, SAMPLES_WHERE_RAISED = 4.0, 16.0
+# up to 1.5e-2 of that. It falls with the third power of the rate and costs little time, as steps stay as they are.
+SAMPLES_PER_FAST_PERIOD, SAMPLES_WHERE_RAISED = 4.0, 10.0
 # A path to the sensor follows the outer ring, whose acceleration jumps with every contact: with fewer samples, or a
 # smaller multiple of the rate, what the jumps do between samples and above half the rate reaches it.
 SAMPLES_PER_PATH_PERIOD, LEAST_WITH_PATH = 14.0, 3
-MOST_OVERSAMPLING = 256
+MOST_OVERSAMPLING = 160
 
 
 def raised_times(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:

@@ -164,8 +164,8 @@ def test_a_container_has_the_memory_that_it_is_allowed(tmp_path: Path, monkeypat
 def test_a_record_takes_memory_for_every_simulated_sample(tmp_path: Path) -> None:
     (tmp_path / "recipe.toml").write_text(TEXT)
     scenario = draw_scenario(load_recipe(tmp_path / "recipe.toml"), 0)
-    # 10548 Hz four times a period need 42192 Hz, twice the rate; 220 bytes a sample, and four copies of what is stored.
-    simulated = 220.0 * 2.0 * scenario.samples
+    # 10548 Hz ten times a period: four times the rate; 220 bytes a sample, and four copies of what is stored.
+    simulated = 220.0 * 4.0 * scenario.samples
     assert record_memory(scenario, ()) == pytest.approx(simulated + 4.0 * stored_bytes(scenario, (), "none"))
     settled = replace(scenario, settle=scenario.duration)
     assert record_memory(settled, ()) - record_memory(scenario, ()) == pytest.approx(simulated)

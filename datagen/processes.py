@@ -33,7 +33,7 @@ def processes(count: int) -> Iterator[None]:
         yield
 
 
-def watch_parent(parent: int) -> None:
+def _watch_parent(parent: int) -> None:
     """Start a thread that ends this process within a second of the death of its `parent`; Ctrl-C, and SIGTERM to the
     whole group, are left to the parent."""
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -45,7 +45,7 @@ def _begin_worker(parent: int) -> None:
     """What every worker process does first: watch its `parent`, start fast, and let itself grow."""
     from joblib.externals.loky import process_executor
 
-    watch_parent(parent)
+    _watch_parent(parent)
     collect_seldom()
     # No setting of loky's has this bound; where a version of it has another name, workers are replaced as before.
     process_executor._MAX_MEMORY_LEAK_SIZE = GROWTH

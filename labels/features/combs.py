@@ -55,6 +55,9 @@ BESIDE_A_LINE = 1.3
 # Most parts into which the lines of a race are divided; which share of the lines between them stands out in a comb of
 # another shaft, and which share of their height these have.
 MOST_RACE_PARTS, SHARE_BETWEEN, AS_HIGH = 12, 0.9, 0.5
+# Turns of the cage over a race that balls which differ mark; of these, those that no quarter of a row of sixteen is.
+CAGE_TURNS = (1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 2.0, 3.0, 4.0)
+FEW_CAGE_TURNS = CAGE_TURNS[:-1]
 # Lines between those of a comb that must be readable to show that it is a multiple.
 FEWEST_BETWEEN = 3
 
@@ -78,9 +81,11 @@ def _reach(mean: Array, step: float, comb: float, widest: float) -> float:
     multiples = np.round(comb * np.arange(1, LOOKED_AT[-1] + 1) / step).astype(np.int64)
     away = np.arange(int(LINE_REACHES) + 1, int(widest / step) + 1)
     inside = multiples[multiples + int(widest / step) < mean.size]
+    if inside.size == 0:
+        return LINE_REACHES * step + step * away.size
     beside = np.concatenate([mean[inside - away[:, None]], mean[inside + away[:, None]]], axis=1)
-    ends = ~(np.median(beside, axis=1) > BESIDE_A_LINE * np.median(mean)) if inside.size else np.zeros(away.size, bool)
-    return LINE_REACHES * step + step * (int(ends.argmax()) if ends.any() else away.size)
+    standing = np.median(beside, axis=1) > BESIDE_A_LINE * np.median(mean)
+    return LINE_REACHES * step + step * (away.size if standing.all() else int(standing.argmin()))
 
 
 def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags, doubt: float = 0.0) -> list[float]:
@@ -122,22 +127,12 @@ def race_combs(excess: Array, step: float, known: Kinematics, readable: Flags) -
         clearest = Lines(lines.cumulated[band : band + 1], step)
         for part in range(MOST_RACE_PARTS, 2, -1):
             rate = float(family.fundamental[band]) / part
-            if rate < slowest or _of_parts(rate / shaft, known):
+            if rate < slowest or _made_by_bearing(np.array([rate / shaft]), known, 0.0, FEW_CAGE_TURNS).any():
                 continue
             if _all_as_high(clearest, readable, rate, part):
                 found.append(rate)
                 break
     return found
-
-
-def _of_parts(order: float, known: Kinematics) -> bool:
-    """Whether a comb of this `order` is one of the shaft, of a race or of balls, or of halves of these, or of one to
-    three turns of the cage over a race."""
-    whole = np.array([known.bpfo, known.bpfi, 2.0 * known.ball_spin])
-    cages = np.outer([1.0, 2.0, 3.0], [known.ftf, 1.0 - known.ftf]).reshape(-1)
-    parts = np.concatenate([whole, 0.5 * whole, cages])
-    of_shaft = abs(2.0 * order - round(2.0 * order)) < 2.0 * OF_BEARING
-    return of_shaft or bool(np.any(np.abs(order / parts - 1.0) < OF_BEARING))
 
 
 def _all_as_high(lines: Lines, readable: Flags, rate: float, part: int) -> bool:
@@ -202,9 +197,11 @@ def _strongest(mean: Array, free: Flags, step: float, known: Kinematics, doubt: 
     return _sharpened(lines, rate, float(every[1] - every[0]), shaft)
 
 
-def _made_by_bearing(orders: Array, known: Kinematics, doubt: float) -> Flags:
+def _made_by_bearing(
+    orders: Array, known: Kinematics, doubt: float, cage_turns: tuple[float, ...] = CAGE_TURNS
+) -> Flags:
     """Which `orders` (N,) of a shaft whose speed may be wrong by the share `doubt` are of the bearing or of the shaft
-    itself, halves and thirds of them too."""
+    itself, halves of them too, or of so many turns of the cage over a race."""
     made = np.abs(2.0 * orders - np.round(2.0 * orders)) < 2.0 * (OF_BEARING * np.minimum(orders, 1.0) + doubt * orders)
     # Multiples of a shaft whose speed is exact are taken out before; those of one in doubt lie on combs of a part.
     turns = np.round(1.0 / np.minimum(orders, 1.0))
@@ -212,7 +209,7 @@ def _made_by_bearing(orders: Array, known: Kinematics, doubt: float) -> Flags:
     parts = [part * share for part in (known.bpfo, known.bpfi, 2.0 * known.ball_spin) for share in (0.5, 1.0, 2.0)]
     # Balls that differ mark the cage's turns over the outer race, and those over the inner one.
     cages = (known.ftf, 1.0 - known.ftf)
-    parts += [cage * share for cage in cages for share in (1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 2.0, 3.0, 4.0)]
+    parts += [cage * share for cage in cages for share in cage_turns]
     return np.asarray(made | (np.abs(orders[:, None] / np.array(parts) - 1.0) < OF_BEARING + doubt).any(axis=1))
 
 

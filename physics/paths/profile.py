@@ -141,10 +141,9 @@ def _tukey_path(spall: Spall) -> DepthPath:
         bumps = rough is not None
         return hermite_path(np.array(edges), finer, depth, slope, bridged=False, bumps=bumps, rough=bumps)
 
-    path = of_cells(0)
-    for halvings in range(1, MOST_HALVINGS + 1) if rough is not None else ():
-        if _error_between_nodes(path, depth) <= ROUGH_ERROR:
-            break
+    halvings, path = 0, of_cells(0)
+    while rough is not None and halvings < MOST_HALVINGS and _error_between_nodes(path, depth) > ROUGH_ERROR:
+        halvings += 1
         path = of_cells(halvings)
     return path
 

@@ -5,6 +5,7 @@ Whoever reads the output may stop before its end, as `head` does: any command th
 
 from __future__ import annotations
 
+import os
 import types
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -20,6 +21,7 @@ from physics.spelling import nearest
 
 # What typer raises for any command line that it cannot read; some of its versions bring their own click.
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
+READABLE = "a file or folder that you may read"
 KINDS = {int: "a whole number", float: "a number", Path: "a path", str: "a text"}
 
 
@@ -103,7 +105,15 @@ def _of_parameter(problem: Any, command: Any, parameter: Any, given: Sequence[st
     if type(problem).__name__ == "MissingParameter":
         shown = f"{name} {word}" if is_option else word
         return BadInput("it must be given", field=name, allowed=f"{shown}: {parameter.help.rstrip('.')}")
+    if _is_path(command, parameter.name):  # typer asks nothing of a path but that it may be read
+        return BadInput("cannot be read for lack of permission", field=name, value=_locked(given), allowed=READABLE)
     return BadInput(field=name, value=_value(parameter.opts, given), allowed=_allowed(command, parameter.name))
+
+
+def _locked(given: Sequence[str]) -> str | None:
+    """The first file or folder among the words `given` after the command that may not be read; None if all may be."""
+    words = (word for part in given[1:] for word in (part, part.partition("=")[2]))
+    return next((word for word in words if os.path.exists(word) and not os.access(word, os.R_OK)), None)
 
 
 def _of_option(problem: Any, command: Any) -> BadInput:

@@ -38,6 +38,6 @@ def user_code(name: str, problem: str, allowed: str = "") -> Iterator[None]:
         raise
     except (Exception, SystemExit) as cause:
         last = traceback.extract_tb(cause.__traceback__)[-1]
-        where = f"{last.filename}, line {last.lineno}"
-        text = f"{problem}: {type(cause).__name__}: {cause} ({where})"
+        where = "" if last.filename.startswith("<frozen ") else f" ({last.filename}, line {last.lineno})"
+        text = f"{problem}: {type(cause).__name__}: {cause}{where}"
         raise BadInput(text, field=FIELD, value=name, allowed=allowed) from cause

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -206,3 +207,15 @@ def test_a_path_too_long_for_the_system_is_told(tmp_path: Path) -> None:
     done = run("generate", "x" * 5000, "--out", tmp_path / "out")
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
     assert "cannot be read" in done.output
+
+
+@pytest.mark.parametrize("command", ["generate", "preview"])
+def test_a_recipe_that_may_not_be_read_is_named(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    recipe = tmp_path / "locked.toml"
+    recipe.write_text(GOOD)
+    allowed = os.access
+    monkeypatch.setattr(os, "access", lambda path, *mode: os.fspath(path) != str(recipe) and allowed(path, *mode))
+    done = run(command, recipe, "--out", tmp_path / "out.png")
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert f'= "{recipe}": cannot be read for lack of permission; allowed: a file or folder that you may' in done.output
+    assert not (tmp_path / "out.png").exists()

@@ -41,6 +41,11 @@ def test_what_cannot_be_loaded_is_refused_with_what_can(here, name):
         load_user_code(name, "module:Class")
 
 
+def test_a_module_that_is_not_there_is_told_without_a_place_inside_python(here):
+    with pytest.raises(BadInput, match=r"No module named 'nowhere'; allowed"):
+        load_user_code("nowhere:X", "module:Class")
+
+
 @pytest.mark.parametrize("command", [["classify", "--train", "a", "--test", "b"], ["size", "a"]])
 def test_both_commands_refuse_it_alike(here, command):
     done = run(*command, "--estimator", "h_syntax:Thing")

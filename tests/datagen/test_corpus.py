@@ -261,6 +261,23 @@ def test_all_shards_open_as_one_lazy_dataset_as_the_readme_says(
     assert np.array_equal(opened, corpus.waveform(record))
 
 
+def test_one_record_and_the_tables_of_a_shard_are_read_as_the_readme_says(
+    tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    (tmp_path / "quickstart-corpus").symlink_to(tiny_corpus.absolute(), target_is_directory=True)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    for word in ("xarray.open_dataset", "Corpus(", "ball_pass"):
+        exec(next(block for block in blocks if word in block and "open_mfdataset" not in block), names)
+    with names["shard"] as shard, names["corpus"] as corpus:
+        assert np.array_equal(names["acceleration"], corpus.waveform(names["its_labels"]["record"]))
+        assert np.array_equal(names["one_axis"], corpus.waveform(3)[:, 1])
+        assert len(names["passes"]) == shard.sizes["ball_pass"] > 0
+        assert set(names["spalls"]) == {name for name in shard.variables if name.startswith("defect_")}
+        assert set(names["heard"].pass_record) <= {0}
+
+
 @pytest.mark.parametrize("variable", ["entry_time", "pass_record", "time", "axis"])
 def test_what_is_not_one_a_record_is_no_signal_of_a_record(corpus: Corpus, variable: str) -> None:
     with pytest.raises(BadInput, match=f"{variable}.*allowed: .*acceleration"):

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
@@ -70,6 +73,17 @@ def test_a_drawn_machine_takes_every_number_from_the_recipe() -> None:
         assert rig.rated_speed == pytest.approx(50 * math.pi, rel=1e-15)  # one rounding
         assert 0.005 <= rig.rated_load / static_load_rating(bearing) <= 0.05
         assert scenario.scene.operation.load == rig.rated_load
+
+
+def test_the_machine_of_ones_own_on_the_datasets_page_has_what_must_be_given_and_no_more() -> None:
+    page = (Path(__file__).parents[3] / "datasets" / "README.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```toml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    table = next(block for block in blocks if 'rig = "drawn"' in block)
+    machine = tomllib.loads(table)["part"]["machine"]
+    assert rigs(**machine)[0].bearing.balls == 8
+    for key in machine:
+        with pytest.raises(BadInput):
+            draw(**{name: value for name, value in machine.items() if name != key})
 
 
 def test_k_of_a_drawn_bearing_is_hertzs() -> None:

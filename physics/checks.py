@@ -25,11 +25,19 @@ def require(condition: bool, message: str, field: str = "") -> None:
         raise InvalidParameter(message, field)
 
 
+def _is_finite(value: Any) -> bool:
+    """Whether `value` is a finite number; text, None and whole numbers beyond all floats are none."""
+    try:
+        return math.isfinite(value)
+    except (TypeError, OverflowError):
+        return False
+
+
 def require_between(field: str, value: float, low: float, high: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and low ≤ value ≤ high."""
     suffix = f" {unit}" if unit else ""
     require(
-        math.isfinite(value) and low <= value <= high,
+        _is_finite(value) and low <= value <= high,
         f"{what or field} = {value!r}{suffix}; allowed: {low:g} to {high:g}{suffix}",
         field,
     )
@@ -38,7 +46,7 @@ def require_between(field: str, value: float, low: float, high: float, unit: str
 def require_finite(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite."""
     suffix = f" {unit}" if unit else ""
-    require(math.isfinite(value), f"{what or field} = {value!r}{suffix}; it must be finite", field)
+    require(_is_finite(value), f"{what or field} = {value!r}{suffix}; it must be finite", field)
 
 
 def require_count(field: str, value: int, low: int, high: int, what: str = "") -> None:
@@ -57,14 +65,14 @@ def require_one_of(field: str, value: str, allowed: Collection[str]) -> None:
 def require_positive(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and above zero."""
     suffix = f" {unit}" if unit else ""
-    require(math.isfinite(value) and value > 0.0, f"{what or field} = {value!r}{suffix}; it must be above 0", field)
+    require(_is_finite(value) and value > 0.0, f"{what or field} = {value!r}{suffix}; it must be above 0", field)
 
 
 def require_not_negative(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and zero or above."""
     suffix = f" {unit}" if unit else ""
     message = f"{what or field} = {value!r}{suffix}; it must not be below 0"
-    require(math.isfinite(value) and value >= 0.0, message, field)
+    require(_is_finite(value) and value >= 0.0, message, field)
 
 
 def require_below_nyquist(field: str, frequency: float, rate: float, what: str = "") -> None:

@@ -1,0 +1,55 @@
+import math
+
+import numpy as np
+import pytest
+
+from physics.checks import (
+    InvalidParameter,
+    require_below_nyquist,
+    require_between,
+    require_finite,
+    require_not_negative,
+    require_positive,
+)
+
+CHECKS = {
+    "between": lambda value: require_between("depth", value, 0.0, 1.0, "m"),
+    "finite": lambda value: require_finite("depth", value, "m"),
+    "positive": lambda value: require_positive("depth", value, "m"),
+    "not negative": lambda value: require_not_negative("depth", value, "m"),
+    "below Nyquist": lambda value: require_below_nyquist("depth", value, 3.0),
+}
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+@pytest.mark.parametrize("value", ["0.5", None, 0.5j, [0.5], math.nan, math.inf, -math.inf, 10**400], ids=str)
+def test_what_is_no_finite_number_is_refused_by_field(check, value):
+    with pytest.raises(InvalidParameter, match=r"^depth = ") as caught:
+        check(value)
+    assert caught.value.field == "depth"
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+@pytest.mark.parametrize("value", [0.5, 1, np.float32(0.5), np.int64(1)], ids=repr)
+def test_numbers_of_any_kind_are_taken(check, value):
+    check(value)
+
+
+@pytest.mark.parametrize("value", [0.0, 1.0])
+def test_both_ends_of_a_range_are_allowed(value):
+    require_between("depth", value, 0.0, 1.0)
+    for beyond in (math.nextafter(0.0, -1.0), math.nextafter(1.0, 2.0)):
+        with pytest.raises(InvalidParameter):
+            require_between("depth", beyond, 0.0, 1.0)
+
+
+def test_zero_is_not_positive_but_not_negative_either():
+    require_not_negative("depth", 0.0)
+    with pytest.raises(InvalidParameter):
+        require_positive("depth", 0.0)
+
+
+def test_half_the_rate_is_not_below_it():
+    require_below_nyquist("frequency", 49.9, 100.0)
+    with pytest.raises(InvalidParameter):
+        require_below_nyquist("frequency", 50.0, 100.0)

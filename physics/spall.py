@@ -11,6 +11,7 @@ from physics.bearing import RACES, Bearing
 from physics.checks import (
     require,
     require_between,
+    require_count,
     require_finite,
     require_not_negative,
     require_one_of,
@@ -64,7 +65,7 @@ class Spall:
     def __post_init__(self) -> None:
         settle_tuples(self, "roughness_values", "table_angle", "table_depth")
         require_one_of("race", self.race, RACES)
-        require(self.row in (1, 2), f"row = {self.row!r}; allowed: 1, 2", "row")
+        require_count("row", self.row, 1, 2)
         require_one_of("profile", self.profile, PROFILES)
         require_finite("angle", self.angle, "rad")
         require_positive("extent", self.extent, "rad")

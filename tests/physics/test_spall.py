@@ -46,7 +46,9 @@ def test_a_spall_is_extended_from_one_ball_spacing_on(gearbox):
     ("change", "field", "message"),
     [
         ({"race": "cage"}, "race", 'race = "cage"; allowed: outer, inner'),
-        ({"row": 3}, "row", "row = 3; allowed: 1, 2"),
+        ({"row": 3}, "row", "row = 3; allowed: whole numbers 1 to 2"),
+        ({"row": 1.0}, "row", "row = 1.0; allowed: whole numbers 1 to 2"),
+        ({"row": True}, "row", "row = True; allowed: whole numbers 1 to 2"),
         ({"profile": "box"}, "profile", 'profile = "box"; allowed: tukey, ball_path, table'),
         ({"angle": math.nan}, "angle", "angle = nan rad; it must be finite"),
         ({"extent": 0.0}, "extent", "extent = 0.0 rad; it must be above 0"),

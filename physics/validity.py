@@ -10,6 +10,7 @@ import numpy as np
 from physics.bearing import Bearing
 from physics.hertz import is_roller, roller_length
 from physics.operation import RPM
+from physics.paths.depth_path import DepthPath
 from physics.paths.profile import build_path, is_rough
 from physics.rating import static_load_rating
 from physics.scene import Scene
@@ -52,31 +53,44 @@ def centrifugal_force(scene: Scene) -> float:
 def inertia_force(scene: Scene, spall: Spall) -> float:
     """Force (N) that takes a ball down, or up, its path over `spall` in the time the path gives it.
 
-    m · 2h/t² for the drop h over the shorter of the times t from entry edge to floor and from floor to exit edge; over
-    a rough path, the largest of every way h from one turning point of the path to the next in the time t between them.
+    m · 2h/t² for the drop h over the shorter of the times t from entry edge to floor and from floor to exit edge. Where
+    a surface that stands proud of the race lifts the ball, which begins beyond the edges, the same for the way up to
+    its highest place, if that takes more. Over a rough path, the largest of every way h from one turning point of the
+    path to the next in the time t between them.
     """
     bearing = scene.rig.bearing
-    drop, arc = _steepest_drop(spall, bearing)
+    way, arc = _steepest_way(spall, bearing)
     relative = scene.cage_of(spall.row).nominal_speed - scene.race_speed(spall.race)
-    return element_mass(bearing) * 2.0 * drop * (relative / arc) ** 2
-
-
-def _steepest_drop(spall: Spall, bearing: Bearing) -> tuple[float, float]:
-    """Depth of the floor (m) and the shorter arc (rad) between it and an edge; of a rough path, its steepest way."""
-    half = spall.extent / 2.0
-    resolution = spall.extent / (PATH_SAMPLES - 1)
-    if is_rough(spall, bearing):
-        return _steepest_way(spall, bearing)
-    if spall.profile == "tukey":
-        return spall.depth, max(min(spall.entry_taper, spall.exit_taper), resolution)
-    arc = np.linspace(-half, half, PATH_SAMPLES)
-    depth = build_path(spall, bearing).depth(arc)
-    largest = float(depth.max())
-    floor = arc[depth >= 0.999 * largest]
-    return largest, max(min(float(floor[0]) + half, half - float(floor[-1])), resolution)
+    return element_mass(bearing) * 2.0 * way * (relative / arc) ** 2
 
 
 def _steepest_way(spall: Spall, bearing: Bearing) -> tuple[float, float]:
+    """How far (m) a ball goes down or up, and over which arc (rad), where that takes the largest force."""
+    half = spall.extent / 2.0
+    if is_rough(spall, bearing):
+        return _steepest_rough_way(spall, bearing)
+    if spall.profile == "tukey":
+        return spall.depth, max(min(spall.entry_taper, spall.exit_taper), spall.extent / (PATH_SAMPLES - 1))
+    path = build_path(spall, bearing)
+    first, last = path.breaks[[0, -1]].tolist()
+    down, up = _way_from_edges(path, -half, half, 1.0), _way_from_edges(path, first, last, -1.0)
+    return max(down, up, key=lambda way: way[0] / way[1] ** 2)
+
+
+def _way_from_edges(path: DepthPath, first: float, last: float, sense: float) -> tuple[float, float]:
+    """How far (m) the path goes down between two edges (rad), or up with a `sense` of −1, and the shorter arc (rad)
+    between an edge and there; no way over all of it where it does not."""
+    arc = np.linspace(first, last, PATH_SAMPLES)
+    away = sense * path.depth(arc)
+    farthest = float(away.max())
+    if farthest <= 0.0:
+        return 0.0, last - first
+    there = arc[away >= 0.999 * farthest]
+    resolution = (last - first) / (PATH_SAMPLES - 1)
+    return farthest, max(min(float(there[0]) - first, last - float(there[-1])), resolution)
+
+
+def _steepest_rough_way(spall: Spall, bearing: Bearing) -> tuple[float, float]:
     """Drop (m) and arc (rad) between the two neighbouring turning points whose drop over arc squared is largest."""
     samples = max(PATH_SAMPLES, SAMPLES_PER_KNOT * len(spall.roughness_values))
     arc = np.linspace(-spall.extent / 2.0, spall.extent / 2.0, samples)

@@ -132,6 +132,37 @@ def test_over_a_rough_floor_the_steepest_way_between_crest_and_trough_counts(fan
     assert inertia_force(scene, smooth) < 0.1 * by_hand
 
 
+def measured(extent, angle, depth):
+    return Spall("outer", 1, DOWN, extent, 0.0, profile="table", table_angle=angle, table_depth=depth)
+
+
+@pytest.mark.parametrize("pit", [0.0, 1e-6])
+def test_a_ball_that_climbs_a_proud_bump_takes_the_force_of_its_way_up(fan, pit):
+    # A plateau with cliffs, and perhaps a shallow pit in it: the ball touches the corner of a cliff where its centre is
+    # off by the arc at which it hangs as far below the plateau as that stands above the race.
+    height, half = 20e-6, 0.05
+    bump = measured(2.0 * half, (-half, -0.01, 0.01, half), (-height, -height, pit, pit))
+    scene = scene_of(fan, (bump,))
+    top, ball = fan.bearing.raceway_radius("outer") - height, fan.bearing.ball_radius
+    # The law of cosines: corner, centre of the ball before it climbs, axis of the bearing.
+    centre = fan.bearing.raceway_radius("outer") - ball
+    arc = math.acos((top**2 + centre**2 - ball**2) / (2.0 * top * centre))
+    arc *= 1.0 - math.sqrt(1e-3)  # the last thousandth of the height does not count, and heights are nearly parabolas
+    by_hand = element_mass(fan.bearing) * 2 * height * (scene.cage.nominal_speed / arc) ** 2
+    assert inertia_force(scene, bump) == pytest.approx(by_hand, rel=5e-3)  # 4000 samples over it all
+    assert assess(scene) == ()
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_a_bump_without_any_pit_can_be_judged_and_a_flat_table_asks_for_no_force(gearbox, race):
+    bump = measured(0.035, (-0.017, -0.01, 0.01, 0.017), (0.0, -1e-5, -1e-5, 0.0))
+    flat = measured(0.035, (-0.017, 0.017), (0.0, 0.0))
+    bump, flat = (dataclasses.replace(spall, race=race) for spall in (bump, flat))
+    assert inertia_force(scene_of(gearbox, (bump,)), bump) > 0.0
+    assert inertia_force(scene_of(gearbox, (flat,)), flat) == 0.0
+    assert assess(scene_of(gearbox, (flat,))) == ()
+
+
 @pytest.mark.parametrize("name", ["gearbox", "fan"])
 def test_the_paper_s_rigs_at_their_own_operating_points_are_in_range(request, name):
     machine = request.getfixturevalue(name)

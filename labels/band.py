@@ -13,10 +13,10 @@ Band = tuple[float, float]
 def components_in(band: Band, samples: int, rate: float) -> slice:
     """Which of the components that `numpy.fft.rfft` gives of so many `samples` at `rate` (Hz) lie in `band`.
 
-    ValueError unless 0 ≤ low < high ≤ rate / 2.
+    ValueError unless 0 ≤ low < high ≤ rate / 2 and the rate is finite.
     """
     low, high = band
-    if not 0.0 <= low < high <= rate / 2.0:
+    if not 0.0 <= low < high <= rate / 2.0 < math.inf:
         raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
     frequency = np.fft.rfftfreq(samples, 1.0 / rate)
     first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")

@@ -14,9 +14,12 @@ def power_density(signal: Array, rate: float, resolution: float) -> tuple[Array,
     """Frequencies (F,) in Hz and one-sided densities (F,), unit² / Hz, of the `signal` (T,) without its mean.
 
     Mean over Hann windows of 1/`resolution` seconds (Hz), spread evenly from the first sample to the last so that
-    neighbours overlap by half or more [Welch 1967]. ValueError if the signal is shorter than one window.
+    neighbours overlap by half or more [Welch 1967]. ValueError if the signal is shorter than one window, or unless rate
+    and resolution are finite and above 0.
     """
     centred = np.asarray(signal, dtype=np.float64) - np.mean(signal)
+    if not (0.0 < rate < math.inf and 0.0 < resolution < math.inf):
+        raise ValueError(f"a resolution of {resolution:g} Hz at {rate:g} Hz; both must be finite and above 0")
     size = round(rate / resolution)
     if not 2 <= size <= centred.size:
         raise ValueError(

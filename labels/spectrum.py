@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from scipy import fft
 
@@ -14,12 +16,12 @@ def amplitude_spectrum(signal: Array, rate: float, window: str = "hann") -> tupl
     """Frequencies (F,) in Hz and one-sided amplitudes (F,), in the unit of the `signal` (T,), without its mean.
 
     The periodic Hann window is divided by its mean, so a line a cos(2π f t) on a bin has height a with either window.
-    ValueError for an unknown window or fewer than two samples.
+    ValueError for an unknown window, fewer than two samples or a rate that is no finite number above 0.
     """
     signal = np.asarray(signal, dtype=np.float64)
     if window not in WINDOWS:
         raise ValueError(f'window = "{window}"; allowed: {", ".join(WINDOWS)}')
-    if signal.size < 2 or rate <= 0.0:
+    if signal.size < 2 or not 0.0 < rate < math.inf:
         raise ValueError(
             f"{signal.size} samples at {rate:g} Hz; a spectrum needs at least 2 samples and a rate above 0"
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,16 +59,19 @@ def condition(
 
     The end of the record is dropped where its length has no fast transform. The flat spectrum is divided by the square
     root of the local mean power, taken from the median over 1/96 of the bandwidth, and tones are cut to ten times that.
-    ValueError for fewer than 64 samples, a rate of 0 or a signal that does not change.
+    ValueError for fewer than 64 samples, a rate that is no finite number above 0, samples that are not finite or a
+    signal that does not change.
     """
     signal = np.asarray(signal, dtype=np.float64)
-    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES_USED or not rate > 0.0:
+    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES_USED or not 0.0 < rate < math.inf:
         needed = f"features need at least {FEWEST_SAMPLES_USED} samples of one axis"
         raise ValueError(f"{signal.shape} samples at {rate:g} Hz; {needed}")
+    if not np.isfinite(signal).all():
+        raise ValueError("the signal holds a sample that is not finite")
     signal = signal[: fft.prev_fast_len(signal.size, real=True)]
-    centred = signal - signal.mean()
-    if not centred.any():
+    if np.ptp(signal) == 0.0:
         raise ValueError("the signal does not change")
+    centred = signal - signal.mean()
     step = rate / signal.size
     top = usable_bandwidth(rate, bandwidth)
     spectrum = np.asarray(fft.rfft(centred))[: int(top / step) + 1]

@@ -45,3 +45,10 @@ def test_the_velocity_of_a_tone_is_its_acceleration_over_2_pi_f():
 def test_a_signal_shorter_than_a_window_is_refused():
     with pytest.raises(ValueError, match="needs 4096 samples"):
         power_density(np.zeros(4095), RATE, 1.0)
+
+
+@pytest.mark.parametrize("wrong", [0.0, -1.0, np.nan, np.inf])
+def test_a_rate_or_a_resolution_that_is_none_is_refused(wrong):
+    for rate, resolution in ((wrong, 10.0), (1000.0, wrong)):
+        with pytest.raises(ValueError, match="both must be finite and above 0"):
+            power_density(np.arange(1000.0), rate, resolution)

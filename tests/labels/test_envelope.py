@@ -126,3 +126,8 @@ def test_a_record_too_slow_for_the_resonator_gets_the_upper_part_of_what_it_hold
     assert default_band(rig, 2.0 * high) == (FALLBACK_SHARES[0] * 2.0 * high, FALLBACK_SHARES[1] * 2.0 * high)
     assert math.isclose(default_band(rig, 12000.0)[0], 3600.0)
     assert default_band(rig, 12000.0)[1] < 6000.0
+
+
+def test_an_infinite_rate_has_no_bands():
+    with pytest.raises(ValueError, match="band 100 to 200 Hz"):
+        band_envelope(np.arange(1000.0), np.inf, (100.0, 200.0))

@@ -52,3 +52,9 @@ def test_an_unknown_window_and_a_single_sample_are_refused():
         amplitude_spectrum(TIME, RATE, "hamming")
     with pytest.raises(ValueError, match="1 samples"):
         amplitude_spectrum(TIME[:1], RATE)
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, np.nan, np.inf])
+def test_a_rate_that_is_none_is_refused(rate):
+    with pytest.raises(ValueError, match="a rate above 0"):
+        amplitude_spectrum(np.arange(10.0), rate)

@@ -16,6 +16,7 @@ from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
 from physics.arrays import Array
+from physics.checks import require_positive
 
 # Samples from an event to the peak of its prewhitened energy.
 ONSET = 1.8
@@ -39,7 +40,9 @@ class SizeEstimator:
         """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
 
         The last axis that has a signal is used. If its polarity is not known, the one of the larger trust.
+        InvalidParameter unless the rate is finite and above 0.
         """
+        require_positive("rate", rate, "Hz")
         if not situation.polarity_known:
             known = replace(situation, polarity_known=True)
             return max((self.estimate(sign * acceleration, rate, known) for sign in (1.0, -1.0)), key=_trust)

@@ -12,6 +12,7 @@ from labels.dead_sensor import live_axis
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics.arrays import Array
+from physics.checks import require_positive
 
 # Periods: longer lags are not looked for.
 LONGEST_SHARE = 0.95
@@ -48,8 +49,10 @@ class EnvelopeLagRule:
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
         """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
 
-        If the `situation` does not name the race, it is taken for the outer one.
+        If the `situation` does not name the race, it is taken for the outer one. InvalidParameter unless the rate is
+        finite and above 0.
         """
+        require_positive("rate", rate, "Hz")
         method, signal = f"envelope lag, {self.share:g} times", live_axis(acceleration)
         if signal is None:
             return SizeEstimate(SizeOutcome.NO_SIGNAL, method)

@@ -38,3 +38,20 @@ def test_no_record_keeps_more_than_the_common_bandwidth():
 def test_what_holds_no_signal_is_refused(signal):
     with pytest.raises(ValueError, match=r"samples|change"):
         condition(signal, 1000.0)
+
+
+@pytest.mark.parametrize("level", [0.1, 9.81, 1e5 / 3.0])
+@pytest.mark.parametrize("size", [100, 1000, 4099])
+def test_a_constant_is_no_signal_though_its_mean_is_rounded(level, size):
+    with pytest.raises(ValueError, match="does not change"):
+        condition(np.full(size, level), 1000.0)
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+def test_a_sample_or_a_rate_that_is_not_finite_is_refused(wrong):
+    noise = np.random.default_rng(4).standard_normal(1000)
+    with pytest.raises(ValueError, match="samples at"):
+        condition(noise, wrong)
+    noise[500] = wrong
+    with pytest.raises(ValueError, match="not finite"):
+        condition(noise, 1000.0)

@@ -16,6 +16,7 @@ from labels.spall_size.signal.mean_pass import MeanPass
 from labels.spall_size.signal.pass_track import PassTrack
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeOutcome
+from physics.checks import InvalidParameter
 
 GEARBOX = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
 RATE, PERIOD = 1000.0, 100.0
@@ -85,3 +86,11 @@ def test_load_and_hertz_factor_ask_for_their_own_judgement(judging, saying):
     estimator = SizeEstimator(replace(made.calibration, blind=blind))
     assert not estimator.judge(one_pair(0.0, 20.0), GEARBOX).found
     assert estimator.judge(one_pair(0.0, 20.0), replace(GEARBOX, load=100.0, load_deflection=1e10)).found
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, math.nan, math.inf])
+@pytest.mark.parametrize("polarity_known", [True, False])
+def test_a_rate_that_is_none_is_refused(judging, rate, polarity_known):
+    noise, situation = np.random.default_rng(0).standard_normal(1000), replace(GEARBOX, polarity_known=polarity_known)
+    with pytest.raises(InvalidParameter, match="rate"):
+        judging(0.1, 1.0, 1.0).estimate(noise, rate, situation)

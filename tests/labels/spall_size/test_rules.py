@@ -6,6 +6,7 @@ import pytest
 
 from labels.spall_size.estimation.rules import EnvelopeLagRule, envelope_lag
 from labels.spall_size.situation import Situation
+from physics.checks import InvalidParameter
 
 RATE = 65536.0
 GEARBOX = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
@@ -52,3 +53,9 @@ def test_the_length_is_told_along_the_raceway(pulse_train, race, diameter_mm):
     train = pulse_train(100.0 / RATE, situation.pass_periods()[race])
     estimate = EnvelopeLagRule().estimate(train.signal, RATE, situation)
     assert estimate.extent_mm == pytest.approx(estimate.extent * diameter_mm / 2.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, math.nan, math.inf])
+def test_a_rate_that_is_none_is_refused(rate):
+    with pytest.raises(InvalidParameter, match="rate"):
+        EnvelopeLagRule().estimate(np.random.default_rng(0).standard_normal(1000), rate, GEARBOX)

@@ -57,8 +57,9 @@ KEEPABLE = ("state", "force", "outer")
 class Trace:
     """The response of a Scene sampled at `rate` (Hz).
 
-    `model` is its name in `physics.simulate`, and `method` what solved it: one of `integrators.method_table.METHODS`,
-    "modal, repeated" where the last period of a modal march stands for all later ones, or a simpler model's own.
+    `model` is "nonlinear 6-DOF" or the name of a simpler one (`ladder.model_table`). `method` is what solved it: one of
+    `integrators.method_table.METHODS`, "modal, repeated" where the last period of a modal march stands for all later
+    ones, or a simpler model's own.
     `step` (s): of the modal method the mean over the march, of methods with fixed steps each step's length away from
     contact changes and kinks, of dormand_prince the longest it may take; NaN of the reference method, which does not
     count its steps, and of simpler models that solve nothing in steps.

@@ -11,7 +11,8 @@ from physics.bearing import RACES
 from physics.spall import PROFILES
 from physics.words import CONTACT_LAWS
 
-CONDITIONS = ("healthy", "line", "extended")
+HEALTHY = "healthy"
+CONDITIONS = (HEALTHY, "line", "extended")
 LOCATIONS = ("none", *RACES)
 SPLITS = ("train", "validation", "test")
 SPEED_BASES = ("set", "measured", "tach", "nominal")

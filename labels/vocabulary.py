@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from labels.schema import MEASURED
+from labels.schema import HEALTHY, MEASURED
 
 FAULT_TYPE = {
     "none": "normal",
@@ -18,7 +18,7 @@ FAULT_TYPE = {
     "several": "bearing",
     "unknown": "unknown",
 }
-SEVERITY = {"healthy": ("none", 0), "line": ("line", 1), "extended": ("extended", 2), "unknown": ("not graded", 1)}
+SEVERITY = {HEALTHY: ("none", 0), "line": ("line", 1), "extended": ("extended", 2), "unknown": ("not graded", 1)}
 
 
 @dataclass(frozen=True)
@@ -68,14 +68,14 @@ def common_row(labels: Mapping[str, Any], axis: str) -> dict[str, object]:
         value = labels[alias.label]
         row[alias.column] = value * alias.factor if alias.factor != 1.0 else value
     severity, level = SEVERITY[str(labels["condition"])]
-    healthy = labels["condition"] == "healthy"
+    healthy = labels["condition"] == HEALTHY
     place = "none" if healthy else "unknown" if labels["location"] == "unknown" else "test_bearing"
     return row | {
         "signal_id": f"{name}_{axis}",
         "channel": labels["channel"] or axis,
         "axis": axis,
         "n_samples": round(labels["rate_hz"] * labels["duration_s"]),
-        "native_label": "healthy" if healthy else f"{labels['condition']}_{labels['location']}",
+        "native_label": HEALTHY if healthy else f"{labels['condition']}_{labels['location']}",
         "fault_type": FAULT_TYPE[str(labels["location"])],
         "fault_location": place,
         "sensor_at_fault": place == "test_bearing",

@@ -17,8 +17,7 @@ from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from datagen.processes import processes
 from datagen.progress import Count
-from labels.classifier.classes import HEALTHY
-from labels.schema import LOCATIONS
+from labels.schema import HEALTHY, LOCATIONS
 
 NAME = "impulse-trains"
 SEED = 20_140

@@ -11,9 +11,9 @@ from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
 from datagen.progress import Say, ignore
-from labels.classifier.classes import HEALTHY
 from labels.classifier.scores import balanced_accuracy, bootstrap
 from labels.interval import Interval
+from labels.schema import HEALTHY
 
 SHARES = (0.125, 0.25, 0.5, 1.0)
 HELD_OUT = 0.25

@@ -19,11 +19,12 @@ from datagen.judging.truth import true_classes
 from datagen.judging.user_code import user_code
 from datagen.progress import Count, Say, ignore
 from labels.classifier.alarm import Alarm
-from labels.classifier.classes import CLASSES, EVEN, HEALTHY
+from labels.classifier.classes import CLASSES, EVEN
 from labels.classifier.learners import LEARNERS
 from labels.classifier.rule import Rule, fit_rule, line_heights
 from labels.classifier.spall_classifier import SpallClassifier
 from labels.classifier.votes import of_several_axes, vote_shares
+from labels.schema import HEALTHY
 from physics.arrays import Array, Flags
 
 if TYPE_CHECKING:

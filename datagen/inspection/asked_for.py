@@ -9,8 +9,7 @@ from datagen.corpus_files.manifest import Manifest, Span
 from datagen.inspection.manifest_check import recipe_of
 from datagen.recipes.recipe import Recipe
 from datagen.settings.table import shares_of_words
-
-HEALTHY = "healthy"
+from labels.schema import HEALTHY
 
 
 def asked_of(manifest: Manifest, folder: Path) -> dict[str, float]:

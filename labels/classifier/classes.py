@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.schema import HEALTHY
 from physics.arrays import Array
 
-CLASSES = ("healthy", "line outer", "line inner", "extended outer", "extended inner")
-HEALTHY = "healthy"
+CLASSES = (HEALTHY, "line outer", "line inner", "extended outer", "extended inner")
 EVEN = 0.5
 
 

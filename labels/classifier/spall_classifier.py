@@ -10,11 +10,12 @@ from sklearn.base import BaseEstimator, ClassifierMixin
 from threadpoolctl import threadpool_limits
 
 from labels.classifier.alarm import fit_alarm
-from labels.classifier.classes import CLASSES, HEALTHY, called
+from labels.classifier.classes import CLASSES, called
 from labels.classifier.learners import SEED, learner
 from labels.classifier.rule import strengths
 from labels.classifier.stage import Stage
 from labels.features.table import FEATURE_NAMES
+from labels.schema import HEALTHY
 from physics.arrays import Array
 from physics.bearing import RACES
 

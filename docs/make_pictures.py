@@ -28,6 +28,7 @@ from datagen.drawing.style import (
 )
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.truth import PassTable, ball_passes
+from physics.angular_speed import in_hertz
 from physics.paths.profile import build_path, wrap
 from physics.reference_scenes import BOTTOM, reference_scene
 from physics.scene import Scene
@@ -193,7 +194,7 @@ def _draw_envelope_spectrum(axes: Axes, state: Column) -> None:
     rig = state.scene.rig
     settled = state.acceleration[int(SETTLED * RATE) :]
     frequency, amplitude = squared_envelope_spectrum(band_envelope(settled, RATE, default_band(rig, RATE)), RATE)
-    bpfo = rig.bearing.bpfo * rig.rated_speed / (2.0 * math.pi)
+    bpfo = in_hertz(rig.bearing.bpfo * rig.rated_speed)
     shown = (frequency > 0.0) & (frequency < (HARMONICS + 0.6) * bpfo)
     axes.semilogy(frequency[shown], amplitude[shown], color=BLUE, linewidth=0.8)
     for k in range(1, HARMONICS + 1):

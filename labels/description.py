@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from labels.schema import HEALTHY
+from physics.angular_speed import in_rpm
 from physics.cage import CagePath
 from physics.paths.profile import build_path
 from physics.scene import Scene
@@ -24,7 +26,7 @@ def label_values(scene: Scene) -> dict[str, object]:
         "rig": scene.rig.name,
         "bearing": bearing.name,
         **defect_values(scene),
-        "speed_rpm": run.shaft_speed * 30.0 / math.pi,
+        "speed_rpm": in_rpm(run.shaft_speed),
         "load_n": run.load,
         **slip_values(scene.cage),
         "contact_law": scene.contact_law,
@@ -50,7 +52,7 @@ def condition(scene: Scene) -> str:
     """ "healthy", "line" or "extended": the last if the largest spall always holds at least one ball."""
     spall = largest_spall(scene)
     if spall is None:
-        return "healthy"
+        return HEALTHY
     return "extended" if is_extended(spall.extent, scene.rig.bearing) else "line"
 
 

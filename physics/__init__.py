@@ -23,6 +23,6 @@ What all of them use:
 - `assembly`: from a scene to the arrays and NamedTuples that kernels read
 - `arrays`: names of array types; `words`: those of scenes and results, for packages that need no more than these
 - `_jit/`: compiles kernels; `warming` does so early; `compiled`: what other packages need of the compiler
-- `checks` (a value refused) and `spelling` (the name that was meant), `rms`, `recursive_filter`,
-  `freed_memory`
+- `checks` (a value refused) and `spelling` (the name that was meant), `angular_speed` (rad/s in rpm and Hz), `rms`,
+  `recursive_filter`, `freed_memory`
 """

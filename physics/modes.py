@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig, eigh
 
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.cage import CagePath
 from physics.checks import require
@@ -94,7 +95,7 @@ def coupled_resonator_frequency(rig: Rig, stiffness: Array) -> float:
     stretch = shapes[5] - shapes[3]
     # Shapes are normalised to unit modal mass, so a mode's strain energy is half its squared frequency.
     share = rig.resonator_stiffness * stretch**2 / np.maximum(squared, 1e-9 * squared[-1])
-    return math.sqrt(squared[int(np.argmax(share))]) / (2.0 * math.pi)
+    return in_hertz(math.sqrt(squared[int(np.argmax(share))]))
 
 
 def rated_matrices(rig: Rig) -> tuple[Array, Array]:

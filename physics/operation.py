@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from physics.checks import require_between, require_finite, require_not_negative, require_positive
 
-# One revolution per minute, rad/s.
-RPM = 2.0 * math.pi / 60.0
 # N, far beyond all bearings.
 HEAVIEST_LOAD = 1e7
 

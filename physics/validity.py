@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from physics.angular_speed import in_rpm
 from physics.bearing import Bearing
 from physics.hertz import is_roller, roller_length
-from physics.operation import RPM
 from physics.paths.depth_path import DepthPath
 from physics.paths.profile import build_path, is_rough
 from physics.rating import static_load_rating
@@ -150,7 +150,7 @@ def _steps(scene: Scene) -> str:
 
 
 def _speed(scene: Scene) -> str:
-    rpm = scene.operation.shaft_speed / RPM
+    rpm = in_rpm(scene.operation.shaft_speed)
     factor = rpm * scene.rig.bearing.pitch_diameter * 1e3
     if factor <= LIMITING_SPEED_FACTOR:
         return ""

@@ -11,6 +11,7 @@ from datagen.charts.response import Response
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import line_amplitude
 from labels.truth import PassTable, ball_passes
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.rms import relative_error
 from physics.scene import Scene
@@ -70,7 +71,7 @@ def _envelope_error(scene: Scene, rate: float, found: Array, exact: Array) -> fl
     """Level of the defect's line over the reference's, dB; NaN for a healthy scene or too short a record."""
     race = scene.defective_race
     bearing = scene.rig.bearing
-    line = (bearing.bpfi if race == "inner" else bearing.bpfo) * scene.operation.shaft_speed / (2.0 * math.pi)
+    line = in_hertz((bearing.bpfi if race == "inner" else bearing.bpfo) * scene.operation.shaft_speed)
     duration = exact.shape[0] / rate
     if race == "none" or duration * line < FEWEST_PASSES or not np.all(np.isfinite(found)):
         return math.nan

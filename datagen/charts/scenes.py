@@ -9,7 +9,7 @@ from pathlib import Path
 
 from datagen.errors import BadInput
 from datagen.recipes.recipe_files import shipped_recipes
-from physics.operation import RPM
+from physics.angular_speed import in_rpm
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene, slipping
 from physics.scene import Scene
 from physics.spelling import suggestion
@@ -91,7 +91,7 @@ def _named(source: str) -> Subject:
         raise BadInput(field="SCENE", value=source, allowed=allowed)
     name = RIG_NAMES.get(form["name"], form["name"])
     scene = reference_scene(name, LONGEST, speed_factor=times)
-    title = f"{name}, {scene.rig.name} rig at {scene.operation.shaft_speed / RPM:.5g} rpm"
+    title = f"{name}, {scene.rig.name} rig at {in_rpm(scene.operation.shaft_speed):.5g} rpm"
     if times != 1.0:
         name += f"_{times:g}x"
     if slip > 0.0:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +12,7 @@ import numpy as np
 from datagen.drawing.close_up import CloseUp
 from labels.description import largest_spall
 from labels.truth import PassTable
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.scene import Scene
 from physics.spall import Spall
@@ -74,7 +74,7 @@ class Portrait:
         cage, shaft = self.scene.cage.mean_speed, self.scene.operation.shaft_speed
         balls = self.scene.rig.bearing.balls
         angular = {"BPFO": balls * cage, "BPFI": balls * (shaft - cage), "FTF": cage, "shaft": shaft}
-        return {name: value / (2.0 * math.pi) for name, value in angular.items()}
+        return {name: in_hertz(value) for name, value in angular.items()}
 
     @property
     def defect_frequency(self) -> str:

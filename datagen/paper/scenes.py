@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.cage import CagePath
 from physics.catalog import rig
@@ -70,17 +71,17 @@ def signal(of: Scene) -> Array:
 
 def bpfo_hz(name: str) -> float:
     """Ball-pass frequency of the outer race at the rated speed, Hz."""
-    return machine(name).bearing.bpfo * machine(name).rated_speed / (2.0 * math.pi)
+    return in_hertz(machine(name).bearing.bpfo * machine(name).rated_speed)
 
 
 def ftf_hz(name: str) -> float:
     """Cage frequency at the rated speed, Hz."""
-    return machine(name).bearing.ftf * machine(name).rated_speed / (2.0 * math.pi)
+    return in_hertz(machine(name).bearing.ftf * machine(name).rated_speed)
 
 
 def shaft_hz(name: str) -> float:
     """Shaft frequency at the rated speed, Hz."""
-    return machine(name).rated_speed / (2.0 * math.pi)
+    return in_hertz(machine(name).rated_speed)
 
 
 def reference_extended_spall(seed: int) -> Spall:

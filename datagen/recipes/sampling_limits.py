@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from datagen.recipes.chain_settings import ChainSettings
 from datagen.settings.problems import dotted
 from datagen.settings.table import possible_words
 from datagen.settings.toml_lines import Location, line_of
+from physics.angular_speed import in_hertz
 from physics.catalog import RIGS
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _catalogue_resonances(recipe: Recipe) -> Iterator[tuple[int, str, float]]:
             continue
         for name in possible_words(machine.rig):
             if name in RIGS:
-                yield index, name, RIGS[name].build(name).free_resonance / (2.0 * math.pi)
+                yield index, name, in_hertz(RIGS[name].build(name).free_resonance)
 
 
 def _of_chain(chain: ChainSettings) -> Iterator[Frequency]:

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.scenarios.scenario import Scenario
+from physics.angular_speed import in_hertz
 from physics.scene import Scene
 from physics.statics.load_distribution import load_range
 
@@ -44,7 +45,7 @@ def stiffness_divisor(scenario: Scenario) -> int:
     if scene.spalls or scene.imperfections.waviness or not smooth or load_range(scene)[1] == 0.0:
         return 1
     bearing = scene.rig.bearing
-    passes_per_sample = bearing.bpfo * scene.operation.shaft_speed / (2.0 * math.pi) / scenario.rate
+    passes_per_sample = in_hertz(bearing.bpfo * scene.operation.shaft_speed) / scenario.rate
     allowed = ACCURACY / (_corner(scene) * passes_per_sample)
     return int(2.0 ** math.floor(math.log2(min(max(allowed, 1.0), COARSEST))))
 

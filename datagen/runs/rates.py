@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 from datagen.scenarios.scenario import Scenario
+from physics.angular_speed import in_hertz
 from physics.integrators.propagator import reach
 from physics.motion import motion_model
 from physics.outcome import SimulationFailed
@@ -23,7 +22,7 @@ def against_rate(scenario: Scenario) -> str:
 def lowest_rate(scenario: Scenario) -> float:
     """The sampling rate (Hz) below which the fastest mode of the scenario's rig cannot be held."""
     radians_a_second = reach(motion_model(scenario.scene), 1.0)
-    return radians_a_second / (2.0 * math.pi) * SAMPLES_WHERE_RAISED / MOST_OVERSAMPLING
+    return in_hertz(radians_a_second) * SAMPLES_WHERE_RAISED / MOST_OVERSAMPLING
 
 
 class TooLowRates:

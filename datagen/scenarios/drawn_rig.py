@@ -9,6 +9,7 @@ from typing import Any
 from datagen.recipes.machine_settings import DRAWN, FactorSettings, MachineSettings
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from physics import catalog
+from physics.angular_speed import RPM
 from physics.bearing import Bearing
 from physics.checks import require
 from physics.hertz import (
@@ -19,7 +20,6 @@ from physics.hertz import (
     roller_load_deflection_factor,
 )
 from physics.modes import rated_matrices
-from physics.operation import RPM
 from physics.rating import static_load_rating
 from physics.rig import Rig
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import closing
@@ -20,8 +19,8 @@ from datagen.sizing.stored_record import StoredRecord, stored_record
 from labels.features.jumps import without_jumps
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
+from physics.angular_speed import RPM, in_hertz
 from physics.arrays import Array
-from physics.operation import RPM
 
 if TYPE_CHECKING:
     import pandas
@@ -117,5 +116,5 @@ def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool) -> Si
 
 def _level(acceleration: Array, labels: Mapping[str, Any]) -> Array:
     """The acceleration (T, axes) of a recording without jumps of its sensors' bias."""
-    turns = float(labels["speed_rpm"]) * RPM / (2.0 * math.pi) * len(acceleration) / float(labels["rate_hz"])
+    turns = in_hertz(float(labels["speed_rpm"]) * RPM) * len(acceleration) / float(labels["rate_hz"])
     return np.column_stack([without_jumps(signal, turns)[0] for signal in acceleration.T])

@@ -12,9 +12,9 @@ from datagen.scenarios.streams import stream
 from labels.dead_sensor import live_axis
 from labels.features.analysis import analyse
 from labels.spall_size.situation import Situation
+from physics.angular_speed import RPM
 from physics.arrays import Array
 from physics.checks import InvalidParameter
-from physics.operation import RPM
 
 # Of the errors of the speeds that are stated.
 SPEED_SEED = 0

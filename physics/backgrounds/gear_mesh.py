@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
 from physics.checks import require_between, require_count, require_not_negative, settle_tuples
@@ -54,7 +54,7 @@ def gear_mesh(generator: np.random.Generator, layer: GearMesh, shaft_speed: floa
     order = np.arange(1, layer.sidebands + 1, dtype=np.float64)
     phase = draw_phases(generator, harmonics.size)
     shifts = [draw_phases(generator, order.size) for _ in range(2)]
-    shaft = shaft_speed / (2.0 * math.pi)
+    shaft = in_hertz(shaft_speed)
     other = shaft * layer.teeth / layer.other_teeth if layer.other_teeth else 0.0
     amplitude, mesh = np.array(layer.amplitudes), harmonics * layer.teeth * shaft
     total = tones(mesh, amplitude, phase, samples, rate)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from physics.angular_speed import in_hertz
 from physics.catalog.bearings import CWRU, IMS, MFPT, PAPER_FAN, PAPER_GEARBOX
 from physics.catalog.sourced import Claim
 from physics.hertz import contact_width, hertz_load_deflection
@@ -15,17 +16,17 @@ PAPER_RESPONSE = "Petersen et al. 2014, section 5.6"
 
 def bpfo_hz(rig: Rig) -> float:
     """Ball-pass frequency of the outer race at rated speed, Hz."""
-    return rig.bearing.bpfo * rig.rated_speed / (2.0 * math.pi)
+    return in_hertz(rig.bearing.bpfo * rig.rated_speed)
 
 
 def bpfi_hz(rig: Rig) -> float:
     """Ball-pass frequency of the inner race at rated speed, Hz."""
-    return rig.bearing.bpfi * rig.rated_speed / (2.0 * math.pi)
+    return in_hertz(rig.bearing.bpfi * rig.rated_speed)
 
 
 def resonator_alone_hz(rig: Rig) -> float:
     """√(k_r/m_r) in Hz."""
-    return math.sqrt(rig.resonator_stiffness / rig.resonator_mass) / (2.0 * math.pi)
+    return in_hertz(math.sqrt(rig.resonator_stiffness / rig.resonator_mass))
 
 
 def resonator_damping_ratio(rig: Rig) -> float:

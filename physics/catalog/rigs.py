@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from physics.angular_speed import RPM
 from physics.catalog.bearings import (
     BEARINGS,
     CWRU,
@@ -17,7 +18,6 @@ from physics.catalog.bearings import (
 )
 from physics.catalog.claims import CWRU_CLAIMS, FAN_CLAIMS, GEARBOX_CLAIMS, IMS_CLAIMS, MFPT_CLAIMS
 from physics.catalog.sourced import Claim, Sourced, assumed, sourced_fields
-from physics.operation import RPM
 from physics.rig import Rig
 
 POUND_FORCE = 4.4482216152605

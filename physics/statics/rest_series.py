@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics._jit import njit_inline, njit_inner, njit_lean
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.assembly import assemble
 from physics.contact.contact_set import mark_of
@@ -80,7 +81,7 @@ def coarsest_stride(scene: Scene, step: float) -> int:
     """
     if any(spall.extent >= scene.rig.bearing.spacing and is_rough(spall, scene.rig.bearing) for spall in scene.spalls):
         return 1
-    bearing, turn = scene.rig.bearing, scene.operation.shaft_speed / (2.0 * math.pi)
+    bearing, turn = scene.rig.bearing, in_hertz(scene.operation.shaft_speed)
     needed = FEWEST_NODES_PER_PASS * max(bearing.bpfo, bearing.bpfi) * turn
     for wave in scene.imperfections.waviness:
         needed = max(needed, FEWEST_NODES_PER_WAVE * wave.order * turn)

@@ -9,7 +9,7 @@ from datagen.distributions.kinds import Fixed
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.scenarios.sampling import draw_scenario
-from physics.operation import RPM
+from physics.angular_speed import RPM
 
 WAVE = {"race": "outer", "orders": [1, 20]}
 TONE = {"amplitude_m_s2": 1e300}

@@ -1,0 +1,18 @@
+"""Angular speeds, rad/s, in the units that people say them in."""
+
+from __future__ import annotations
+
+import math
+
+# One revolution per minute, rad/s.
+RPM = 2.0 * math.pi / 60.0
+
+
+def in_rpm(speed: float) -> float:
+    """Revolutions per minute of a `speed` in rad/s."""
+    return speed * 30.0 / math.pi
+
+
+def in_hertz(speed: float) -> float:
+    """Turns, or swings, per second of a `speed` in rad/s."""
+    return speed / (2.0 * math.pi)

@@ -8,6 +8,7 @@ import numpy as np
 from physics.contact.forces import Contacts
 from physics.imperfections import Imperfections
 from physics.integrators.output import Output
+from physics.operation import Operation
 from physics.response.goal import Goal
 from physics.trace import ACCELERATION_ALONE
 
@@ -24,7 +25,7 @@ def a_case(memory=0.0):
         contacts=Contacts(np.zeros((1, 11, 4)), np.zeros((1, 3)), None, None),
         scene=SimpleNamespace(
             duration=SAMPLES / RATE,
-            operation=SimpleNamespace(load=LOAD),
+            operation=Operation(1.0, LOAD),
             rig=SimpleNamespace(outer_mass=MASS, bearing=BEARING),
             imperfections=Imperfections(),
         ),

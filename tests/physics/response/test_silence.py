@@ -67,3 +67,9 @@ def test_forces_of_preload_and_waves_follow_from_the_contact_law():
     assert largest_forces(preloaded("G0", -50.0)) == pytest.approx(50.0 + 24 * load_deflection * 5e-6**1.5)
     assert largest_forces(preloaded("G0", 0.0, 1e-6, both)) == pytest.approx(24 * load_deflection * 2e-6**1.5)
     assert largest_forces(preloaded("G0", 346.0, 1e-5, both)) == 346.0
+
+
+def test_a_load_that_swings_and_turns_counts_at_its_largest():
+    scene = preloaded("G0", -300.0, clearance=1e-5)
+    run = replace(scene.operation, load_fluctuation=0.5, unbalance_force=20.0)
+    assert largest_forces(replace(scene, operation=run)) == 470.0

@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from itertools import product
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,9 +55,9 @@ def check_compression(compression: str) -> None:
 def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | bytearray:
     """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered.
 
-    Nothing in them says when they were made. They are made in memory: a file that netCDF fills in place and that is cut
-    short opens cleanly and holds NaN.
-    Signals are stored in checksummed chunks, one for each record and component.
+    Nothing in them says when they were made. They are whole before any is written where it is to stay: a file that
+    netCDF fills in place and that is cut short opens cleanly and holds NaN. Other programs may add variables to the
+    file. Signals are stored in checksummed chunks, one for each record and component.
     """
     check_compression(compression)
     fast, stored = has_fast_chunks(), _stored(dataset)
@@ -128,20 +130,24 @@ def _laid_out(stored: dict[str, _Stored], attributes: dict[str, Any], compressio
     """A netCDF file of all dimensions, variables and attributes, and perhaps the values; without time stamps."""
     import netCDF4
 
-    file = netCDF4.Dataset("shard.nc", mode="w", format="NETCDF4", memory=IMAGE_BLOCK)
-    try:
-        file.setncatts(attributes)
-        sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
-        for dim, size in sizes.items():
-            file.createDimension(dim, size)
-        for name, one in stored.items():
-            target = _create(file, name, one, compression)
-            target.setncatts(one.attributes)
-            if with_values and one.values.size:
-                target[...] = one.values
-    finally:
-        # Left open, it would be closed by whichever thread the collector runs in.
-        image = bytearray(file.close())
+    # On the disk: what netCDF lays out in memory lacks the order of creation without which it writes to no file again.
+    with TemporaryDirectory(prefix="spallgen-") as folder:
+        path = Path(folder) / "shard.nc"
+        file = netCDF4.Dataset(path, mode="w", format="NETCDF4")
+        try:
+            file.setncatts(attributes)
+            sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
+            for dim, size in sizes.items():
+                file.createDimension(dim, size)
+            for name, one in stored.items():
+                target = _create(file, name, one, compression)
+                target.setncatts(one.attributes)
+                if with_values and one.values.size:
+                    target[...] = one.values
+        finally:
+            # Left open, it would be closed by whichever thread the collector runs in.
+            file.close()
+        image = bytearray(path.read_bytes())
     clear_time_stamps(image)
     return image
 

@@ -62,6 +62,20 @@ def test_names_types_attributes_chunks_and_filters_are_the_same(
         assert layout(first) == layout(second)
 
 
+@pytest.mark.parametrize("compression", COMPRESSIONS)
+def test_others_can_add_variables_and_change_attributes(
+    dataset: xarray.Dataset, compression: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for path in both(dataset, compression, tmp_path, monkeypatch):
+        said = xarray.Dataset({"said": ("record", np.array([0.5, 0.25, 1.0]))})
+        said.to_netcdf(path, mode="a")
+        with netCDF4.Dataset(path, "a") as file:
+            file.title = "another"
+        with xarray.open_dataset(path) as found:
+            assert found.said.values.tolist() == said.said.values.tolist()
+            xarray.testing.assert_identical(found.drop_vars("said").load(), dataset.assign_attrs(title="another"))
+
+
 @pytest.mark.parametrize("fast", [True, False])
 @pytest.mark.parametrize("compression", COMPRESSIONS)
 def test_files_made_in_different_seconds_have_the_same_bytes(

@@ -1,4 +1,4 @@
-"""What the reader of a record must know of the response it was simulated as, and of its background."""
+"""What the reader of a record must know of the response it was simulated as, its background and its recorder."""
 
 from __future__ import annotations
 
@@ -6,9 +6,15 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
+from labels.variables import AXES
+from physics.arrays import Array
 from physics.rms import rms
+from physics.sensor.recorder import Recorder
 from physics.trace import Trace
 
 # Inputs that agree to 1e-4 leave responses within half a per cent up to so many times.
@@ -40,6 +46,18 @@ def unset_ratio(scenario: Scenario, labels: Mapping[str, Any]) -> str:
     return (
         f"the {label} asked for, {target.ratio_db:g}, could not be set, as the sensor's signal or the background has "
         f"no power{where}: the background keeps the level of its machine"
+    )
+
+
+def lost_in_steps(recorder: Recorder | None, measured: Array, recorded: NDArray[np.float32]) -> str:
+    """That nothing is left of what was `measured` (T, 2) along an axis in what was `recorded` (T, 2), m/s²; empty if
+    something is."""
+    lost = [axis for k, axis in enumerate(AXES) if measured[:, k].any() and not recorded[:, k].any()]
+    if recorder is None or not lost:
+        return ""
+    return (
+        f"the recorder's step of {recorder.step:.3g} m/s² is too coarse for the signal along {' and '.join(lost)}: "
+        "every sample there is 0"
     )
 
 

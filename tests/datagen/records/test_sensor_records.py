@@ -195,3 +195,13 @@ def test_without_chain_and_background_the_record_is_the_clean_signal(recipe: Rec
     assert math.isnan(record.labels["snr_db"])
     assert math.isnan(record.labels["snr_band_db"])
     assert record.labels["background_layers"] == ""
+
+
+@pytest.mark.parametrize(("full_scale", "said"), [(4.0, ""), (1e6, "along x and y: every sample there is 0")])
+def test_a_recorder_too_coarse_for_the_signal_is_told_of(recipe: Recipe, full_scale: float, said: str) -> None:
+    scenario = draw_scenario(recipe, 3)
+    recorder = replace(scenario.chain.recorder, full_scale=full_scale)  # of 12 bits
+    record = make_record(replace(scenario, chain=replace(scenario.chain, recorder=recorder)))
+    assert bool(said) != record.acceleration.any()
+    step = f"the recorder's step of {full_scale / 2**11:.3g} m/s² is too coarse for the signal {said}"
+    assert (step in record.labels["validity"]) == bool(said)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from fnmatch import fnmatch
 from os.path import normcase
@@ -9,6 +10,7 @@ from pathlib import Path, PurePath
 from unicodedata import normalize
 
 WILD = "*?["
+DIGITS = re.compile("([0-9]+)")
 
 
 class FileNames:
@@ -39,6 +41,12 @@ def fits(path: Path, name: str, pattern: str) -> bool:
 def hidden(path: Path, pattern: str) -> bool:
     """True if a file's name begins with a point and the pattern's does not: some systems leave such files anywhere."""
     return path.name.startswith(".") and not PurePath(pattern).name.startswith(".")
+
+
+def by_number(path: PurePath) -> tuple[list[list[str | int]], PurePath]:
+    """The key by which paths are sorted as people number them, 2.csv before 10.csv; 01.csv comes before 1.csv."""
+    parts = (DIGITS.split(part) for part in path.parts)
+    return [[int(text) if place % 2 else text for place, text in enumerate(texts)] for texts in parts], path
 
 
 def spellings(name: str) -> set[str]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from datagen.errors import BadInput
 from datagen.files.places import no_file
-from datagen.recordings.file_names import FileNames, fits, hidden, spellings
+from datagen.recordings.file_names import FileNames, by_number, fits, hidden, spellings
 from datagen.recordings.label_table import TableRow, read_label_table
 from datagen.recordings.settings import ALTERNATIVES, Channel, merged
 from datagen.recordings.spec import Recording, Spec
@@ -71,7 +71,7 @@ class _Finder:
     @cached_property
     def _below(self) -> FileNames:
         """Every file below the root, with its name from there."""
-        found = (path for path in sorted(self.root.rglob("*")) if path.is_file())
+        found = (path for path in sorted(self.root.rglob("*"), key=by_number) if path.is_file())
         return FileNames({path: path.relative_to(self.root).as_posix() for path in found})
 
     def _files(self, recording: Recording, place: str) -> Iterator[tuple[Path, TableRow | None]]:
@@ -143,7 +143,7 @@ class _Finder:
         return BadInput(problem, place, "files", pattern)
 
     def _matching(self, pattern: str) -> list[Path]:
-        return sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)})
+        return sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)}, key=by_number)
 
     def _present(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
         """The paths without links whose files are not there, as of a set that was not fetched whole."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from unicodedata import normalize
 
 import pytest
@@ -10,7 +10,7 @@ from imports import Bring, Mat
 
 from datagen.errors import BadInput
 from datagen.recordings import file_names, importing
-from datagen.recordings.file_names import FileNames
+from datagen.recordings.file_names import FileNames, by_number
 from datagen.recordings.spec import Spec, load_spec
 
 SPEC = '[[recording]]\nname = "all"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
@@ -36,6 +36,18 @@ def test_a_file_is_found_by_its_own_name_by_that_from_the_root_and_by_a_pattern(
         ("[12].csv", ["a/1.csv", "a/2.csv", "b/1.csv"]),
     ):
         assert [known.names[path] for path in known.fitting(wish)] == found
+
+
+def test_files_of_a_run_come_in_the_order_of_their_numbers(bring: Bring, mat: Mat) -> None:
+    for name in ("run 10/1", "run 9/11", "run 9/2", "run 9/10", "run 9/1"):
+        mat(f"{name}.mat")
+    corpus = bring(SPEC + 'files = "*/*.mat"\nrecording = "{path}"\n')
+    assert list(corpus.labels.recording) == ["run 9/1", "run 9/2", "run 9/10", "run 9/11", "run 10/1"]
+
+
+def test_names_of_one_number_come_in_the_order_of_their_texts() -> None:
+    ordered = ["1/2.csv", "01.csv", "1.csv", "1a2.csv", "1a10.csv", "a", "a1b1", "a01b2", "a1b02", "a1b2", "²a.csv"]
+    assert [str(path) for path in sorted(map(PurePosixPath, ordered[::-1]), key=by_number)] == ordered
 
 
 def test_a_name_with_brackets_means_the_file_that_is_called_so() -> None:

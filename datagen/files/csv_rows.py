@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import codecs
 import csv
+import io
+import os
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -13,6 +15,8 @@ from datagen.errors import BadInput
 
 BLANKS = " "
 UTF_8 = "utf-8"
+# What old systems and some loggers fill the end of a file with: Ctrl-Z and zeros.
+FILLING = "\x1a\0"
 Row = tuple[int, list[str]]
 
 
@@ -21,8 +25,20 @@ class NotText(BadInput):
 
 
 def open_text(path: Path, encoding: str = UTF_8) -> IO[str]:
-    """The text file at `path`, opened with its line ends as they are; in UTF-8 a byte order mark is no matter."""
-    return path.open(newline="", encoding="utf-8-sig" if codecs.lookup(encoding).name == UTF_8 else encoding)
+    """The text file at `path`, opened with its line ends as they are, without what fills its end; in UTF-8 a byte order
+    mark is no matter."""
+    known = "utf-8-sig" if codecs.lookup(encoding).name == UTF_8 else encoding
+    if not _may_be_filled(path):
+        return path.open(newline="", encoding=known)
+    text = path.read_bytes().decode(known)
+    return io.StringIO(text.rstrip(FILLING + "\r\n"), newline="")
+
+
+def _may_be_filled(path: Path) -> bool:
+    """Whether the last byte of a file, but for a line end, is of what fills it, or half of a letter of two bytes."""
+    with path.open("rb") as file:
+        file.seek(-min(2, file.seek(0, os.SEEK_END)), os.SEEK_END)
+        return file.read().rstrip(b"\r\n").endswith((b"\x1a", b"\0"))
 
 
 def read_csv_rows(
@@ -40,13 +56,13 @@ def read_csv_rows(
     of blanks, between which nothing is quoted; the first `skip_lines` are left out. Raises NotText, BadInput with the
     line where a quoted cell does not end as one should, and OSError if the file cannot be read.
     """
-    with open_text(path, encoding) as file:
-        try:
+    try:
+        with open_text(path, encoding) as file:
             lines = islice(file, skip_lines, None)
             rows = _split(lines) if delimiter == BLANKS else _parsed(lines, delimiter, path, skip_lines)
             return list(islice(((skip_lines + line, cells) for line, cells in rows if cells or blank), most))
-        except UnicodeError:
-            raise NotText(f"not a text file in {encoding}", str(path)) from None
+    except UnicodeError:
+        raise NotText(f"not a text file in {encoding}", str(path)) from None
 
 
 def _split(lines: Iterator[str]) -> Iterator[Row]:

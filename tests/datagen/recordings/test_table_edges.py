@@ -108,3 +108,18 @@ def test_a_number_in_the_first_row_alone_is_taken_from_there(bring: Bring, tmp_p
     with pytest.raises(BadInput, match=re.escape(message)):
         bring(spec)
     assert bring(spec.replace("(Hz)", "(Hz)[0]")).labels["speed_rpm"].tolist() == [1770.0]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+@pytest.mark.parametrize("end", ["\x1a", "\n\x1a", "\r\n\x1a\0\0\0", "\0\r\n", "\n\0\0"])
+def test_ctrl_z_and_zeros_at_the_end_of_a_table_are_no_matter(end: str, encoding: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["t;acc Y", *ROWS]) + end, encoding=encoding, newline="")
+    columns = read_arrays(tmp_path / "a.csv", None, CsvLayout(delimiter=";", encoding=encoding))
+    assert np.stack([columns["t"], columns["acc Y"]], axis=1).tolist() == CELLS.tolist()
+
+
+@pytest.mark.parametrize("sign", ["\x1a", "\0"])
+def test_ctrl_z_and_zeros_within_a_table_are_refused(sign: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["t;acc Y", *ROWS[:60], f"0;{sign}1", *ROWS[60:]]) + "\n")
+    with pytest.raises(BadInput, match=r'a\.csv, line 62: y = "acc Y": 1 of 121 cells are not finite numbers'):
+        bring(SPEC + 'csv = {delimiter = ";"}\n')

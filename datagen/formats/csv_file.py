@@ -187,7 +187,9 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         rows = [(line, row[:width]) for line, row in rows]
     for line, row in rows:
         if len(row) != len(names):
-            hint = _hint(layout.delimiter.join(row), layout) if len(names) == 1 else ""
+            middle = rows[len(rows) // 2][1]
+            parted = _hint(layout.delimiter.join(row), layout.delimiter.join(middle), layout)
+            hint = parted if len(names) == 1 else ""
             problem = f"{len(row)} cells, but the table has {len(names)} columns{hint}"
             allowed = "" if hint else ROWS_ALIKE
             raise BadInput(problem, f"{path}, line {line}", allowed=allowed)
@@ -203,7 +205,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         more = f"skip_below = {layout.skip_below + 1}" if layout.header else f"skip_lines = {rows[0][0]}"
         hint = f"; did you mean csv = {{{more}}}?"
     if len(names) == 1 and odd:
-        hint = _hint(odd[names[0]][1], layout) or hint
+        hint = _hint(odd[names[0]][1], rows[len(rows) // 2][1][0], layout) or hint
     return Columns(columns, odd, hint)
 
 
@@ -213,7 +215,7 @@ def _refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayo
         return
     whole = ",".join(row)
     for sign in DELIMITERS:
-        cells = [cell.strip() for cell in (whole.split() if sign == BLANKS else whole.split(sign)) if cell.strip()]
+        cells = [cell.strip() for cell in _parts(whole, sign) if cell.strip()]
         broken = [cell for cell in cells if DECIMAL_COMMA.fullmatch(cell)]
         numbers = len(broken) + sum(bool(WHOLE_NUMBER.fullmatch(cell)) for cell in cells)
         # Blanks part words too: among them one number with a comma proves nothing.
@@ -260,15 +262,20 @@ def _decimal_hint(cells: list[str], layout: CsvLayout) -> str:
     return '; did you mean csv = {decimal = ","}?' if found else ""
 
 
-def _hint(row: str, layout: CsvLayout) -> str:
-    """A remark on the layout that was probably meant by whoever wrote this `row`; empty if nothing else parts it."""
+def _hint(row: str, other: str, layout: CsvLayout) -> str:
+    """A remark on the layout that was probably meant by whoever wrote this `row`; empty if nothing else parts it, and
+    the `other`, from the middle of the table, into as many cells."""
     if DECIMAL_COMMA.fullmatch(row.strip()):
         return ONE_COLUMN if layout.delimiter == "," else ""
     delimiter = next((sign for sign in DELIMITERS if sign in row.strip()), layout.delimiter)
-    if delimiter in (layout.delimiter, layout.decimal):
+    if delimiter in (layout.delimiter, layout.decimal) or len(_parts(row, delimiter)) != len(_parts(other, delimiter)):
         return ""
     decimal = ', decimal = ","' if delimiter != "," and re.search(r"\d,\d", row) else ""
     return f"; did you mean csv = {{delimiter = {json.dumps(delimiter)}{decimal}}}?"
+
+
+def _parts(row: str, delimiter: str) -> list[str]:
+    return row.split() if delimiter == BLANKS else row.split(delimiter)
 
 
 def _numbers(cells: list[str], decimal: str) -> Array:

@@ -198,6 +198,16 @@ def test_no_delimiter_is_guessed_where_the_rows_are_read(bring: Bring, tmp_path:
     assert "did you mean csv" not in str(refused.value)
 
 
+@pytest.mark.parametrize(("rows", "line"), [(["1.5"] * 40 + ["End of file"], 42), (["m / s2"] + ["1.5"] * 40, 2)])
+def test_no_delimiter_is_guessed_from_a_line_that_is_unlike_the_rest(
+    rows: list[str], line: int, bring: Bring, tmp_path: Path
+) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["a", *rows]))
+    with pytest.raises(BadInput, match=f'line {line}: y = "a": 1 of 41 cells are not finite numbers') as refused:
+        bring(SPEC)
+    assert "delimiter =" not in str(refused.value)
+
+
 @pytest.mark.parametrize("way", [at_once_only, cell_by_cell_only])
 def test_a_delimiter_at_the_end_of_each_row_makes_an_empty_column(
     way: Callable[[pytest.MonkeyPatch], None], bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -7,6 +7,7 @@ import math
 import re
 import warnings
 from collections.abc import Callable, Iterator
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -179,7 +180,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
     if not rows:
         return Columns({}, {})
     names = _names(path, rows[0], layout, len(rows[0][1]))
-    rows = rows[layout.head_rows :]
+    whole, rows = rows, rows[layout.head_rows :]
     if rows:
         _refuse_split_numbers(path, *rows[0], layout)
     if len({len(row) for _, row in rows}) == 1:
@@ -190,7 +191,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
             middle = rows[len(rows) // 2][1]
             parted = _hint(layout.delimiter.join(row), layout.delimiter.join(middle), layout)
             hint = parted if len(names) == 1 else ""
-            problem = f"{len(row)} cells, but the table has {len(names)} columns{hint}"
+            problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or _above_hint(whole, layout)}"
             allowed = "" if hint else ROWS_ALIKE
             raise BadInput(problem, f"{path}, line {line}", allowed=allowed)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
@@ -201,9 +202,11 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         if not math.isfinite(columns[name][k])
     }
     hint = _headless_hint(names, layout) or _decimal_hint([cell for _, cell in odd.values()], layout)
-    if not hint and any(_is_unit(text, columns[name]) for name, (_, text) in odd.items()):
-        more = f"skip_below = {layout.skip_below + 1}" if layout.header else f"skip_lines = {rows[0][0]}"
-        hint = f"; did you mean csv = {{{more}}}?"
+    above_numbers = max((_words_above(text, columns[name]) for name, (_, text) in odd.items()), default=0)
+    if not hint and above_numbers and not layout.header:
+        hint = f"; did you mean csv = {{skip_lines = {rows[above_numbers - 1][0]}}}?"
+    elif not hint and above_numbers == 1:
+        hint = f"; did you mean csv = {{skip_below = {layout.skip_below + 1}}}?"
     if len(names) == 1 and odd:
         hint = _hint(odd[names[0]][1], rows[len(rows) // 2][1][0], layout) or hint
     return Columns(columns, odd, hint)
@@ -244,9 +247,23 @@ def _refuse_halves(path: Path, layout: CsvLayout) -> None:
         )  # fmt: skip
 
 
-def _is_unit(text: str, column: Array) -> bool:
-    """Whether a `text` that is no number, such as a unit or a name, is the first cell of a `column` of numbers."""
-    return bool(text.strip()) and column.size > 1 and bool(np.isfinite(column[1:]).all())
+def _words_above(text: str, column: Array) -> int:
+    """How many cells that are no numbers, such as units, names or comments of which the first is `text`, are above a
+    `column` of nothing but numbers; 0 if it is none, or these are not most of it."""
+    count = int(np.argmax(np.isfinite(column)))
+    return count if text.strip() and count < column.size / 2 and np.isfinite(column[count:]).all() else 0
+
+
+def _above_hint(rows: list[Row], layout: CsvLayout) -> str:
+    """A remark on how many lines are above those `rows`, most of all, that have as many cells as the last; empty if
+    there are none."""
+    width = len(rows[-1][1])
+    table = rows[len(rows) - sum(1 for _ in takewhile(lambda row: len(row[1]) == width, reversed(rows))) :]
+    if not len(rows) / 2 < len(table) < len(rows):
+        return ""
+    line, cells = table[0]
+    headless = layout.header and any(math.isfinite(_number(cell.replace(layout.decimal, "."))) for cell in cells)
+    return f"; did you mean csv = {{{'header = false, ' * headless}skip_lines = {line - 1}}}?"
 
 
 def _headless_hint(names: list[str], layout: CsvLayout) -> str:

@@ -288,9 +288,31 @@ def test_a_header_of_numbers_is_taken_for_the_first_row(bring: Bring, tmp_path: 
         bring(SPEC.replace('y = "a"', 'y = "1"'))
 
 
+COMMENTED = {
+    "one": (["# made by X", "a,b"], "", "{skip_lines = 1}"),
+    "two, and a blank line": (["% made by X", "", "% 1000 Hz, 2 axes, g", "a,b"], "", "{skip_lines = 3}"),
+    "above rows without names": (["; made by X", "; 1000 Hz"], "", "{header = false, skip_lines = 2}"),
+    "above rows that are said to have no names": (["# made by X"], "header = false", "{skip_lines = 1}"),
+    "as many cells": (["# made by X,2024", "# rate,high"], "header = false", "{skip_lines = 2}"),
+}
+
+
+@pytest.mark.parametrize("case", COMMENTED)
+def test_comments_above_a_table_come_with_their_number(case: str, bring: Bring, tmp_path: Path) -> None:
+    above, layout, meant = COMMENTED[case]
+    (tmp_path / "a.csv").write_text("\n".join([*above, *ROWS]))
+    named = SPEC if above[-1] == "a,b" else SPEC.replace('y = "a"', 'y = "1"')
+    message = refusal(bring, named + f"csv = {{{layout}}}\n", tmp_path)
+    assert f"; did you mean csv = {meant}?" in message
+    both = ", ".join(filter(None, [layout, meant.strip("{}")]))
+    assert len(bring(named + f"csv = {{{both}}}\n")) == 1
+
+
 def test_lines_above_the_header_come_with_a_way_out(bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("\n".join(["date 2024", "a,b", *ROWS]))
-    with pytest.raises(BadInput, match=r"line 2: 2 cells, but the table has 1 columns; allowed: .*csv\.skip_lines"):
+    with pytest.raises(
+        BadInput, match=r"line 2: 2 cells, but the table has 1 columns; did you .*; allowed: .*csv\.skip_lines"
+    ):
         bring(SPEC)
     assert len(bring(SPEC + "csv = {skip_lines = 1}\n")) == 1
 

@@ -19,6 +19,8 @@ from physics.arrays import Array
 
 DELIMITERS = (";", "\t", "|", ",", BLANKS)
 DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+# A number with signs between its thousands and another before its decimals.
+THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}([,.' \xa0])\d{3}(?:\1\d{3})*(?!\1)[.,]\d+")
 WHOLE_NUMBER = re.compile(r"[-+]?\d+")
 # Digits behind a decimal sign: no whole number that is written alone begins with 0.
 FRACTION = re.compile(r"0\d+")
@@ -201,13 +203,14 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         for name, k in first.items()
         if not math.isfinite(columns[name][k])
     }
-    hint = _headless_hint(names, layout) or _decimal_hint([cell for _, cell in odd.values()], layout)
+    told = [cell.strip() for _, cell in odd.values()]
+    hint = _headless_hint(names, layout) or _decimal_hint(told, layout) or _thousands_hint(told)
     above_numbers = max((_words_above(text, columns[name]) for name, (_, text) in odd.items()), default=0)
     if not hint and above_numbers and not layout.header:
         hint = f"; did you mean csv = {{skip_lines = {rows[above_numbers - 1][0]}}}?"
     elif not hint and above_numbers == 1:
         hint = f"; did you mean csv = {{skip_below = {layout.skip_below + 1}}}?"
-    if len(names) == 1 and odd:
+    if len(names) == 1 and odd and odd[names[0]][0] == rows[0][0]:
         hint = _hint(odd[names[0]][1], rows[len(rows) // 2][1][0], layout) or hint
     return Columns(columns, odd, hint)
 
@@ -275,8 +278,13 @@ def _headless_hint(names: list[str], layout: CsvLayout) -> str:
 
 def _decimal_hint(cells: list[str], layout: CsvLayout) -> str:
     """A remark where a cell that is no number would be one with a decimal comma; empty for any other."""
-    found = layout.delimiter != "," and any(DECIMAL_COMMA.fullmatch(cell.strip()) for cell in cells)
+    found = layout.delimiter != "," and any(map(DECIMAL_COMMA.fullmatch, cells))
     return '; did you mean csv = {decimal = ","}?' if found else ""
+
+
+def _thousands_hint(cells: list[str]) -> str:
+    """A remark where a cell is a number with signs between its thousands; empty for any other."""
+    return "; numbers are read without signs between thousands only" if any(map(THOUSANDS.fullmatch, cells)) else ""
 
 
 def _hint(row: str, other: str, layout: CsvLayout) -> str:

@@ -359,6 +359,32 @@ def test_one_column_of_decimal_commas_below_a_name_is_led_to_the_layout_that_rea
     assert refusal(bring, spec + layout, tmp_path).endswith(f"; did you mean csv = {hint}?")
 
 
+@pytest.mark.parametrize(
+    ("cell", "layout"),
+    [
+        ('"-1,079.20"', ""),
+        ('"1,234,567.5"', ""),
+        ("1 079.20", ""),
+        ("1.079,20", 'csv = {delimiter = ";", decimal = ","}'),
+    ],
+)
+@pytest.mark.parametrize("place", [0, 20])
+def test_signs_between_thousands_are_named(cell: str, layout: str, place: int, bring: Bring, tmp_path: Path) -> None:
+    rows = ["a", *["7"] * 40]
+    rows[1 + place] = cell
+    (tmp_path / "a.csv").write_text("\n".join(rows))
+    message = refusal(bring, SPEC + layout + "\n", tmp_path)
+    assert f'line {2 + place}: y = "a": 1 of 40 cells are not finite numbers, the first is' in message
+    assert "; numbers are read without signs between thousands only" in message
+    assert "did you mean" not in message
+
+
+@pytest.mark.parametrize("cell", ["0,079.20", '"12,34.5"', "1.079.20", "2,079"])
+def test_other_numbers_are_not_called_ones_of_thousands(cell: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["a", *["7"] * 20, cell, *["7"] * 20]))
+    assert "thousands" not in refusal(bring, SPEC, tmp_path)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "UTF-8", "utf8", "U8"])
 def test_a_byte_order_mark_is_no_matter_however_the_encoding_is_spelt(encoding: str, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("acc\n" + "1.5\n" * 20, encoding="utf-8-sig")

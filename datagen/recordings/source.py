@@ -39,6 +39,7 @@ LONGEST_GAP, MOST_MISSING = 10, 0.01
 CONSTANT = ("rate_hz",)
 # What is allowed where a variable does not give one number.
 ONE_OF_THEM = 'a single number of it, as in "NAME[0]" or "NAME[0,2]"'
+FACTOR = "factor brings times to s: 1e-6 those in µs, 1e-9 those in ns"
 TIMES = "times in s; of dates and hours of a clock the rate itself, a number"
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))
@@ -145,7 +146,8 @@ class Source:
             return None if said is None else float(said)
         found = choose(self.arrays, said.variable, self.path, name)
         if found.dtype.kind not in "iuf" or not found.size:
-            raise BadInput("is not a finite number", str(self.path), name, said.variable)
+            allowed = TIMES if said.times else ""
+            raise BadInput("is not a finite number", str(self.path), name, said.variable, allowed)
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
             allowed = TIMES if said.times else ONE_OF_THEM if bad.size < found.size else ""
@@ -159,8 +161,9 @@ class Source:
         else:
             value = self._mean(_within(found, span), said.variable, name) * said.factor
         if not in_range(name, value):
-            problem = f"from the variable {said.variable}"
-            raise BadInput(problem, str(self.path), name, value, RANGES[name].allowed())
+            problem = f"from the variable {said.variable}" + (", whose times are read as s" if said.times else "")
+            allowed = RANGES[name].allowed() + (f"; {FACTOR}" if said.times else "")
+            raise BadInput(problem, str(self.path), name, value, allowed)
         return value
 
     def _mean(self, found: NDArray[Any], wish: str, field: str) -> float:

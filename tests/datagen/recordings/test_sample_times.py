@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 from imports import Bring, Mat
 
 from datagen.errors import BadInput
@@ -54,7 +55,7 @@ def test_exact_times_give_every_digit_of_a_rate(rate: float) -> None:
         (np.zeros(400), "is not a column of rising times"),
         (np.zeros((200, 2)), "is not a column of rising times"),
         (-0.5, "is not a column of rising times"),
-        (1.0, "rate_hz = 1.0: from the variable t; allowed: a number from 100 to 1e+07"),
+        (1.0, "rate_hz = 1.0: from the variable t, whose times are read as s; allowed: a number from 100 to 1e+07"),
     ],
     ids=["a gap", "falling", "still", "two columns", "a step back", "too slow"],
 )
@@ -74,6 +75,24 @@ def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat
         bring(SPEC + 'rate_hz = {variable = "t"}\n')
     with pytest.raises(BadInput, match=r"recording\[1\]\.load_n\.times.*: times can only give a sampling rate"):
         bring(SPEC + 'rate_hz = 1000\nload_n = {variable = "t", times = true}\n')
+
+
+def test_times_in_nanoseconds_need_a_factor(bring: Bring, tmp_path: Path) -> None:
+    start = np.datetime64("2024-03-01T12:00:00", "ns")
+    times = start + np.arange(400) * np.timedelta64(62_500, "ns")
+    samples = np.random.default_rng(1).standard_normal(400)
+    xarray.Dataset({"sig": ("time", samples)}, {"time": times}).to_netcdf(tmp_path / "a.nc")
+    spec = SPEC.replace("a.mat", "a.nc") + 'rate_hz = {variable = "time", times = true}\n'
+    with pytest.raises(BadInput, match=r"rate_hz = 1\.6e-05: from .* are read as s; .*; factor brings times to s"):
+        bring(spec)
+    assert bring(spec.replace("true", "true, factor = 1e-9")).labels["rate_hz"].tolist() == [16000.0]
+
+
+def test_dates_in_place_of_times_come_with_a_way_out(bring: Bring, tmp_path: Path) -> None:
+    times = np.datetime64("2024-03-01", "ns") + np.arange(400) * np.timedelta64(40_000, "ns")
+    np.savez(tmp_path / "a.npz", sig=np.arange(400.0), time=times)
+    with pytest.raises(BadInput, match=r'rate_hz = "time": is not a finite number; allowed: times in s; of dates'):
+        bring(SPEC.replace("a.mat", "a.npz") + 'rate_hz = {variable = "time", times = true}\n')
 
 
 def test_hours_of_a_clock_in_place_of_times_come_with_a_way_out(bring: Bring, tmp_path: Path) -> None:

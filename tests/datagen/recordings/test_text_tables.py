@@ -158,6 +158,35 @@ def test_a_table_with_a_clock_is_read_at_once_and_gives_the_same(
         assert columns.odd == {"clock": (2, "12:30:00"), "state": (2, "on")}
 
 
+@pytest.mark.parametrize(
+    ("slow", "end", "is_at_once"),
+    [
+        ({0: "29.1"}, "", True),
+        ({1: "29.1", 30: "30"}, "", True),
+        ({2: "29.1"}, ",", True),
+        ({0: "29.1", 1: "30"}, "", False),  # nothing in the first two rows shows that cells are empty
+        ({0: "inf"}, "", False),
+    ],
+)
+def test_a_table_with_empty_cells_in_its_first_rows_is_read_at_once_and_gives_the_same(
+    slow: dict[int, str], end: str, is_at_once: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lines = [f"{first!r},{slow.get(k, '')},{second!r}{end}" for k, (first, second) in enumerate(CELLS)]
+    (tmp_path / "a.csv").write_text("\n".join(["a,rpm,b", *lines]))
+    with monkeypatch.context() as patched:
+        if is_at_once:
+            at_once_only(patched)
+        at_once = read_csv(tmp_path / "a.csv", CsvLayout())
+    with monkeypatch.context() as patched:
+        cell_by_cell_only(patched)
+        by_cells = read_csv(tmp_path / "a.csv", CsvLayout())
+    for columns in (at_once, by_cells):
+        assert list(columns) == ["a", "rpm", "b"]
+        assert np.array([columns["a"], columns["b"]]).T.tolist() == CELLS
+        np.testing.assert_array_equal(columns["rpm"], [float(slow.get(k, "nan")) for k in range(50)])
+    assert at_once.odd == by_cells.odd
+
+
 @pytest.mark.parametrize("later", ["7", "nan"])
 def test_a_word_above_numbers_is_shown_as_before(later: str, bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("a,b\ng,1.0\n" + f"{later},1.0\n" * 20)

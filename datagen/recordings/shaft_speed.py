@@ -183,7 +183,7 @@ def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[
     if tach.rate_hz is None and pulses.size != size:
         raise BadInput(
             f"holds {pulses.size} samples, the vibration {size}", str(source.path), "tach.variable", tach.variable,
-            "equally many, or the sampling rate of the pulses in tach.rate_hz",
+            "equally many, or the sampling rate of the pulses in tach.rate_hz; a list of times of pulses is not read",
         )  # fmt: skip
     if tach.rate_hz is not None:
         _require_as_long(source, tach.rate_hz, pulses.size, size / rate)
@@ -208,7 +208,8 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
     if inside.size < FEWEST_PULSES:
         raise BadInput(
             f"{inside.size} pulses from {start:g} to {stop:g} s", str(source.path), "tach.variable", tach.variable,
-            f"at least {FEWEST_PULSES} pulses; tach.threshold sets the level at which they are counted",
+            f"at least {FEWEST_PULSES} pulses; tach.threshold sets the level at which they are counted, and an angle "
+            "that only grows shows none",
         )  # fmt: skip
     speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
     if not in_range("speed_rpm", speed):

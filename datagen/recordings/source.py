@@ -39,6 +39,7 @@ LONGEST_GAP, MOST_MISSING = 10, 0.01
 CONSTANT = ("rate_hz",)
 # What is allowed where a variable does not give one number.
 ONE_OF_THEM = 'a single number of it, as in "NAME[0]" or "NAME[0,2]"'
+MOST_OF_THEM = "finite numbers throughout, as missing_samples fills channels only; or a single number, as NAME[0]"
 FACTOR = "factor brings times to s: 1e-6 those in µs, 1e-9 those in ns"
 TIMES = "times in s; of dates and hours of a clock the rate itself, a number"
 Span = tuple[Fraction, Fraction]
@@ -150,7 +151,8 @@ class Source:
             raise BadInput("is not a finite number", str(self.path), name, said.variable, allowed)
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
-            allowed = TIMES if said.times else ONE_OF_THEM if bad.size < found.size else ""
+            one = MOST_OF_THEM if bad.size < found.size / 2 else ONE_OF_THEM
+            allowed = TIMES if said.times else one if bad.size < found.size else ""
             raise self._not_finite(bad, found.size, said.variable, name, allowed)
         if said.times:
             value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)

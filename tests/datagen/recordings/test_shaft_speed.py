@@ -261,3 +261,18 @@ def test_a_steady_shaft_whose_tach_loses_a_pulse_stays_steady(bring: Bring, mat:
     assert not corpus.has(0, "shaft_angle")
     provenance = json.loads(corpus.waveform(0, "provenance"))
     assert provenance.get("mended_pulses", 0) == len(wrong)
+
+
+def test_a_list_of_the_times_of_pulses_and_an_angle_are_told_to_be_no_tach(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", tacho=np.arange(1, 20) * 0.02)
+    with pytest.raises(BadInput, match=r"holds 19 samples, the vibration 400; .*; a list of times of pulses is not"):
+        bring(TACH)
+    mat("a.mat", tacho=np.arange(400) * 0.3)
+    with pytest.raises(BadInput, match=r"1 pulses from 0 to 0\.4 s; .*, and an angle that only grows shows none"):
+        bring(TACH)
+
+
+def test_a_gap_in_the_course_of_a_speed_comes_with_a_way_out(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", rpm=np.where(np.arange(400) == 7, np.nan, 1500.0))
+    with pytest.raises(BadInput, match=r"1 of 400 samples .*; allowed: finite numbers throughout, as missing_samples"):
+        bring(TACH.replace('tach = {variable = "tacho"}', 'speed_rpm = {variable = "rpm"}'))

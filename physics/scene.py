@@ -13,6 +13,10 @@ from physics.rig import Rig
 from physics.spall import Spall, require_apart
 from physics.words import CONTACT_LAWS
 
+# m along the race. To find the path of a ball takes the longer the shorter the surface is: its points lie closer, and
+# the ball is as large as ever. One of a micrometre takes seconds.
+SHORTEST_ROLLED = 1e-6
+
 
 @dataclass(frozen=True)
 class Scene:
@@ -50,6 +54,12 @@ class Scene:
                 spall.row <= bearing.rows,
                 f"spall on row {spall.row}, but bearing {bearing.name} has {bearing.rows} row(s)",
                 "row",
+            )
+            length = spall.rolled_arc * bearing.raceway_radius(spall.race)
+            require(
+                length == 0.0 or length >= SHORTEST_ROLLED,
+                f"a ball is to be rolled over a surface {length:.3g} m long; allowed: from {SHORTEST_ROLLED:g} m",
+                "extent",
             )
         require_apart(self.spalls)
         self._check_second_cage()

@@ -83,6 +83,14 @@ class Spall:
         self._check_roughness()
         self._check_table()
 
+    @property
+    def rolled_arc(self) -> float:
+        """The arc (rad) of the surface over which a ball is rolled to find its path; 0 where the path is a formula."""
+        if self.profile == "table":
+            return self.table_angle[-1] - self.table_angle[0]
+        shaped = self.entry_taper > 0.0 or self.exit_taper > 0.0 or bool(self.roughness_values)
+        return self.extent if self.profile == "ball_path" and shaped else 0.0
+
     def _check_roughness(self) -> None:
         values = self.roughness_values
         if not values:

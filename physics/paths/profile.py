@@ -47,12 +47,9 @@ def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
 
     The same spall and bearing give the same object, so its arrays are for reading only.
     """
-    if spall.profile == "tukey":
-        return _tukey_path(spall)
-    smooth_gap = spall.entry_taper == 0.0 and spall.exit_taper == 0.0 and not spall.roughness_values
-    if spall.profile == "ball_path" and smooth_gap:
-        return _gap_path(spall, bearing)
-    return _rolled_path(spall, bearing)
+    if spall.rolled_arc > 0.0:
+        return _rolled_path(spall, bearing)
+    return _tukey_path(spall) if spall.profile == "tukey" else _gap_path(spall, bearing)
 
 
 def is_rough(spall: Spall, bearing: Bearing) -> bool:

@@ -157,3 +157,30 @@ def test_lists_and_arrays_describe_the_same_scene_as_tuples(healthy, sequence):
 def test_a_single_spall_is_no_sequence_of_them(healthy, single):
     with pytest.raises(InvalidParameter, match=f"spalls is of type {type(single).__name__}; it must be a sequence"):
         dataclasses.replace(healthy, spalls=single)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        {"entry_taper": 1e-12},
+        {"roughness": 1e-6, "roughness_values": (0.0, 1e-6, -1e-6, 0.0)},
+        {"profile": "table", "table_angle": (-1e-11, 1e-11), "table_depth": (1e-5, 1e-5)},
+    ],
+)
+def test_a_surface_too_short_to_roll_a_ball_over_is_refused(healthy, shape):
+    radius = healthy.rig.bearing.raceway_radius("outer")
+    for length, allowed in ((0.9e-6, False), (1.1e-6, True)):
+        shape = {"profile": "ball_path", **shape}
+        if shape["profile"] == "table":
+            shape["table_angle"] = (-0.5 * length / radius, 0.5 * length / radius)
+        spall = Spall("outer", 1, 4.0, 1.001 * length / radius, 1e-5, **shape)
+        if allowed:
+            dataclasses.replace(healthy, spalls=(spall,))
+        else:
+            with pytest.raises(InvalidParameter, match=r"surface 9(\.01)?e-07 m long; allowed: from 1e-06 m"):
+                dataclasses.replace(healthy, spalls=(spall,))
+
+
+def test_a_path_in_closed_form_may_be_as_short_as_it_likes(healthy):
+    for profile in ("tukey", "ball_path"):
+        dataclasses.replace(healthy, spalls=(Spall("outer", 1, 4.0, 1e-12, 1e-5, profile=profile),))

@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import json
 import math
-import re
 import warnings
 from collections.abc import Callable, Container, Iterator
-from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import BLANKS, NotText, Row, open_text, read_csv_rows
-from datagen.formats.csv_layout import CsvLayout
+from datagen.formats.csv_hints import (
+    DECIMAL_COMMA,
+    above_hint,
+    cells_hint,
+    delimiter_hint,
+    headless_hint,
+    refuse_halves,
+    refuse_split_numbers,
+)
+from datagen.formats.csv_layout import CsvLayout, number
 from physics.arrays import Array
 
-DELIMITERS = (";", "\t", "|", ",", BLANKS)
-DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
-# A number with signs between its thousands and another before its decimals.
-THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}([,.' \xa0])\d{3}(?:\1\d{3})*(?!\1)[.,]\d+")
-WHOLE_NUMBER = re.compile(r"[-+]?\d+")
-# Digits behind a decimal sign: no whole number that is written alone begins with 0.
-FRACTION = re.compile(r"0\d+")
-# Rows of a table that show whether its commas are decimal signs.
-ROWS_SHOWN = 256
-ONE_COLUMN = '; did you mean csv = {delimiter = ";", decimal = ","}?'
 # How compressed and packed files begin: gzip, zip (spreadsheets too), 7z, rar.
 PACKED = (b"\x1f\x8b", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
 
@@ -53,7 +49,7 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
     """The columns of a text table by name ("1", "2", … without a header); raises BadInput with the line."""
     _refuse_packed(path)
     try:
-        _refuse_halves(path, layout)
+        refuse_halves(path, layout)
         clean = _clean_table(path, layout)
         if clean is not None:
             return clean
@@ -89,7 +85,7 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     gaps = _gaps(rows[head:], last if is_empty else len(cells))
     words = _columns_of_words(cells[:last] if is_empty else cells, layout, gaps)
     if words:
-        _refuse_split_numbers(path, line, cells, layout)
+        refuse_split_numbers(path, line, cells, layout)
     converters: dict[int | str, Callable[[str], float]] = dict.fromkeys(words, _no_number)
     converters |= dict.fromkeys(gaps, _number_or_nothing)
     if is_empty:
@@ -112,7 +108,7 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     table = table[:, :width]
     first = dict.fromkeys(words + [last] * is_empty, (line, cells)) | gaps
     odd = {names[column]: (where, row[column]) for column, (where, row) in first.items() if column < width}
-    return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, _headless_hint(names, layout))
+    return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, headless_hint(names, layout))
 
 
 def _has_gaps(path: Path, layout: CsvLayout, first: int) -> bool:
@@ -141,8 +137,9 @@ def _gaps(rows: list[Row], width: int) -> dict[int, Row]:
 def _columns_of_words(cells: list[str], layout: CsvLayout, gaps: Container[int]) -> list[int]:
     """Which of the first row's `cells`, but for the `gaps`, are words that no other layout of the table would make
     numbers."""
-    plain = [cell.replace(layout.decimal, ".") for cell in cells]
-    words = [column for column, cell in enumerate(plain) if column not in gaps and not math.isfinite(_number(cell))]
+    words = [
+        column for column, cell in enumerate(cells) if column not in gaps and not math.isfinite(layout.number(cell))
+    ]
     told = [cells[column].strip() for column in words]
     if any('"' in cell or DECIMAL_COMMA.fullmatch(cell) for cell in told):
         return []
@@ -150,7 +147,7 @@ def _columns_of_words(cells: list[str], layout: CsvLayout, gaps: Container[int])
 
 
 def _no_number(cell: str) -> float:
-    if math.isfinite(_number(cell)):
+    if math.isfinite(number(cell)):
         raise ValueError(cell)
     return math.nan
 
@@ -203,18 +200,15 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
     names = _names(path, rows[0], layout, len(rows[0][1]))
     whole, rows = rows, rows[layout.head_rows :]
     if rows:
-        _refuse_split_numbers(path, *rows[0], layout)
+        refuse_split_numbers(path, *rows[0], layout)
     if len({len(row) for _, row in rows}) == 1:
         names, width = _without_end(names, len(rows[0][1]), not any(row[-1].strip() for _, row in rows))
         rows = [(line, row[:width]) for line, row in rows] if width < len(rows[0][1]) else rows
     for line, row in rows:
         if len(row) != len(names):
-            middle = rows[len(rows) // 2][1]
-            parted = _hint(layout.delimiter.join(row), layout.delimiter.join(middle), layout)
-            hint = parted if len(names) == 1 else ""
-            problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or _above_hint(whole, layout)}"
-            allowed = "" if hint else ROWS_ALIKE
-            raise BadInput(problem, f"{path}, line {line}", allowed=allowed)
+            hint = delimiter_hint(row, rows[len(rows) // 2][1], layout) if len(names) == 1 else ""
+            problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or above_hint(whole, layout)}"
+            raise BadInput(problem, f"{path}, line {line}", allowed="" if hint else ROWS_ALIKE)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
     first = {name: int(np.argmin(np.isfinite(numbers))) for name, numbers in columns.items() if numbers.size}
     odd = {
@@ -222,104 +216,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
         for name, k in first.items()
         if not math.isfinite(columns[name][k])
     }
-    told = [cell.strip() for _, cell in odd.values()]
-    hint = _headless_hint(names, layout) or _decimal_hint(told, layout) or _thousands_hint(told)
-    above_numbers = max((_words_above(text, columns[name]) for name, (_, text) in odd.items()), default=0)
-    if not hint and above_numbers and not layout.header:
-        hint = f"; did you mean csv = {{skip_lines = {rows[above_numbers - 1][0]}}}?"
-    elif not hint and above_numbers == 1:
-        hint = f"; did you mean csv = {{skip_below = {layout.skip_below + 1}}}?"
-    if len(names) == 1 and odd and odd[names[0]][0] == rows[0][0]:
-        hint = _hint(odd[names[0]][1], rows[len(rows) // 2][1][0], layout) or hint
-    return Columns(columns, odd, hint)
-
-
-def _refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayout) -> None:
-    """Refuse a `row` that was parted at the decimal commas of its numbers, of which some cells would hold a half."""
-    if layout.delimiter != ",":
-        return
-    whole = ",".join(row)
-    for sign in DELIMITERS:
-        cells = [cell.strip() for cell in _parts(whole, sign) if cell.strip()]
-        broken = [cell for cell in cells if DECIMAL_COMMA.fullmatch(cell)]
-        numbers = len(broken) + sum(bool(WHOLE_NUMBER.fullmatch(cell)) for cell in cells)
-        # Blanks part words too: among them one number with a comma proves nothing.
-        if sign != "," and numbers == len(cells) > 1 and len(broken) > (sign == BLANKS):
-            raise BadInput(
-                "these commas seem to be decimal signs"
-                f'; did you mean csv = {{delimiter = {json.dumps(sign)}, decimal = ","}}?',
-                f"{path}, line {line}", "csv.delimiter", ",",
-            )  # fmt: skip
-
-
-def _refuse_halves(path: Path, layout: CsvLayout) -> None:
-    """Refuse a table without header whose numbers were all parted at their decimal commas, into whole numbers."""
-    if layout.header or layout.delimiter != ",":
-        return
-    rows = read_csv_rows(path, ",", layout.skip_lines, layout.encoding, most=ROWS_SHOWN)
-    cells = [[cell.strip() for cell in row] for _, row in rows]
-    width = len(cells[0]) if cells else 1
-    if width % 2 or not all(len(row) == width and all(map(WHOLE_NUMBER.fullmatch, row)) for row in cells):
-        return
-    fractions = list(zip(*cells, strict=True))[1::2]
-    if all(column[0].isdigit() and any(map(FRACTION.fullmatch, column)) for column in fractions):
-        raise BadInput(
-            f"these commas seem to be decimal signs{ONE_COLUMN if width == 2 else ''}", f"{path}, line {rows[0][0]}",
-            "csv.delimiter", ",", "" if width == 2 else "another delimiter than the decimal sign, in the file itself",
-        )  # fmt: skip
-
-
-def _words_above(text: str, column: Array) -> int:
-    """How many cells that are no numbers, such as units, names or comments of which the first is `text`, are above a
-    `column` of nothing but numbers; 0 if it is none, or these are not most of it."""
-    count = int(np.argmax(np.isfinite(column)))
-    return count if text.strip() and count < column.size / 2 and np.isfinite(column[count:]).all() else 0
-
-
-def _above_hint(rows: list[Row], layout: CsvLayout) -> str:
-    """A remark on how many lines are above those `rows`, most of all, that have as many cells as the last; empty if
-    there are none."""
-    width = len(rows[-1][1])
-    table = rows[len(rows) - sum(1 for _ in takewhile(lambda row: len(row[1]) == width, reversed(rows))) :]
-    if not len(rows) / 2 < len(table) < len(rows):
-        return ""
-    line, cells = table[0]
-    headless = layout.header and any(math.isfinite(_number(cell.replace(layout.decimal, "."))) for cell in cells)
-    return f"; did you mean csv = {{{'header = false, ' * headless}skip_lines = {line - 1}}}?"
-
-
-def _headless_hint(names: list[str], layout: CsvLayout) -> str:
-    """A remark for a table whose column names are all numbers; empty for any other."""
-    if not layout.header or not all(math.isfinite(_number(name.replace(layout.decimal, "."))) for name in names):
-        return ""
-    return "; did you mean csv = {header = false}?"
-
-
-def _decimal_hint(cells: list[str], layout: CsvLayout) -> str:
-    """A remark where a cell that is no number would be one with a decimal comma; empty for any other."""
-    found = layout.delimiter != "," and any(map(DECIMAL_COMMA.fullmatch, cells))
-    return '; did you mean csv = {decimal = ","}?' if found else ""
-
-
-def _thousands_hint(cells: list[str]) -> str:
-    """A remark where a cell is a number with signs between its thousands; empty for any other."""
-    return "; numbers are read without signs between thousands only" if any(map(THOUSANDS.fullmatch, cells)) else ""
-
-
-def _hint(row: str, other: str, layout: CsvLayout) -> str:
-    """A remark on the layout that was probably meant by whoever wrote this `row`; empty if nothing else parts it, and
-    the `other`, from the middle of the table, into as many cells."""
-    if DECIMAL_COMMA.fullmatch(row.strip()):
-        return ONE_COLUMN if layout.delimiter == "," else ""
-    delimiter = next((sign for sign in DELIMITERS if sign in row.strip()), layout.delimiter)
-    if delimiter in (layout.delimiter, layout.decimal) or len(_parts(row, delimiter)) != len(_parts(other, delimiter)):
-        return ""
-    decimal = ', decimal = ","' if delimiter != "," and re.search(r"\d,\d", row) else ""
-    return f"; did you mean csv = {{delimiter = {json.dumps(delimiter)}{decimal}}}?"
-
-
-def _parts(row: str, delimiter: str) -> list[str]:
-    return row.split() if delimiter == BLANKS else row.split(delimiter)
+    return Columns(columns, odd, cells_hint(rows, columns, odd, layout))
 
 
 def _numbers(cells: list[str], decimal: str) -> Array:
@@ -327,11 +224,4 @@ def _numbers(cells: list[str], decimal: str) -> Array:
     try:
         return texts.astype(np.float64)
     except ValueError:
-        return np.array([_number(text) for text in texts.tolist()])
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return float("nan")
+        return np.array([number(text) for text in texts.tolist()])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
@@ -55,6 +56,10 @@ class CsvLayout(Table):
         """Rows above the numbers that are not among `skip_lines`."""
         return int(self.header) + self.skip_below
 
+    def number(self, cell: str) -> float:
+        """The number in a `cell`, with this decimal sign or a point; NaN if it holds none."""
+        return number(cell.replace(self.decimal, "."))
+
     @field_validator("delimiter", "decimal", mode="before")
     @classmethod
     def _is_one_character(cls, sign: Any) -> Any:
@@ -70,3 +75,11 @@ class CsvLayout(Table):
         except (LookupError, ValueError):
             raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ENCODINGS}) from None
         return encoding
+
+
+def number(text: str) -> float:
+    """The number that a `text` is, with a point as decimal sign; NaN if it is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan

@@ -52,8 +52,10 @@ def unset_ratio(scenario: Scenario, labels: Mapping[str, Any]) -> str:
 def lost_in_steps(recorder: Recorder | None, measured: Array, recorded: NDArray[np.float32]) -> str:
     """That nothing is left of what was `measured` (T, 2) along an axis in what was `recorded` (T, 2), m/s²; empty if
     something is."""
+    if recorder is None:
+        return ""
     lost = [axis for k, axis in enumerate(AXES) if measured[:, k].any() and not recorded[:, k].any()]
-    if recorder is None or not lost:
+    if not lost:
         return ""
     return (
         f"the recorder's step of {recorder.step:.3g} m/s² is too coarse for the signal along {' and '.join(lost)}: "

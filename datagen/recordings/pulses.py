@@ -14,6 +14,8 @@ NEIGHBOURS = 9
 # An interval this near to two or more usual ones lacks pulses, two that are this near to one have a pulse too many: the
 # speed changes by no more than a tenth from turn to turn.
 NEAR_WHOLE = 0.2
+# Usual intervals from which one lacks pulses in any case, as no shaft slows down so much from one pulse to the next.
+LONG = 3.0
 # Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does.
 MOST_A_TURN = 0.5
 # Share of the gaps that are as far apart as those of a wheel with one missing tooth, or a few side by side.
@@ -54,7 +56,7 @@ def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     interval = np.diff(single)
     ratio = interval / median_filter(interval, NEIGHBOURS, mode="mirror")
     counts = np.maximum(np.round(ratio), 1.0).astype(np.int64)
-    counts[np.abs(ratio - counts) > NEAR_WHOLE] = 1
+    counts[(np.abs(ratio - counts) > NEAR_WHOLE) & (ratio < LONG)] = 1
     wrong = times.size - single.size + int((counts > 1).sum())
     numbers = np.concatenate([[0], np.cumsum(counts)])
     own = wrong > MOST_A_TURN * times.size / pulses_per_rev

@@ -77,20 +77,21 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     counts = _samples(source, axes)
     filled = _filled(source, axes)
     factor = _scale(source)
-    pieces = _pieces(source, rate, counts.shape[0])
+    part = _part(source, rate, counts.shape[0])
+    pieces = _pieces(source, rate, part)
     shortest = min(stop - start for start, stop in pieces)
-    band = _band(source, rate, shortest, counts[:, axes.index("y")] if "y" in axes else None)
+    band = _band(source, rate, shortest, counts[slice(*part), axes.index("y")] if "y" in axes else None)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
-    speeds = shaft_speeds(source, rate, counts.shape[0], pieces)
+    speeds = shaft_speeds(source, rate, counts.shape[0], part, pieces)
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
-        part = counts[start:stop]
+        samples = counts[start:stop]
         of_piece = {
             "recording": _name(source) + (f"#{piece}" if request.settings.get("cut_s") else ""),
             "speed_rpm": speed.rpm,
             "speed_basis": speed.basis,
-            "duration_s": part.shape[0] / rate,
+            "duration_s": samples.shape[0] / rate,
         }
-        acceleration = _accelerations(part, factor, source)
+        acceleration = _accelerations(samples, factor, source)
         dead = tuple(axis for axis, signal in zip(axes, acceleration.T, strict=True) if is_dead(signal))
         yield Recorded(
             acceleration=acceleration,
@@ -98,7 +99,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             rate=rate,
             labels=labels | of_piece,
             provenance=_provenance(source, factor, start, stop, {"pulses": speed.mended, "samples": filled}, dead),
-            content=samples_hash(rate, *part.T),
+            content=samples_hash(rate, *samples.T),
             shaft_angle=speed.angle,
             dead=dead,
             doubts=scale_doubts(source)
@@ -189,15 +190,30 @@ def _band(source: Source, rate: float, samples: int, signal: NDArray[np.float64]
     return low, high
 
 
-def _pieces(source: Source, rate: float, size: int) -> list[tuple[int, int]]:
+def _part(source: Source, rate: float, size: int) -> tuple[int, int]:
+    """The first sample that is taken of `size` and the one after the last."""
+    start_s, stop_s = source.setting("from_s"), source.setting("to_s")
+    start = 0 if start_s is None else round(start_s * rate)
+    stop = size if stop_s is None else round(stop_s * rate)
+    if stop > size or stop - start < FEWEST_STORED_SAMPLES:
+        field, value = ("from_s", start_s) if stop_s is None else ("to_s", stop_s)
+        fewest, length = FEWEST_STORED_SAMPLES / rate, f"{size / rate:g} s, the length of {source.path.name}"
+        allowed = f"at least {fewest:g} s between from_s and to_s, both within {length}"
+        raise BadInput(file=source.request.place, field=field, value=value, allowed=allowed)
+    return start, stop
+
+
+def _pieces(source: Source, rate: float, part: tuple[int, int]) -> list[tuple[int, int]]:
+    start, stop = part
     cut = source.setting("cut_s")
     if cut is None:
-        return [(0, size)]
-    length = round(cut * rate)
+        return [part]
+    length, size = round(cut * rate), stop - start
     if not FEWEST_STORED_SAMPLES <= length <= size:
-        allowed = f"{FEWEST_STORED_SAMPLES / rate:g} to {size / rate:g} s, the length of {source.path.name}"
+        of_what = "the length" if size == stop else "the part from from_s to to_s"
+        allowed = f"{FEWEST_STORED_SAMPLES / rate:g} to {size / rate:g} s, {of_what} of {source.path.name}"
         raise BadInput(file=source.request.place, field="cut_s", value=cut, allowed=allowed)
-    return [(k * length, (k + 1) * length) for k in range(size // length)]
+    return [(start + k * length, start + (k + 1) * length) for k in range(size // length)]
 
 
 def _provenance(

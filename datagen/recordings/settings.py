@@ -14,6 +14,7 @@ from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 # mm; the balls of bearings are not smaller, and a number below this is a length in m.
 Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
 MOST_BALLS = 200
@@ -40,7 +41,7 @@ class Channel(Table):
 
 
 class Tach(Table):
-    """A pulse channel from which the mean speed of the shaft is computed."""
+    """Pulses of the shaft from which its mean speed is computed: a channel, or the times of them."""
 
     variable: str
     """Variable of the pulses."""
@@ -50,6 +51,19 @@ class Tach(Table):
     """Level that a pulse rises through, in the channel's own unit; half-way between its extremes if not given."""
     rate_hz: Annotated[float, Field(ge=RANGES["rate_hz"].low, le=RANGES["rate_hz"].high)] | None = None
     """Sampling rate of the pulses, if not that of the vibration."""
+    times: bool = False
+    """True for a variable that holds the times of the pulses, s. They are counted from the first sample of the
+    vibration or, where `rate_hz` is read from the times of its samples, by the same clock."""
+    factor: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 1.0
+    """What such times are multiplied by to be seconds."""
+
+    @model_validator(mode="after")
+    def _sampled_or_listed(self) -> Tach:
+        if self.times and (self.rate_hz is not None or self.threshold is not None):
+            raise refuse("times of pulses have neither a sampling rate nor a threshold", "times", "false")
+        if self.factor != 1.0 and not self.times:
+            raise refuse("it brings times to s, and this is a channel", "factor", "1, or times = true")
+        return self
 
 
 class BearingNumbers(Table):
@@ -99,7 +113,7 @@ class RecordingSettings(Table):
     speed_hz: Annotated[float | FromVariable, number("speed_hz")] | None = None
     """Speed of the shaft, revolutions per second."""
     tach: Tach | None = None
-    """Pulse channel that gives the speed."""
+    """Pulses that give the speed."""
     nominal_speed_rpm: Annotated[float | FromVariable, number("nominal_speed_rpm")] | None = None
     """Speed to assume where the variable of `speed_rpm` or `speed_hz` is absent, where `tach` is absent or shows no
     pulse, or where none of these is given. A tach must agree with it within 20 %."""
@@ -107,8 +121,12 @@ class RecordingSettings(Table):
     """Samples that are no finite numbers: refused, or filled by straight lines over gaps of 10 at most, 1 % of all."""
     bearing: str | BearingNumbers | None = None
     """Name of a bearing in the catalogue, or its geometry."""
+    from_s: NonNegative | None = None
+    """Where the part that is taken begins, s from the first sample; there if not given."""
+    to_s: Positive | None = None
+    """Where that part ends, s from the first sample; with the last one if not given."""
     cut_s: Positive | None = None
-    """Length of the pieces that the recording is cut into, s; whole if not given. A shorter rest is left out."""
+    """Length of the pieces that this part is cut into, s; whole if not given. A shorter rest is left out."""
     envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the stored envelope, Hz; by default the most impulsive band of the y axis."""
     recording: Name | None = None

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.recordings.pulses import MOST_MENDED, mended, rising_edges
+from datagen.recordings.pulse_times import pulse_times
+from datagen.recordings.pulses import MOST_MENDED, mended
 from datagen.recordings.settings import Tach
 from datagen.recordings.source import WHOLE, Source, Span, span_of
 from datagen.recordings.values import RANGES, in_range
@@ -28,13 +29,11 @@ STEADY_WITHIN = 0.1
 CREEP = 1e-6
 # Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor.
 NOMINAL_WITHIN = 0.2
-# Share by which a tach of a rate of its own may last longer or shorter than the vibration.
-LASTS_WITHIN = 0.1
 # Share of the pulses that are missing or double above which those of one gap are what is wrong with a tach.
 REST_SHARE = 0.5
 TURNING = (
-    "a shaft that turns throughout: a file of the samples before or behind that alone, or in place of tach "
-    "nominal_speed_rpm or the variable of a measured speed"
+    "a shaft that turns throughout: of the recording the part before or behind that alone (from_s, to_s), or in place "
+    "of tach nominal_speed_rpm or the variable of a measured speed"
 )
 
 
@@ -50,21 +49,25 @@ class ShaftSpeed:
     mended: int = 0
 
 
-def shaft_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:
-    """The speed in each piece, a first sample and the one after the last, of `size` in all.
+def shaft_speeds(
+    source: Source, rate: float, size: int, part: tuple[int, int], pieces: list[tuple[int, int]]
+) -> Iterator[ShaftSpeed]:
+    """The speed in each of the pieces of a part of `size` samples; both are a first sample and the one after the last.
 
     `rate` is the vibration's, Hz. The nominal speed, if stated, stands for a tach that the file lacks or that shows no
     pulse; BadInput if a tach disagrees with it.
     """
     tach = source.setting("tach")
-    times = None if tach is None else _pulse_times(source, tach, rate, size)
+    times = None if tach is None else pulse_times(source, tach, rate, size)
     if times is None:
         return _stated_speeds(source, rate, size, pieces)
+    start, stop = part[0] / rate, part[1] / rate
+    times = times[(times >= start) & (times <= stop)]
     whole, wrong = mended(times, tach.pulses_per_rev)
     if wrong > MOST_MENDED * whole.size:
         raise _irregular(source, tach, times, whole.size, wrong)
     times = whole
-    _require_nominal(source, tach, times, size / rate)
+    _require_nominal(source, tach, times, start, stop)
     return _tach_speeds(source, tach, times, wrong, rate, pieces)
 
 
@@ -83,13 +86,13 @@ def _irregular(source: Source, tach: Tach, times: NDArray[np.float64], whole: in
     return BadInput(problem, str(source.path), "tach.variable", tach.variable, allowed)
 
 
-def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], duration: float) -> None:
-    """Raises BadInput if the mean speed over the pulses at the `times` (N,) in a recording of that `duration`, s, is
-    not about the nominal one, where this is known."""
+def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> None:
+    """Raises BadInput if the mean speed over the pulses at the `times` (N,) from `start` to `stop`, s, is not about the
+    nominal one, where this is known."""
     nominal = source.or_none("nominal_speed_rpm")
     if nominal is None:
         return
-    mean = tach_speed(source, tach, times, 0.0, duration)
+    mean = tach_speed(source, tach, times, start, stop)
     if abs(mean - nominal) > NOMINAL_WITHIN * nominal:
         raise BadInput(
             f"its pulses give {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}", str(source.path),
@@ -169,37 +172,6 @@ def told_course(source: Source, span: Span = WHOLE) -> NDArray[np.float64] | Non
     one."""
     courses = ((source.course(name, span), factor) for name, factor in RPM_PER.items())
     return next((factor * course for course, factor in courses if course is not None), None)
-
-
-def _pulse_times(source: Source, tach: Tach, rate: float, size: int) -> NDArray[np.float64] | None:
-    """When the pulses (N,) rise, s; None where there are none to be found and a nominal speed is known.
-
-    Raises BadInput if they cannot be timed by the vibration of `size` samples at `rate`, Hz.
-    """
-    dispensable = source.or_none("nominal_speed_rpm") is not None
-    if dispensable and not source.variable(tach.variable, "tach.variable"):
-        return None
-    pulses = source.array(tach.variable, "tach.variable")
-    if tach.rate_hz is None and pulses.size != size:
-        raise BadInput(
-            f"holds {pulses.size} samples, the vibration {size}", str(source.path), "tach.variable", tach.variable,
-            "equally many, or the sampling rate of the pulses in tach.rate_hz; a list of times of pulses is not read",
-        )  # fmt: skip
-    if tach.rate_hz is not None:
-        _require_as_long(source, tach.rate_hz, pulses.size, size / rate)
-    edges = rising_edges(pulses, tach.threshold)
-    return edges / (tach.rate_hz or rate) if edges.size or not dispensable else None
-
-
-def _require_as_long(source: Source, rate: float, size: int, duration: float) -> None:
-    """Raises BadInput if `size` samples of a tach at its own `rate` (Hz) do not last about the vibration's `duration`,
-    s: mostly that rate is wrong, and so would be the speed."""
-    lasts = size / rate
-    if abs(lasts - duration) > LASTS_WITHIN * duration:
-        raise BadInput(
-            f"its {size} samples then last {lasts:.4g} s, the vibration {duration:.4g} s", str(source.path),
-            "tach.rate_hz", rate, f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
-        )  # fmt: skip
 
 
 def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> float:

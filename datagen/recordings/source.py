@@ -75,14 +75,7 @@ class Source:
 
     def array(self, wish: str, field: str) -> Array:
         """The samples (T,) of a variable: finite numbers, at least 16, short gaps filled if that is asked for."""
-        found = choose(self.arrays, wish, self.path, field)
-        if found.dtype.kind not in "iuf":
-            raise BadInput(f"holds {found.dtype}, not real numbers", str(self.path), field, wish)
-        if found.ndim != 1 and found.size:
-            shape = "x".join(map(str, found.shape)) or "one number"
-            lying = found.ndim == 2 and found.shape[0] < found.shape[1]
-            allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'
-            raise BadInput(f"is not a single channel ({shape})", str(self.path), field, wish, allowed)
+        found = self._row(wish, field)
         if found.size < FEWEST_STORED_SAMPLES:
             raise BadInput(
                 f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_STORED_SAMPLES} samples"
@@ -103,6 +96,41 @@ class Source:
         good = np.flatnonzero(np.isfinite(values))
         values[bad] = np.interp(bad, good, values[good])
         return values
+
+    def instants(self, wish: str, field: str) -> Array:
+        """The rising finite numbers (N,) that a variable lists, without what is missing behind the last of them, as in
+        a column of a table that is shorter than others."""
+        found = self._row(wish, field).astype(np.float64)
+        missing = self.missing(wish, field)
+        told = found[: np.flatnonzero(np.isfinite(found)).max(initial=-1) + 1]
+        if (missing.size and missing[0] < told.size) or (missing.size and not self._empty(wish, field)):
+            raise self._not_finite(missing, found.size, wish, field, "times alone")
+        if (np.diff(told) <= 0.0).any():
+            at = int(np.argmax(np.diff(told) <= 0.0))
+            raise BadInput(
+                f"{told[at + 1]:g} follows {told[at]:g}", str(self.path), field, wish, "times that rise throughout"
+            )
+        return told
+
+    def first_time(self) -> float:
+        """Time of the first sample, s, where the file holds the times of its samples; otherwise 0."""
+        said = self.setting("rate_hz")
+        if not isinstance(said, FromVariable) or not said.times:
+            return 0.0
+        times = choose(self.arrays, said.variable, self.path, "rate_hz")
+        return float(times[0]) * said.factor if times.ndim == 1 and times.size > 1 else 0.0
+
+    def _row(self, wish: str, field: str) -> NDArray[Any]:
+        """The real numbers (T,) of a variable that is a single channel."""
+        found = choose(self.arrays, wish, self.path, field)
+        if found.dtype.kind not in "iuf":
+            raise BadInput(f"holds {found.dtype}, not real numbers", str(self.path), field, wish)
+        if found.ndim != 1 and found.size:
+            shape = "x".join(map(str, found.shape)) or "one number"
+            lying = found.ndim == 2 and found.shape[0] < found.shape[1]
+            allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'
+            raise BadInput(f"is not a single channel ({shape})", str(self.path), field, wish, allowed)
+        return found
 
     def _empty(self, wish: str, field: str) -> bool:
         """Whether all samples that are not numbers are empty, as far as a text table shows that, and not some other

@@ -82,6 +82,12 @@ def test_a_wheel_whose_missing_teeth_are_counted_among_its_pulses_has_them_put_i
     np.testing.assert_allclose(found, turning, atol=1e-3 / (20.0 * teeth))  # of an interval
 
 
+def test_a_rest_that_is_no_whole_number_of_intervals_lacks_pulses_all_the_same() -> None:
+    turning = np.arange(40) / 20.0
+    _, count = mended(np.concatenate([turning, turning + turning[-1] + 7.45 / 20.0]), 1.0)
+    assert count == 6  # seven intervals instead of one
+
+
 @pytest.mark.parametrize(
     "times",
     [

@@ -154,7 +154,7 @@ def test_the_edges_of_a_recording_are_looked_for_once_however_many_its_pieces(
         return rising_edges(pulses, threshold)
 
     mat("a.mat", tacho=np.tile([0.0, 0.0, 0.0, 0.0, 1.0], 80))
-    monkeypatch.setattr("datagen.recordings.shaft_speed.rising_edges", counting)
+    monkeypatch.setattr("datagen.recordings.pulse_times.rising_edges", counting)
     corpus = bring(
         '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\ncut_s = 0.05\n'
         'tach = {variable = "tacho"}\n'
@@ -263,9 +263,9 @@ def test_a_steady_shaft_whose_tach_loses_a_pulse_stays_steady(bring: Bring, mat:
     assert provenance.get("mended_pulses", 0) == len(wrong)
 
 
-def test_a_list_of_the_times_of_pulses_and_an_angle_are_told_to_be_no_tach(bring: Bring, mat: Mat) -> None:
+def test_a_list_of_the_times_of_pulses_needs_to_be_told_and_an_angle_is_no_tach(bring: Bring, mat: Mat) -> None:
     mat("a.mat", tacho=np.arange(1, 20) * 0.02)
-    with pytest.raises(BadInput, match=r"holds 19 samples, the vibration 400; .*; a list of times of pulses is not"):
+    with pytest.raises(BadInput, match=r"holds 19 samples, the vibration 400; .*, or tach\.times = true if these are"):
         bring(TACH)
     mat("a.mat", tacho=np.arange(400) * 0.3)
     with pytest.raises(BadInput, match=r"1 pulses from 0 to 0\.4 s; .*, and an angle that only grows shows none"):
@@ -276,3 +276,75 @@ def test_a_gap_in_the_course_of_a_speed_comes_with_a_way_out(bring: Bring, mat: 
     mat("a.mat", rpm=np.where(np.arange(400) == 7, np.nan, 1500.0))
     with pytest.raises(BadInput, match=r"1 of 400 samples .*; allowed: finite numbers throughout, as missing_samples"):
         bring(TACH.replace('tach = {variable = "tacho"}', 'speed_rpm = {variable = "rpm"}'))
+
+
+LISTED = TACH.replace('"tacho"', '"tacho", times = true')
+
+
+def test_the_times_of_pulses_give_speed_and_angle_as_a_channel_of_them_does(bring: Bring, mat: Mat) -> None:
+    turns = np.arange(0.0, 8.0, 0.5)  # two pulses a turn, 0.4 s in which the shaft goes from 10 to 30 turns a second
+    times = (np.sqrt(100.0 + 100.0 * turns) - 10.0) / 50.0
+    mat("a.mat", tacho=times * 1e3)
+    corpus = bring(LISTED.replace("times = true", "times = true, factor = 1e-3, pulses_per_rev = 2"))
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([60.0 * 7.5 / times[-1]])
+    assert corpus.labels["speed_basis"].tolist() == ["tach"]
+    instants = np.arange(400) / 1000.0
+    turned = 2.0 * np.pi * (10.0 * instants + 25.0 * instants**2)
+    assert corpus.waveform(0, "shaft_angle") == pytest.approx(turned, abs=0.15)
+
+
+def test_the_times_of_pulses_are_by_the_clock_of_the_vibrations_samples(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", t=100.0 + np.arange(400) / 1000.0, tacho=np.arange(99.0, 102.0, 0.04))
+    spec = LISTED.replace("rate_hz = 1000", 'rate_hz = {variable = "t", times = true}')
+    assert bring(spec).labels["speed_rpm"].tolist() == pytest.approx([1500.0])
+    with pytest.raises(BadInput, match=r"its pulses are from 99 to 10\d s after the first sample, .* lasts 0\.4 s"):
+        bring(LISTED, "other clock")
+
+
+def test_a_column_of_the_times_of_pulses_may_be_shorter_than_the_others(bring: Bring, tmp_path: Path) -> None:
+    table = tmp_path / "a.csv"
+    rows = [f"{k % 7},{0.02 * k if k < 20 else ''}" for k in range(400)]
+    table.write_text("\n".join(["sig,tacho", *rows]))
+    spec = LISTED.replace("*.mat", "*.csv")
+    assert bring(spec).labels["speed_rpm"].tolist() == pytest.approx([3000.0])
+    table.write_text("\n".join(["sig,tacho", *rows[:5], "1,late", *rows[6:]]))
+    with pytest.raises(BadInput, match=r"a\.csv, line 7: tach\.variable = .*; allowed: times alone"):
+        bring(spec, "a word among them")
+
+
+@pytest.mark.parametrize(
+    ("tach", "message"),
+    [
+        ("times = true, rate_hz = 100", "times of pulses have neither a sampling rate nor a threshold"),
+        ("times = true, threshold = 1", "times of pulses have neither a sampling rate nor a threshold"),
+        ("factor = 0.001", "it brings times to s, and this is a channel"),
+        ("times = true, factor = -1", "allowed: above 0"),
+    ],
+)
+def test_settings_of_a_tach_that_do_not_go_together_are_refused(
+    bring: Bring, mat: Mat, tach: str, message: str
+) -> None:
+    mat("a.mat", tacho=np.arange(1, 20) * 0.02)
+    with pytest.raises(BadInput, match=message):
+        bring(TACH.replace('"tacho"', f'"tacho", {tach}'))
+
+
+def test_times_of_pulses_that_do_not_rise_are_refused(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", tacho=np.array([0.1, 0.2, 0.2, 0.3]))
+    with pytest.raises(BadInput, match=r"tach\.variable = \"tacho\": 0\.2 follows 0\.2; allowed: times that rise"):
+        bring(LISTED)
+
+
+def test_a_part_in_which_the_shaft_turns_is_taken_of_a_recording_in_which_it_rests(bring: Bring, mat: Mat) -> None:
+    pulses = np.zeros(400)
+    pulses[5:100:5] = pulses[300:400:10] = 1.0  # 12000 rpm, a rest, 6000 rpm
+    mat("a.mat", tacho=pulses)
+    with pytest.raises(BadInput, match=r"the part before or behind that alone \(from_s, to_s\)"):
+        bring(TACH)
+    before, behind = bring(TACH + "to_s = 0.1\n", "before"), bring(TACH + "from_s = 0.29\ncut_s = 0.055\n", "behind")
+    assert before.labels["speed_rpm"].tolist() == pytest.approx([12000.0])
+    assert before.labels["duration_s"].tolist() == pytest.approx([0.1])
+    assert behind.labels["recording"].tolist() == ["a#0", "a#1"]
+    assert behind.labels["speed_rpm"].tolist() == pytest.approx([6000.0, 6000.0])
+    places = [json.loads(behind.waveform(record, "provenance"))["first_sample"] for record in (0, 1)]
+    assert places == [290, 345]

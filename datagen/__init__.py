@@ -9,6 +9,7 @@
   of them need), `charts/` (speed against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
-- what all of them use: `errors` (what a person wrote, refused), `progress` (how far a command has got), `exits` (how
-  programs end), `garbage` (looked for seldom), `processes` (none outlives its parent), `versions`
+- what all of them use: `errors` (what a person wrote, refused), `counts` (as people read them), `progress` (how far a
+  command has got), `exits` (how programs end), `garbage` (looked for seldom), `processes` (none outlives its parent),
+  `versions`
 """

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from datagen.cards.facts import Facts, Kind, Solved
 from datagen.corpus_files.format import IMPORTED
-from datagen.files.byte_counts import bytes_text
+from datagen.counts import bytes_text
 from labels.schema import LABEL, LABELS, UNKNOWN
 
 NOT_STATED = "not stated"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, complain, write_json
+from datagen.counts import counted
 from datagen.exits import FAILED
 
 if TYPE_CHECKING:
@@ -36,8 +37,8 @@ def check(
 
 
 def _print_verdict(verdict: Verdict, remake: int) -> None:
-    state = "sound" if verdict.sound else f"NOT sound: {len(verdict.problems)} problems"
-    print(f"{verdict.folder}: {verdict.records} records in {verdict.shards} shards, {state}")
+    state = "sound" if verdict.sound else f"NOT sound: {counted(len(verdict.problems), 'problem')}"
+    print(f"{verdict.folder}: {counted(verdict.records, 'record')} in {counted(verdict.shards, 'shard')}, {state}")
     if not verdict.remade and verdict.sound and remake and not verdict.imported:
         print("not simulated again: this program's version of the physics differs from the corpus's")
     if verdict.remade:

@@ -12,6 +12,7 @@ from datagen.benchmark.options import Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
+from datagen.counts import counted
 from datagen.judging.stated_speed import SPEED_ERROR
 from labels.schema import LOCATIONS
 
@@ -132,7 +133,7 @@ def print_results(tests: list[CorpusResults]) -> None:
 
     for test in tests:
         found = test.scores
-        print(f"{found.corpus}: {found.records} records, {found.locations}")
+        print(f"{found.corpus}: {counted(found.records, 'record')}, {found.locations}")
         scored = any(found.locations.get(location) for location in LOCATIONS)
         if not scored:
             print("  no scores  the true class of no record is known")

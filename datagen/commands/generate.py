@@ -9,9 +9,9 @@ import typer
 
 from datagen.commands.program import JsonFile, command, complain, write_json
 from datagen.commands.progress_display import show_records
+from datagen.counts import bytes_text
 from datagen.errors import BadInput
 from datagen.exits import FAILED
-from datagen.files.byte_counts import bytes_text
 from datagen.files.places import FAILURES
 
 if TYPE_CHECKING:

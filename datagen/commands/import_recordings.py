@@ -10,7 +10,7 @@ import typer
 
 from datagen.commands.program import JsonFile, command, complain, write_json
 from datagen.commands.progress_display import show_steps
-from datagen.files.byte_counts import bytes_text
+from datagen.counts import bytes_text, counted
 
 if TYPE_CHECKING:
     from datagen.recordings.importing import Imported
@@ -50,8 +50,8 @@ def _print_result(done: Imported) -> None:
     if done.few_turns:
         complain(done.few_turns)
     print(
-        f"{done.records} records of {done.files} files are in {done.folder} "
-        f"({done.shards} shards, {bytes_text(done.bytes)}, {done.seconds:.1f} s)"
+        f"{done.folder}: {counted(done.records, 'record')} of {counted(done.files, 'file')} "
+        f"({counted(done.shards, 'shard')}, {bytes_text(done.bytes)}, {done.seconds:.1f} s)"
     )
     for reason, count in _unjudged(Path(done.folder)).items():
         print(f"`classify` will reject {count} of them: {reason}")

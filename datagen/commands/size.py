@@ -9,6 +9,7 @@ import typer
 
 from datagen.commands.program import CorpusFolder, JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
+from datagen.counts import counted
 from datagen.files.places import require_results_folder
 
 if TYPE_CHECKING:
@@ -86,7 +87,8 @@ def _print_result(scores: SizeScores) -> None:
     silent = (
         "" if asked == len(scores.records) else f", {len(scores.records) - asked} could not be given to the estimator"
     )
-    print(f"{scores.folder}, split {scores.split}: {len(scores.records)} records, {answered} with an estimate{silent}")
+    records = counted(len(scores.records), "record")
+    print(f"{scores.folder}, split {scores.split}: {records}, {answered} with an estimate{silent}")
     if scores.load_known and not scores.load_given:
         print("blind: the load or the Hertz factor of these records is unknown")
     if scores.stated is not None:

@@ -8,7 +8,7 @@ from rich.table import Table
 
 from datagen.corpus_files.format import IMPORTED
 from datagen.corpus_files.reading import AGAIN
-from datagen.files.byte_counts import bytes_text
+from datagen.counts import bytes_text, counted
 from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def _simulated(info: Info) -> dict[str, str]:
     return {
         "could not be made": str(info.failed),
         "virtual bearings": info.bearings_text,
-        "to be read with care": f"{info.outside_validity} records",
+        "to be read with care": counted(info.outside_validity, "record"),
     }
 
 

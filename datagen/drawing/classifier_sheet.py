@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.counts import counted
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, png_of, with_panels
 from physics.bearing import RACES
 
@@ -53,7 +54,7 @@ def draw_results(results: Results) -> Figure:
 def draw_scores(axes: Axes, test: CorpusScores) -> None:
     """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals; false alarms where
     there are no faults."""
-    title = f"{Path(test.corpus).name}: {test.records} records"
+    title = f"{Path(test.corpus).name}: {counted(test.records, 'record')}"
     if not any(test.locations[race] for race in RACES):
         alarms = (f"{name}: {said.false_alarms} of {said.healthy}" for name, said in test.models.items())
         say(axes, title, "no faults to score\n\nfalse alarms\n" + "\n".join(alarms))

@@ -16,6 +16,7 @@ from datagen.corpus_files.index import LABEL_COLUMNS, read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest, shard_entry
 from datagen.corpus_files.reading import READ_ERRORS, unencodable
 from datagen.corpus_files.shard import Sidecar, label_columns, read_sidecar, shard_path, shards_folder, sidecar_path
+from datagen.counts import counted
 from datagen.errors import BadInput
 from datagen.files.atomic import is_held
 from datagen.files.digest import file_hash
@@ -225,7 +226,7 @@ class _Check:
             )
         self.problems += differences(self.manifest, self.folder, self.sidecars, compare_sums=not self.unlisted)
         if failed & asked:
-            self.problems.append(f"{len(failed & asked)} records could not be made; {FAILURES} says why")
+            self.problems.append(f"{counted(len(failed & asked), 'record')} could not be made; {FAILURES} says why")
         if self.index is None:
             return
         if set(self.index["record"]) != self.records or not self.index["record"].is_unique:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import ShardEntry
+from datagen.counts import counted
 from datagen.files.time_stamps import HDF5_SIGNATURE
 from datagen.inspection.asked_for import asked_of
 from datagen.scenarios.redraw import Refused
@@ -80,7 +81,7 @@ class Info:
         by_split = ", ".join(f"{split} {count}" for split, count in self.bearings_in_split.items())
         known = f"{self.bearings} ({by_split})" if self.bearings else UNKNOWN
         return (
-            f"{known}; {self.of_unknown_bearing} records of unknown ones"
+            f"{known}; {counted(self.of_unknown_bearing, 'record')} of unknown ones"
             if 0 < self.of_unknown_bearing < self.records
             else known
         )

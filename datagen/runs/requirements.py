@@ -10,8 +10,8 @@ from itertools import chain
 from pathlib import Path
 
 from datagen.corpus_files.manifest import Span, manifest_path
+from datagen.counts import bytes_text
 from datagen.errors import BadInput
-from datagen.files.byte_counts import bytes_text
 from datagen.files.places import OUT
 from datagen.recipes.recipe import Recipe
 from datagen.runs.plan import PlannedShard, stored_bytes

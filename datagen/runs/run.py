@@ -22,8 +22,8 @@ from datagen.corpus_files.shard import (
     sidecar_path,
     sweep_unfinished,
 )
+from datagen.counts import bytes_text, counted
 from datagen.files.atomic import NO_SPACE, write_atomically
-from datagen.files.byte_counts import bytes_text
 from datagen.files.places import FAILURES
 from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
@@ -188,11 +188,11 @@ class Run:
 
     def _announce(self, todo: Sequence[PlannedShard]) -> None:
         needed, free = needed_bytes(todo), shutil.disk_usage(self.folder).free
-        count = sum(len(shard.records) for shard in todo)
+        records = counted(sum(len(shard.records) for shard in todo), "record")
         warning = "" if needed < free else ": the disk will be full before the end"
         self.listener.say(
-            f"{count} records in {len(todo)} shards to make; they will need about {bytes_text(needed)} of disk space, "
-            f"{bytes_text(free)} are free{warning}"
+            f"{records} in {counted(len(todo), 'shard')} to make; they will need about {bytes_text(needed)} of disk "
+            f"space, {bytes_text(free)} are free{warning}"
         )
 
     def _make_persistently(self, todo: list[PlannedShard]) -> None:

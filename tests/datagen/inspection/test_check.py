@@ -209,7 +209,7 @@ def test_a_bearing_in_two_splits_is_found(copy: Path) -> None:
 @pytest.mark.usefixtures("record_3_fails")
 def test_a_record_that_could_not_be_made_is_told_once_and_is_not_missing(tiny: Recipe, tmp_path: Path) -> None:
     assert not generate(tiny, tmp_path / "out", limit=4, engine=Engine(workers=1)).complete
-    assert only_problem(tmp_path / "out") == "1 records could not be made; failed.jsonl says why"
+    assert only_problem(tmp_path / "out") == "1 record could not be made; failed.jsonl says why"
 
 
 def stop_on_the_way(folder: Path) -> None:

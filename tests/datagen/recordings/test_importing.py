@@ -195,7 +195,7 @@ def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat
     assert table["location"].tolist() == ["outer", "inner", "ball"]
     assert table["rig"].tolist() == ["mill", "fan", "fan"]
     assert table["bearing_id"].tolist() == ["x", "y", "unknown"]
-    assert corpus_info(corpus.folder).bearings_text == "2 (unknown 2); 1 records of unknown ones"
+    assert corpus_info(corpus.folder).bearings_text == "2 (unknown 2); 1 record of unknown ones"
     assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
 
 
@@ -317,7 +317,7 @@ def test_a_dead_sensor_comes_in_with_a_warning(mat: Mat, tmp_path: Path) -> None
     )
     code, shown, message = run("import", tmp_path / "spec.toml", "--out", tmp_path / "out", "--json", tmp_path / "j")
     assert code == 0
-    assert shown.startswith("3 records of 3 files")
+    assert ": 3 records of 3 files (" in shown
     names = ["dead (x, y)", "gone (x, y)", "half (x)"]
     assert message == f"3 without a signal, as if the sensor were not connected: {', '.join(names)}\n"
     assert json.loads((tmp_path / "j").read_text())["dead"] == names

@@ -503,7 +503,7 @@ def test_a_run_says_beforehand_what_disk_it_needs(
     tiny: Recipe, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     generate(tiny, tmp_path / "out", limit=1, engine=ALONE, listener=Listener(say=Lines().say))
-    assert "1 records in 1 shards to make; they will need about" in capsys.readouterr().err
+    assert "1 record in 1 shard to make; they will need about" in capsys.readouterr().err
 
 
 def test_a_dask_scheduler_that_does_not_answer_is_refused_before_anything_is_written(

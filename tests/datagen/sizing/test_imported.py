@@ -76,7 +76,7 @@ def test_recordings_are_given_sizes_or_not_without_being_scored(tmp_path: Path) 
     assert not only.found
     code, said, _ = size(corpus, "--out", tmp_path / "out")
     assert code == 0
-    assert "1 records, 0 with an estimate" in said
+    assert "1 record, 0 with an estimate" in said
     assert "│ 0 │ noise │ │ │ │" in said
     assert (tmp_path / "out" / "estimates.csv").read_text().count("\n") == 2  # a line of names and one record
     assert not (tmp_path / "out" / "size_report.png").exists()

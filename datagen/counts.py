@@ -1,4 +1,4 @@
-"""Numbers of bytes as people read them."""
+"""Numbers of bytes and of things as people read them."""
 
 from __future__ import annotations
 
@@ -6,3 +6,8 @@ from __future__ import annotations
 def bytes_text(count: float) -> str:
     """A number of bytes in MB or GB, whichever suits it, with one decimal."""
     return f"{count / 1e9:.1f} GB" if count >= 1e9 else f"{count / 1e6:.1f} MB"
+
+
+def counted(count: int, what: str) -> str:
+    """A number of things, as "1 record" or "2 records"."""
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"

@@ -202,6 +202,14 @@ def test_slip_is_off_at_zero_deviation_and_separate_cages_slip_apart() -> None:
     assert draw(machine={"rig": "cwru", "separate_cages": True})[0].scene.second_cage is None
 
 
+def test_the_cages_of_both_rows_start_at_the_angles_that_are_stated_for_them() -> None:
+    operation = {"cage_angle_deg": 30, "second_cage_angle_deg": 90}
+    scene = draw(machine={"rig": "gearbox", "separate_cages": True}, operation=operation)[0].scene
+    assert scene.second_cage is not None
+    assert scene.cage.start_angle == pytest.approx(math.pi / 6.0, rel=1e-15)  # one rounding
+    assert scene.second_cage.start_angle == pytest.approx(math.pi / 2.0, rel=1e-15)
+
+
 def test_an_unbalance_grade_gives_a_load_of_mass_times_grade_times_speed() -> None:
     operation = {"speed_rpm": {"uniform": [300, 3000]}, "unbalance_grade_mm_per_s": 6.3, "slip_deviation": 0}
     for scenario in draw(5, machine={"rig": "fan"}, operation=operation):

@@ -100,10 +100,11 @@ def test_a_fixed_spall_arrives_in_si_units() -> None:
     assert (scenario.condition, scenario.location) == ("line", "inner")
 
 
-def test_the_size_may_be_an_arc_a_length_or_a_share_of_the_spacing() -> None:
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_the_size_may_be_an_arc_a_length_or_a_share_of_the_spacing(race: str) -> None:
     bearing = catalog.bearing("koyo_1205")
-    base = {"condition": "line", "depth_um": 12}
-    sizes = {"extent_deg": 2.0, "extent_mm": math.radians(2) * bearing.raceway_radius("outer") * 1e3}
+    base = {"condition": "line", "depth_um": 12, "race": race}
+    sizes = {"extent_deg": 2.0, "extent_mm": math.radians(2) * bearing.raceway_radius(race) * 1e3}
     sizes["extent_spacing"] = math.radians(2) / bearing.spacing
     extents = [draw(defect=base | {key: value})[0].scene.spalls[0].extent for key, value in sizes.items()]
     assert extents == pytest.approx([math.radians(2)] * 3, rel=1e-14)  # a few roundings

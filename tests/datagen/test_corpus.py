@@ -188,6 +188,12 @@ def test_folds_keep_the_records_of_a_bearing_together_and_use_each_record_once(c
     assert sorted(tested) == list(range(14))
 
 
+def test_folds_follow_from_their_seed(corpus: Corpus) -> None:
+    zero, again, one = ([test.tolist() for _, test in corpus.folds(3, seed=seed)] for seed in (0, 0, 1))
+    assert zero == again
+    assert zero != one
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -50,6 +50,13 @@ def test_probabilities_are_sorted_by_the_names_of_the_classes():
     assert found[0, CLASSES.index("extended inner")] == 0.0
 
 
+def test_columns_that_an_estimator_sorts_by_name_come_in_the_order_of_the_classes():
+    guesser = Guesser().fit(None, np.repeat(["line outer", "healthy", "extended inner"], (5, 3, 2)))
+    assert guesser.classes_.tolist() == ["extended inner", "healthy", "line outer"]
+    # Healthy, line outer, line inner, extended outer, extended inner.
+    np.testing.assert_allclose(class_probability(guesser, ROWS), np.tile([0.3, 0.5, 0.0, 0.0, 0.2], (3, 1)), rtol=1e-12)
+
+
 def test_names_and_probabilities_of_a_function_are_taken_as_they_are():
     assert class_probability(lambda table: np.full(len(table), "line outer"), ROWS)[:, 1].tolist() == [1.0] * 3
     said = np.tile([0.2, 0.1, 0.3, 0.4, 0.0], (3, 1))

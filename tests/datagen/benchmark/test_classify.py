@@ -90,11 +90,13 @@ def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
 
 @pytest.fixture
 def divided(tiny_corpus, tmp_path):
-    """A copy of the tiny corpus in which every fourth bearing is of the split test."""
+    """A copy of the tiny corpus in which every fourth bearing is of the split test and every second of validation."""
     copy = tmp_path / "divided"
     shutil.copytree(tiny_corpus, copy)
     index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
-    index["split"] = np.where(index["bearing_id"].isin(sorted(index["bearing_id"].unique())[::4]), "test", "train")
+    bearings = sorted(index["bearing_id"].unique())
+    index["split"] = np.where(index["bearing_id"].isin(bearings[1::2]), "validation", "train")
+    index.loc[index["bearing_id"].isin(bearings[::4]), "split"] = "test"
     index.to_csv(copy / "index.csv", index=False)
     return copy
 

@@ -71,6 +71,13 @@ def test_what_is_said_is_rejected_by_its_own_probability():
     assert doubted.condition.tolist() == [REJECTED, "line", "healthy"]
 
 
+def test_probabilities_of_a_prediction_are_summed_over_classes_under_the_names_of_location_and_condition():
+    # Healthy, line outer, line inner, extended outer, extended inner.
+    said = record_predictions(judged(["outer"], [[0.1, 0.2, 0.05, 0.5, 0.15]]))[0].models["said"]
+    assert said.location_probability == pytest.approx({"none": 0.1, "outer": 0.7, "inner": 0.2}, rel=1e-12)
+    assert said.condition_probability == pytest.approx({"healthy": 0.1, "line": 0.25, "extended": 0.65}, rel=1e-12)
+
+
 def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
     locations = ["outer", "inner"] * 12
     generator = np.random.default_rng(2)

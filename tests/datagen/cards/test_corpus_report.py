@@ -101,6 +101,11 @@ def test_toml_text_is_read_back_as_the_same_data() -> None:
     assert tomllib.loads(toml_text(data | {"nothing": None, "empty": []})) == data
 
 
+def test_toml_keeps_zeros_false_and_empty_texts() -> None:
+    data = {"seed": 0, "store": {"clean": False, "a": 0.0, "b": "", "c": 1, "d": [0]}, "part": [{"records": 0}]}
+    assert tomllib.loads(toml_text(data)) == data
+
+
 def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Path) -> None:
     document = json.loads(croissant_text(tiny_corpus, corpus_facts(tiny_corpus), tiny_corpus))
     assert document["@type"] == "sc:Dataset"
@@ -147,6 +152,16 @@ def test_labels_in_the_common_vocabulary_have_a_row_a_signal(tiny_corpus: Path) 
     assert {row["fault_type"] for row in rows} == {
         {"none": "normal"}.get(place, place) for place in corpus.labels["location"]
     }
+
+
+def test_labels_in_the_common_vocabulary_say_in_which_row_of_which_file_a_signal_lies(tiny_corpus: Path) -> None:
+    with Corpus(tiny_corpus) as corpus:
+        rows = list(csv.DictReader(vocabulary_table(corpus).splitlines()))
+    found = []
+    for row in rows:
+        with xarray.open_dataset(tiny_corpus / row["signal_file"]) as shard:
+            found.append(f"{int(shard['record'][int(row['signal_row'])])}_{row['axis']}")
+    assert found == [row["signal_id"] for row in rows]
 
 
 def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path) -> None:

@@ -154,6 +154,11 @@ def test_a_dataset_made_by_the_format_breaks_none_of_its_rules(dataset: xarray.D
         ("extent_spacing", 1.0, "condition and extent_spacing disagree"),  # of a line spall
         ("location", "none", "condition and location disagree"),
         ("spalls", 2, "condition and spalls"),
+        ("extent", 0.0, "condition and extent disagree"),
+        ("envelope_band", 250.0, "envelope_band is not below half the rate"),  # up to 200 Hz
+        ("tension_share", 1.5, "tension_share is not a share"),
+        ("duration_s", 0.3, "duration_s = 0.3 does not fit 200 samples"),  # 0.2 s
+        ("defect_record", 9, "the defect table and the label spalls disagree"),  # which is healthy
         ("pass_record", 77, "a ball pass belongs to no record"),
         ("exit_time", 0.0, "not in the order entry, deepest point, exit"),
         ("release_time", 0.039, "a release lies outside its pass"),  # which lasts from 0.04 to 0.06 s
@@ -169,6 +174,13 @@ def test_one_wrong_value_is_named(dataset: xarray.Dataset, name: str, value: obj
         values[:] = (0, 1)
     changed = dataset.assign({name: (dataset[name].dims, values, dataset[name].attrs)})
     assert any(sentence in found for found in violations(changed))
+
+
+@pytest.mark.parametrize(("high", "named"), [(500.0, False), (500.1, True)])
+def test_a_band_may_end_at_half_the_rate_and_not_above(dataset: xarray.Dataset, high: float, named: bool) -> None:
+    dataset["envelope_band"][1, 1] = high  # of a rate of 1000 Hz
+    sentences = ["envelope_band is not below half the rate in record 9"] if named else []
+    assert list(violations(dataset)) == sentences
 
 
 def test_a_load_that_rises_before_it_falls_is_named(dataset: xarray.Dataset) -> None:

@@ -63,6 +63,13 @@ def test_the_index_reads_back_with_the_types_of_the_schema(folder: Path) -> None
     assert table["validity"][0] == ""
 
 
+def test_an_index_that_somebody_sorted_otherwise_is_read_in_the_order_of_the_records(folder: Path) -> None:
+    as_written = read_index(folder)
+    header, *rows = index_path(folder).read_text().splitlines()
+    index_path(folder).write_text("\n".join([header, *reversed(rows)]) + "\n")
+    pandas.testing.assert_frame_equal(read_index(folder), as_written)
+
+
 def test_every_digit_of_a_number_survives_the_index(tmp_path: Path, make_plain_record: Maker) -> None:
     generator = np.random.default_rng(1)
     records = [make_plain_record(k) for k in range(50)]

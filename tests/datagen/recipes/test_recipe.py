@@ -127,6 +127,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
         ("depth_um = 12", "", "part[1].defect.depth_um", "has no depth"),
         ("depth_um = 12", "depth_um = 0", "part[1].defect.depth_um", "neither depth nor roughness"),
         ("depth_um = 12", "depth_um = 0\nroughness_um = 0", "part[1].defect.depth_um", "or a roughness_um above 0"),
+        ("extent_deg = 2", "extent_deg = 0", "part[1].defect.extent_deg", "a number above 0 to 180"),
         ("extent_deg = 2", "", "part[1].defect.extent_deg", "one of extent_deg, extent_mm, extent_spacing"),
         ("depth_um = 12", "depth_um = 12\nextent_mm = 1", "part[1].defect.extent_mm", "set the same thing twice"),
         (
@@ -190,6 +191,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
         ('name = "b"', 'name = "a"', "part", 'two parts are called "a"'),
         ("[signal]", '[store]\ncompression = "zip"\n[signal]', "store.compression", "zlib"),
         ("[signal]", "[split]\ntrain = 0.9\n[signal]", "split.train", "add up to 1.2"),
+        ("[signal]", "[split]\ntrain = 0.5\n[signal]", "split.train", "add up to 0.8"),
         ("speed_of_rated", "speed_rpm = 100\nspeed_of_rated", "part[1].operation.speed_of_rated", "twice"),
         (
             "[part.operation]",

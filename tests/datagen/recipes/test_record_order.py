@@ -37,3 +37,7 @@ def test_interleaved_any_beginning_holds_machines_of_all_parts_in_their_shares()
     for length in (8, 40, 200):
         counts = Counter(place_interleaved(sizes, record).part for record in range(length))
         assert counts == {0: length / 2, 1: length / 4, 2: length / 4}
+
+
+def test_interleaved_the_only_machine_of_a_part_comes_in_the_middle() -> None:
+    assert [place_interleaved(((10, 1), (1, 1)), record).part for record in range(11)] == [0] * 5 + [1] + [0] * 5

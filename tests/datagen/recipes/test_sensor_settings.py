@@ -276,6 +276,13 @@ def test_a_recording_exactly_as_long_as_a_record_is_taken(folder: Path) -> None:
         load(folder, text)
 
 
+def test_a_recording_lasts_as_long_as_the_longest_record_that_can_be_drawn(folder: Path) -> None:
+    drawn = BASE.replace("duration_s = 0.1", "duration_s = {uniform = [0.1, 0.2]}")
+    (folder / "recipe.toml").write_text(drawn + RECORDING.format(file="good.npy") + "rate_hz = 32768")
+    with pytest.raises(BadInput, match=r"good\.npy is 0\.152588 s long, a record 0\.2 s"):  # 5000 samples
+        load_recipe(folder / "recipe.toml")
+
+
 def test_a_noise_band_may_end_at_half_the_rate(tmp_path: Path) -> None:
     text = "[part.background]\nwhite_rms_m_s2 = 1\nsnr_band_hz = [1000, 16384]"
     assert load(tmp_path, text).part[0].background.snr_band_hz == (1000.0, 16384.0)

@@ -137,6 +137,13 @@ def test_the_same_samples_twice_are_refused_or_left_out(bring: Bring, mat: Mat, 
     assert bring('same_samples = "skip"\n' + GOOD).labels["recording"].tolist() == ["a"]
 
 
+def test_the_same_samples_at_another_rate_are_no_repeat(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", noise(seed=1), fs=1000.0)
+    mat("b.mat", noise(seed=1), fs=2000.0)
+    text = GOOD.replace("rate_hz = 1000", 'rate_hz = {variable = "fs"}')
+    assert bring(text).labels["rate_hz"].tolist() == [1000.0, 2000.0]
+
+
 def test_a_name_twice_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     message = refusal(bring, GOOD + GOOD.replace('"all"', '"again"'), tmp_path)
@@ -149,6 +156,13 @@ def test_a_bearing_in_two_splits_is_refused(bring: Bring, mat: Mat, tmp_path: Pa
     (tmp_path / "t.csv").write_text("file,split,bearing_id\na.mat,train,one\nb.mat,test,one\n")
     message = refusal(bring, GOOD + 'table = "t.csv"\n', tmp_path)
     assert 't.csv, line 3: split = "test": the records of bearing one would be in the splits train and test' in message
+
+
+def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "t.csv").write_text("file,split\na.mat,train\nb.mat,test\n")
+    assert bring(GOOD + 'table = "t.csv"\n').labels["split"].tolist() == ["train", "test"]
 
 
 @pytest.mark.parametrize(

@@ -245,6 +245,23 @@ def test_a_relative_folder_is_put_where_it_says(mat: Mat, tmp_path: Path, monkey
     assert run("check", tmp_path / "out")[0] == 0
 
 
+def test_geometry_and_size_are_stored_in_si_units_and_give_the_published_orders(bring: Bring, mat: Mat) -> None:
+    mat("a.mat")
+    labels = bring(
+        '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 6000\ny = "sig"\nspeed_rpm = 2000\n'
+        "bearing = {balls = 16, pitch_diameter_mm = 71.5, ball_diameter_mm = 8.407, contact_angle_deg = 15.17}\n"
+        'location = "inner"\nextent_deg = 6\ndepth_um = 12\n'
+    ).labels.iloc[0]
+    stored = labels[["pitch_diameter", "ball_diameter", "contact_angle", "depth", "extent", "extent_spacing"]].tolist()
+    # Radians of 15.17 and of 6 degrees; 6 degrees of 360 / 16.
+    assert stored == pytest.approx([0.0715, 0.008407, 0.264766, 12e-6, 0.1047198, 6.0 / 22.5], rel=2e-6)
+    # Along an inner race of (71.5 - 8.407 cos 15.17°) / 2 = 31.693 mm.
+    assert labels["extent_mm"] == pytest.approx(31.693 * 0.1047198, rel=2e-5)
+    # Published with the ZA-2115 of IMS at 2000 rpm, Hz; without its contact angle BPFO would be 235.3 Hz.
+    assert labels["bpfo"] * 2000.0 / 60.0 == pytest.approx(236.4, abs=0.05)
+    assert labels["bpfi"] * 2000.0 / 60.0 == pytest.approx(296.9, abs=0.05)
+
+
 def test_everything_that_reads_a_corpus_reads_an_imported_one(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     for name in ("a.mat", "b.mat"):
         mat(name, noise(3000, seed=ord(name[0])))

@@ -15,7 +15,7 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 from datagen.recipes.signal_settings import Signal
 from datagen.runs.plan import plan_shards, stored_bytes
-from datagen.runs.rates import lowest_rate
+from datagen.runs.rates import TooLowRates, lowest_rate
 from datagen.runs.requirements import (
     memory_bytes,
     record_memory,
@@ -103,6 +103,18 @@ def test_parts_of_which_some_records_are_possible_are_made(tmp_path: Path) -> No
     (sentence,) = said
     assert sentence.startswith(f"{possible.count(False)} of 20 records cannot be made at their sampling rate (for exam")
     assert sentence.endswith(f"signal.rate_hz of about {needed:.3g} or more would do for all")
+
+
+@pytest.mark.parametrize("rigs", [("gearbox", "fan"), ("fan", "gearbox")])
+def test_the_rate_that_would_do_for_all_is_that_of_the_fastest_rig_wherever_it_comes(rigs: tuple[str, ...]) -> None:
+    parts = [{"name": rig, "records": 1, "machine": {"rig": rig}} for rig in rigs]
+    signal = {"rate_hz": 200, "duration_s": 1, "envelope_band_hz": (10, 40)}
+    recipe = parse_recipe({"name": "a", "seed": 1, "signal": signal, "part": parts}, Path("recipe.toml"))
+    rates = TooLowRates()
+    for record in range(2):
+        rates.add(draw_scenario(recipe, record))
+    # That of the gearbox rig, as the key rate_hz states it; the fan rig needs 619 Hz.
+    assert rates.sentence().endswith("signal.rate_hz of about 659 or more would do for all")
 
 
 @pytest.mark.parametrize("duration", ["3600", "{uniform = [3000, 3600]}"])

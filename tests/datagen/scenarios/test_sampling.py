@@ -100,10 +100,11 @@ def test_a_fixed_spall_arrives_in_si_units() -> None:
     assert (scenario.condition, scenario.location) == ("line", "inner")
 
 
-def test_the_size_may_be_an_arc_a_length_or_a_share_of_the_spacing() -> None:
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_the_size_may_be_an_arc_a_length_or_a_share_of_the_spacing(race: str) -> None:
     bearing = catalog.bearing("koyo_1205")
-    base = {"condition": "line", "depth_um": 12}
-    sizes = {"extent_deg": 2.0, "extent_mm": math.radians(2) * bearing.raceway_radius("outer") * 1e3}
+    base = {"condition": "line", "depth_um": 12, "race": race}
+    sizes = {"extent_deg": 2.0, "extent_mm": math.radians(2) * bearing.raceway_radius(race) * 1e3}
     sizes["extent_spacing"] = math.radians(2) / bearing.spacing
     extents = [draw(defect=base | {key: value})[0].scene.spalls[0].extent for key, value in sizes.items()]
     assert extents == pytest.approx([math.radians(2)] * 3, rel=1e-14)  # a few roundings
@@ -200,6 +201,14 @@ def test_slip_is_off_at_zero_deviation_and_separate_cages_slip_apart() -> None:
     assert scene.second_cage.knot_values != scene.cage.knot_values
     assert scene.second_cage.start_angle != scene.cage.start_angle
     assert draw(machine={"rig": "cwru", "separate_cages": True})[0].scene.second_cage is None
+
+
+def test_the_cages_of_both_rows_start_at_the_angles_that_are_stated_for_them() -> None:
+    operation = {"cage_angle_deg": 30, "second_cage_angle_deg": 90}
+    scene = draw(machine={"rig": "gearbox", "separate_cages": True}, operation=operation)[0].scene
+    assert scene.second_cage is not None
+    assert scene.cage.start_angle == pytest.approx(math.pi / 6.0, rel=1e-15)  # one rounding
+    assert scene.second_cage.start_angle == pytest.approx(math.pi / 2.0, rel=1e-15)
 
 
 def test_an_unbalance_grade_gives_a_load_of_mass_times_grade_times_speed() -> None:

@@ -39,6 +39,19 @@ def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., S
         assert row.no_estimate == Interval(0.0, 0.0, 0.0)
 
 
+def test_the_rules_to_compare_with_have_their_own_errors(scored: Callable[..., ScoredRecord]) -> None:
+    record = scored(answer={"lag_arc": 0.04}, envelope_arc=0.15, static_arc=0.11)  # of a spall of 0.1 rad
+    errors = {figure.name: figure.mean.value for figure in summarise([record], True).figures}
+    expected = {
+        "full size, own lag": 0.6,
+        "half size, own lag": 0.2,  # the ball has passed half of the spall, so its size is twice the arc
+        "plain envelope lag": 0.5,
+        "own lag and static release": 0.1,
+    }
+    for rule, error in expected.items():
+        assert errors[f"arc error by rule: {rule}, 10 dB"] == pytest.approx(error, rel=1e-12)
+
+
 @pytest.mark.parametrize(("count", "judged"), [(19, {"too few to judge"}), (20, {"yes", "NO"})])
 def test_targets_are_judged_from_twenty_records_on(
     count: int, judged: set[str], scored: Callable[..., ScoredRecord]

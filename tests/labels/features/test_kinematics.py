@@ -1,5 +1,7 @@
 """Orders of a bearing from its geometry, against published values."""
 
+import math
+
 import pytest
 
 from labels.features.kinematics import Kinematics, bearing_kinematics
@@ -12,6 +14,13 @@ def test_orders_are_those_that_cwru_publishes_for_its_6205():
     assert known.bpfi == pytest.approx(5.4152, abs=5e-4)
     assert known.ftf == pytest.approx(0.39828, abs=1e-4)
     assert 2.0 * known.ball_spin == pytest.approx(4.7135, abs=5e-4)
+
+
+def test_the_contact_angle_brings_orders_to_those_published_with_the_za_2115_of_ims():
+    known = bearing_kinematics(16, 71.5e-3, 8.407e-3, math.radians(15.17), 2000.0 / 60.0)
+    # Published in Hz at 2000 rpm, with one decimal; at 0 degrees BPFO would be 235.3 Hz.
+    assert known.bpfo * known.shaft_hz == pytest.approx(236.4, abs=0.05)
+    assert known.bpfi * known.shaft_hz == pytest.approx(296.9, abs=0.05)
 
 
 def test_balls_pass_outer_and_inner_race_as_often_together_as_there_are_balls():

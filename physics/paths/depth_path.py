@@ -16,6 +16,8 @@ from physics.arrays import Array, Index
 Curve = Callable[[Array], Array]
 
 RELIEF_LEVELS = 8
+# Places of a path less than this (m) above its deepest are as deep: what is rolled over a floor is off by rounding.
+LEVEL = 1e-12
 # Slots of a path for each of its breaks.
 SLOTS = 2
 # Columns of `Paths.places` and of `Paths.pieces`.
@@ -185,7 +187,7 @@ def _deepest(nodes: Array, values: Array, left: Array, width: Array, cubics: Arr
     x = c1 / (np.sqrt(c2**2 - 3.0 * c3 * c1) - c2)
     inside = ((c3 * x + c2) * x + c1) * x + cubics[turning, 3]
     largest = max(float(values.max()), float(inside.max(initial=-math.inf)))
-    near = largest - 1e-9 * max(largest, 1e-12)
+    near = largest - min(LEVEL, 1e-3 * largest)
     floor = np.concatenate([nodes[values >= near], (left[turning] + x * width[turning])[inside >= near]])
     return float(0.5 * (floor.min() + floor.max())), largest
 

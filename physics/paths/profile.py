@@ -15,6 +15,7 @@ from physics.paths.corners import Branches
 from physics.paths.depth_path import Curve, DepthPath, hermite_path
 from physics.paths.rolling import deep_gap_drop, hanging_reach, roll, smooth_branches
 from physics.paths.spall_surface import (
+    floor_ends,
     gap_surface,
     reaches_floor,
     roughness_curve,
@@ -188,7 +189,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     first, last = (lips[0], lips[-1]) if measured else (-spall.extent / 2.0, spall.extent / 2.0)
     step = max(ROLLED_STEP / race_radius, (last - first) / MOST_STEPS)
     rolled = roll(surface, (first, last), spall.race, race_radius, ball_radius, step, lips)
-    path, smooth = rolled.path, smooth_branches(rolled)
+    path, smooth = rolled.path, smooth_branches(rolled, None if measured or rough else floor_ends(spall))
     width = CELL_STEPS * (path.arc[-1] - path.arc[0]) / (path.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
     cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)

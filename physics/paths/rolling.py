@@ -10,7 +10,7 @@ import numpy as np
 
 from physics._jit import njit, njit_inline, njit_lean
 from physics.arrays import Array, Index
-from physics.paths.corners import LEAP, Branches, RolledPath, branches, corners_of
+from physics.paths.corners import LEAP, NEAREST, Branches, RolledPath, branches, corners_of
 from physics.paths.held_ball import (
     ROUNDING,
     Ball,
@@ -31,6 +31,10 @@ POINTS_A_STEP = 4
 BLOCKED = 4
 # A bump between both that meet in a corner holds the ball if it does so by more than this (m) higher than they.
 HIGHER = 1e-11
+# How often cells are halved in which the contact leaps, as it does in hollows as well.
+HOLLOW_HALVINGS = 6
+# What is left of a height (m) when a ball is held between points of a surface.
+ROUNDED = 1e-13
 # Bumps beside such bumps are looked for again; in 480 records of `corpus` four rounds found the last.
 MOST_ROUNDS = 32
 
@@ -43,6 +47,11 @@ class Rolled(NamedTuple):
     surface: Surface
     points: Array
     depth: Array
+
+    @property
+    def pace(self) -> float:
+        """A step of the path, rad."""
+        return float(self.points[1] - self.points[0]) * POINTS_A_STEP
 
 
 def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Curve, Curve]:
@@ -122,39 +131,88 @@ def roll(
     return Rolled(path, ball, inside, points, depth)
 
 
-def smooth_branches(rolled: Rolled) -> Branches:
-    """The smooth branches of the path, those of bumps that hold the ball over less than a step among them."""
-    return branches(_with_narrow_bumps(rolled))
+def smooth_branches(rolled: Rolled, joints: Array | None = None) -> Branches:
+    """The smooth branches of the path, those of bumps that hold the ball over less than a step among them.
+
+    Of a surface without bumps the `joints` (J,), rad, are to be given: places without slope at which it begins or
+    ceases to bend. Where the ball rolls over them the path's curvature jumps, which no cubic over both sides follows,
+    so branches end there as well.
+    """
+    if joints is None:
+        return branches(_with_narrow_bumps(rolled, rolled.path))
+    path, edges = _with_joints(_with_narrow_bumps(rolled, _with_hollows(rolled)), rolled, joints)
+    found = branches(path)
+    return found._replace(edges=np.unique(np.concatenate([found.edges, edges])))
 
 
-def _with_narrow_bumps(rolled: Rolled) -> RolledPath:
-    """The path with one more node for every bump that holds the ball over less than a step, so between two nodes.
+def _with_hollows(rolled: Rolled) -> RolledPath:
+    """The path with more nodes where the place of contact runs ahead of the ball, in hollows nearly as bent as it is.
+
+    Halved again and again, their cells tell this from a leap to another place, which remains one.
+    """
+    path = rolled.path
+    for _ in range(HOLLOW_HALVINGS):
+        cells = np.flatnonzero(np.abs(np.diff(path.contact)) > LEAP)
+        arc = 0.5 * (path.arc[cells] + path.arc[cells + 1])
+        path = _with_nodes(path, rolled, cells, arc, _held_between(path, rolled, cells, arc))
+    return path
+
+
+def _with_joints(path: RolledPath, rolled: Rolled, joints: Array) -> tuple[RolledPath, Array]:
+    """The path with a node at each of the `joints` (J,), rad, that the ball touches when it is above it; and the arcs
+    (E,), rad, of these nodes."""
+    joints = joints[(joints > path.arc[0]) & (joints < path.arc[-1])]
+    cells = np.searchsorted(path.arc, joints, side="right") - 1
+    floor = rolled.surface(joints)
+    touched = _held_between(path, rolled, cells, joints).drop > floor - ROUNDED
+    cells, joints, floor = cells[touched], joints[touched], floor[touched]
+    share = (joints - path.arc[cells]) / (path.arc[cells + 1] - path.arc[cells])
+    new = (share > NEAREST) & (share < 1.0 - NEAREST)
+    edges = np.where(new, joints, path.arc[cells + np.rint(share).astype(np.int64)])
+    held = Held(joints[new], floor[new], floor[new])
+    path = _with_nodes(path, rolled, cells[new], joints[new], held)
+    return path, edges
+
+
+def _with_narrow_bumps(rolled: Rolled, path: RolledPath) -> RolledPath:
+    """The `path` with one more node for every bump that holds the ball over less than a step, so between two nodes.
 
     Such a bump lies between both that meet in a corner, and holds the ball there higher than they do.
     """
-    path, ball, surface, points, depth = rolled
-    fine, outer = points[1] - points[0], ball.turn < 0.0
     known = np.zeros(path.arc.size - 1, dtype=np.bool_)
     for _ in range(MOST_ROUNDS):
         cells, arc, drop = corners_of(path).between_nodes(path)
         new = ~known[cells]
         cells, arc, drop = cells[new], arc[new], drop[new]
-        touched = path.arc[0] + path.contact * fine * POINTS_A_STEP
-        first, last = (np.rint((touched[cells + k] - points[0]) / fine).astype(np.int64) for k in (0, 1))
-        place = _highest_between(depth, first, last, arc - points[0], fine, *ball[:2], outer)
-        held = between_points(surface, ball, arc, points[place], fine)
-        contact = (held.place - path.arc[0]) / (fine * POINTS_A_STEP)
+        held = _held_between(path, rolled, cells, arc)
+        contact = (held.place - path.arc[0]) / rolled.pace
         # Where both leaps that it leaves are too short to be corners, the one corner is nearer to the truth.
         leap = np.maximum(contact - path.contact[cells], path.contact[cells + 1] - contact)
         narrow = (held.drop < drop - HIGHER) & (leap > LEAP)
         known[cells] = ~narrow
         if not narrow.any():
             break
-        after = cells[narrow] + 1
-        known = np.insert(known, after, False)
-        added = (arc, held.drop, ball.slope(held.depth, held.place - arc), contact)
-        path = RolledPath(*(np.insert(old, after, more[narrow]) for old, more in zip(path, added, strict=True)))
+        known = np.insert(known, cells[narrow] + 1, False)
+        path = _with_nodes(path, rolled, cells[narrow], arc[narrow], Held(*(of[narrow] for of in held)))
     return path
+
+
+def _with_nodes(path: RolledPath, rolled: Rolled, cells: Index, arc: Array, held: Held) -> RolledPath:
+    """The path with nodes in these `cells` (N,), at the arcs (N,), rad, where the ball is `held` so."""
+    contact = (held.place - path.arc[0]) / rolled.pace
+    added = (arc, held.drop, rolled.ball.slope(held.depth, held.place - arc), contact)
+    return RolledPath(*(np.insert(old, cells + 1, more) for old, more in zip(path, added, strict=True)))
+
+
+def _held_between(path: RolledPath, rolled: Rolled, cells: Index, arc: Array) -> Held:
+    """The ball at arcs (N,), rad, between the nodes of these `cells` (N,) of the path: by what lies between the places
+    at which it touches there."""
+    _, ball, surface, points, depth = rolled
+    fine, outer = points[1] - points[0], ball.turn < 0.0
+    touched = path.arc[0] + path.contact * rolled.pace
+    first, last = (np.rint((touched[cells + k] - points[0]) / fine).astype(np.int64) for k in (0, 1))
+    place = _highest_between(depth, first, last, arc - points[0], fine, *ball[:2], outer)
+    return between_points(surface, ball, arc, points[place], fine)
 
 
 def _margins(depths: Array, race: str, ball: Ball, fine: float) -> tuple[int, int]:

@@ -60,6 +60,13 @@ def gap_surface(spall: Spall) -> Surface:
     return surface
 
 
+def floor_ends(spall: Spall) -> Array:
+    """The arcs (N,), rad, at which tapers of a smooth gap meet its floor, one for each taper."""
+    half = spall.extent / 2.0
+    ends = [(spall.entry_taper, spall.entry_taper - half), (spall.exit_taper, half - spall.exit_taper)]
+    return np.array([end for taper, end in ends if taper > 0.0])
+
+
 def table_arcs(spall: Spall) -> Array:
     """The arcs (N,), rad, rising, of the points of the spall's measured table; none if it has no table."""
     return spall.travel_sign * np.array(spall.table_angle)[:: spall.travel_sign]

@@ -200,3 +200,39 @@ def test_beside_tapers_the_path_follows_rough_values_of_any_kind(gearbox, count,
     fall = np.cos(np.pi * np.clip((0.3 - arcs) / tapers[1], 0.0, 1.0)) if tapers[1] else -1.0
     expected = 8e-6 * np.minimum(0.5 - 0.5 * rise, 0.5 - 0.5 * fall) + floor
     assert np.abs(build_path(spall, gearbox.bearing).depth(arcs) - expected).max() < 2e-10
+
+
+def offset_curve(spall, bearing, place):
+    """Arcs (N,), rad, of the ball's centre, and its drop (N,), m, where it touches a smooth gap at `place` (N,)."""
+    turn = -1.0 if spall.race == "outer" else 1.0
+    radius = bearing.raceway_radius(spall.race)
+    taper = np.where(place < 0.0, spall.entry_taper, spall.exit_taper)
+    phase = np.pi * np.clip((spall.extent / 2.0 - np.abs(place)) / taper, 0.0, 1.0)
+    level = radius - turn * 0.5 * spall.depth * (1.0 - np.cos(phase))
+    rise = turn * np.sign(place) * 0.5 * spall.depth * np.sin(phase) * np.pi / taper
+    tangent = (rise + 1j * level) * np.exp(1j * place)
+    centre = level * np.exp(1j * place) - turn * 1j * bearing.ball_radius * tangent / np.abs(tangent)
+    return np.angle(centre), -turn * (np.abs(centre) - (radius + turn * bearing.ball_radius))
+
+
+@RACES
+@pytest.mark.parametrize(("entry", "exit_"), [(0.02, 0.012), (0.012, 0.025)])
+def test_the_ball_rolls_down_tapers_and_over_the_floor_between_them(gearbox, race, entry, exit_):
+    spall = gap(race, extent=0.08, depth=2e-6, entry_taper=entry, exit_taper=exit_)
+    path = build_path(spall, gearbox.bearing)
+    arc, drop = offset_curve(spall, gearbox.bearing, np.linspace(-0.04, 0.04, 20_001)[1:-1])
+    assert (np.diff(arc) > 0.0).all()  # no taper is too hollow for the ball to touch it all along
+    # Cells of 4 um leave as much in a hollow nearly as bent as the ball.
+    np.testing.assert_allclose(path.depth(arc), drop, rtol=0, atol=2e-11)
+
+
+@RACES
+@pytest.mark.parametrize(("depth", "entry", "exit_"), [(2e-6, 0.02, 0.012), (5e-6, 0.027, 0.003), (12e-6, 0.0, 0.017)])
+def test_the_deepest_place_of_a_flat_floor_is_its_middle(gearbox, race, depth, entry, exit_):
+    spall = gap(race, extent=0.08, depth=depth, entry_taper=entry, exit_taper=exit_)
+    path = build_path(spall, gearbox.bearing)
+    floor = np.linspace(-0.04, 0.04, 80_001)
+    reached = floor[path.depth(floor) > depth - 1e-12]
+    assert path.deepest == pytest.approx(0.5 * (reached[0] + reached[-1]), abs=2e-5)  # the arc of 0.5 um
+    assert reached[-1] - reached[0] > 0.02
+    assert path.largest_depth == pytest.approx(depth, abs=1e-12)

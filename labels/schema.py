@@ -172,7 +172,12 @@ LABELS: tuple[Label, ...] = (
         "Distance between two values that the recorder holds.",
         "the recorder does not round",
     ),
-    _number("clipped_share", "1", "record", "Share of samples, both axes, beyond the recorder's range."),
+    _number(
+        "clipped_share",
+        "1",
+        "record",
+        "Share of samples, both axes, whose rounded value lies beyond the recorder's range.",
+    ),
     _number(
         "envelope_band",
         "Hz",
@@ -193,7 +198,8 @@ LABELS: tuple[Label, ...] = (
         "error_estimate",
         "1",
         "run",
-        "Estimated RMS error of the clean acceleration over its RMS.",
+        "Estimated RMS error of the clean acceleration over its RMS; where errors below the noise are allowed it is a "
+        "bound, which a quiet signal is far below.",
         "the error was not estimated",
     ),
     _number(

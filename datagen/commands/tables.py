@@ -49,7 +49,7 @@ def _simulated(info: Info) -> dict[str, str]:
     return {
         "could not be made": str(info.failed),
         "virtual bearings": info.bearings_text,
-        "to be read with care": counted(info.outside_validity, "record"),
+        "to be read with care": f"{counted(info.outside_validity, 'record')}; the label validity says why",
     }
 
 

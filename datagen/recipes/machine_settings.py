@@ -140,7 +140,7 @@ class MachineSettings(Table):
     ball_diameter_of_pitch: Annotated[Distribution, Between(0.01, 0.9)] | None = None
     """Diameter of a rolling element as a share of the pitch diameter."""
     fill: Annotated[Distribution, Between(0.0, 1.0, above=True)] | None = None
-    """Rolling elements in each row as a share of the most that fit, rounded down."""
+    """Rolling elements in each row: this share of the circle that they would fill, in whole ones, rounded down."""
     roller_length_of_diameter: Annotated[Distribution, Between(0.1, 20.0)] = Fixed(1.0)
     """Effective length of a roller over its diameter, where `elements` says rollers."""
     support_frequency_hz: Frequency | None = None

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.records.layers import Layers, background_layers, noise_along_y
 from datagen.records.profile_grid import PROFILE_POINTS
-from datagen.records.response_warnings import lost_in_steps, response_warnings, unset_ratio
+from datagen.records.response_warnings import cut_off, lost_in_steps, response_warnings, unset_ratio
 from datagen.records.stiffness_axis import interpolation_error, stiffness_axis, stiffness_divisor
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
@@ -76,8 +76,9 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
     stiffness_time = stiffness_axis(scenario)
     stiffness, solved_error = _stiffness(scenario, stiffness_time)
     labels = sensor_labels(scenario, signal, layers, clipped)
-    lost = lost_in_steps(scenario.chain.recorder, measured, acceleration)
-    warnings = [*response_warnings(scenario, trace), unset_ratio(scenario, labels), lost]
+    recorder = scenario.chain.recorder
+    of_recorder = [lost_in_steps(recorder, measured, acceleration), cut_off(recorder, clipped)]
+    warnings = [*response_warnings(scenario, trace), unset_ratio(scenario, labels), *of_recorder]
     labels |= _labels(scenario, trace, math.hypot(solved_error, interpolation_error(scenario, stiffness)), warnings)
     optional = _optional_signals(scenario, trace, signal, layers)
     return Record(

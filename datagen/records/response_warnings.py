@@ -19,6 +19,8 @@ from physics.trace import Trace
 
 # Inputs that agree to 1e-4 leave responses within half a per cent up to so many times.
 SENSITIVE = 50.0
+# Share of samples beyond the range of a recorder up to which peaks alone are cut off.
+FEW_CLIPPED = 0.01
 
 
 def response_warnings(scenario: Scenario, trace: Trace) -> list[str]:
@@ -61,6 +63,13 @@ def lost_in_steps(recorder: Recorder | None, measured: Array, recorded: NDArray[
         f"the recorder's step of {recorder.step:.3g} m/s² is too coarse for the signal along {' and '.join(lost)}: "
         "every sample there is 0"
     )
+
+
+def cut_off(recorder: Recorder | None, clipped: float) -> str:
+    """That the share `clipped` of the samples lies beyond the range of the `recorder`; empty if few do."""
+    if recorder is None or clipped <= FEW_CLIPPED:
+        return ""
+    return f"{clipped:.2g} of the samples are cut off at the recorder's range of {recorder.full_scale:.3g} m/s²"
 
 
 def _chaos(trace: Trace) -> str:

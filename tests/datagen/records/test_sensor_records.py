@@ -205,3 +205,15 @@ def test_a_recorder_too_coarse_for_the_signal_is_told_of(recipe: Recipe, full_sc
     assert bool(said) != record.acceleration.any()
     step = f"the recorder's step of {full_scale / 2**11:.3g} m/s² is too coarse for the signal {said}"
     assert (step in record.labels["validity"]) == bool(said)
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.008, False), (0.2, True)])
+def test_a_recorder_whose_range_is_exceeded_often_is_told_of(recipe: Recipe, share: float, told: bool) -> None:
+    scenario = draw_scenario(recipe, 3)
+    whole = make_record(replace(scenario, chain=replace(scenario.chain, recorder=None))).acceleration
+    full_scale = float(np.quantile(np.abs(whole), 1.0 - share))
+    recorder = replace(scenario.chain.recorder, full_scale=full_scale, bits=24)
+    labels = make_record(replace(scenario, chain=replace(scenario.chain, recorder=recorder))).labels
+    said = f"0.2 of the samples are cut off at the recorder's range of {full_scale:.3g} m/s²"
+    assert (said in labels["validity"]) == told
+    assert labels["clipped_share"] == pytest.approx(share, rel=0.05)

@@ -14,13 +14,13 @@ from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
 from datagen.counts import counted
 from datagen.judging.stated_speed import SPEED_ERROR
+from labels.interval import Interval
 from labels.schema import LOCATIONS
 
 if TYPE_CHECKING:
     from datagen.benchmark.model_scores import Scores
     from datagen.benchmark.plan import Benchmark
     from datagen.benchmark.results import CorpusResults, CorpusScores, Results
-    from labels.interval import Interval
 
 Option, Argument = typer.Option, typer.Argument
 AS_USUAL = Options()
@@ -109,6 +109,7 @@ def classify(
     results = _run(benchmark, out)
     write_json(json_file, results.to_dict())
     print_results(results.tests)
+    print_learning_curve(results)
 
 
 def _run(benchmark: Benchmark, out: Path | None) -> Results:
@@ -151,6 +152,14 @@ def print_results(tests: list[CorpusResults]) -> None:
         unscored = [prediction for prediction in test.predictions if prediction.truth not in LOCATIONS]
         if unscored:
             show_tables([verdict_table(unscored, list(found.models))])
+
+
+def print_learning_curve(results: Results) -> None:
+    """Print the learning curve of every model, if one was asked for."""
+    for model, points in results.learning_curve.items():
+        for point in points:
+            score = _interval(Interval(point["value"], point["low"], point["high"]))
+            print(f"learning curve: {model} {score} from {counted(point['bearings'], 'virtual bearing')}")
 
 
 def print_mended(found: CorpusScores) -> None:

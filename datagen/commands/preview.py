@@ -26,7 +26,7 @@ def preview(
 
     record = first_record(source) if record is None else record
     try:
-        drawn = draw_preview(source, record, out)
+        drawn = draw_preview(source, record, out, complain)
     except SimulationFailed as failure:
         complain(f"record {record} could not be made: {failure}")
         raise typer.Exit(FAILED) from None

@@ -13,6 +13,7 @@ from datagen.corpus_files.shard import has_finished_shards
 from datagen.errors import BadInput
 from datagen.files.atomic import write_file
 from datagen.files.places import OUT, require_file
+from datagen.progress import Say, ignore
 from datagen.recipes.recipe_files import FILE_NAME
 from labels.schema import LABELS
 from labels.truth import PassTable
@@ -27,14 +28,15 @@ if TYPE_CHECKING:
     from datagen.scenarios.scenario import Scenario
 
 
-def draw_preview(source: str | Path, record: int, out: str | Path) -> dict[str, Any]:
+def draw_preview(source: str | Path, record: int, out: str | Path, say: Say = ignore) -> dict[str, Any]:
     """Draw `record` of a recipe (it is simulated) or of a corpus (it is read) into the PNG `out`; gives what was drawn.
 
-    Raises BadInput if the source, the record or the picture's name cannot be used, SimulationFailed if the record
-    cannot be simulated; nothing is written then.
+    `say` is told where something has to be compiled first, which takes a while. Raises BadInput if the source, the
+    record or the picture's name cannot be used, SimulationFailed if the record cannot be simulated; nothing is written
+    then.
     """
     picture = _writable(Path(out))
-    content, facts = preview_png(source, record)
+    content, facts = preview_png(source, record, say)
     write_file(picture, content, OUT)
     return facts
 
@@ -48,7 +50,7 @@ def first_record(source: str | Path) -> int:
     return int(min(Corpus(source).labels["record"], default=0))
 
 
-def preview_png(source: str | Path, record: int) -> tuple[bytes, dict[str, Any]]:
+def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[bytes, dict[str, Any]]:
     """The sheet of `record` of a recipe or a corpus as the bytes of a PNG file, and what it shows.
 
     Raises BadInput, and SimulationFailed of a recipe's record.
@@ -63,7 +65,8 @@ def preview_png(source: str | Path, record: int) -> tuple[bytes, dict[str, Any]]
         raise BadInput(problem, str(folder))
     if manifest_path(folder).is_file() and read_manifest(folder).imported:
         return _measured_png(folder, record)
-    portrait = corpus_portrait(folder, record) if manifest_path(folder).is_file() else recipe_portrait(source, record)
+    held = manifest_path(folder).is_file()
+    portrait = corpus_portrait(folder, record) if held else recipe_portrait(source, record, say)
     return sheet_png(portrait), _facts(portrait)
 
 
@@ -103,18 +106,20 @@ def _writable(picture: Path) -> Path:
     return picture
 
 
-def recipe_portrait(source: str | Path, record: int) -> Portrait:
+def recipe_portrait(source: str | Path, record: int, say: Say = ignore) -> Portrait:
     """What a sheet shows of a record of a recipe, simulated now; raises BadInput and SimulationFailed."""
     from datagen.drawing.portrait import Portrait
     from datagen.recipes.recipe import load_recipe
     from datagen.records.record import make_record
     from datagen.runs.requirements import require_memory, require_record_memory
+    from datagen.runs.task import compile_kernels
     from datagen.scenarios.sampling import draw_scenario
 
     stored = ("acceleration_clean", "acceleration_sensor", "background")
     recipe = load_recipe(source)
     recipe.require(record, "--record")
     require_memory(recipe)
+    compile_kernels(say)
     scenario = draw_scenario(recipe, record)
     require_record_memory(recipe, scenario, stored)
     made = make_record(scenario, stored)

@@ -32,6 +32,7 @@ from datagen.runs.task import make_shard
 from datagen.runs.workers import WorkerLost, run_tasks
 from datagen.versions import program_versions
 
+NO_INDEX = "the disk is full: no room for the index; the same command continues from there"
 ATTEMPTS_TOGETHER = 2
 LONGEST_TASK_BASE = 600.0
 LONGEST_TASK_FACTOR = 30.0
@@ -134,9 +135,7 @@ class Run:
         except OSError as problem:
             if problem.errno not in NO_SPACE:
                 raise
-            self.problem = (
-                self.problem or "the disk is full: no room for the index; the same command continues from there"
-            )
+            self.problem = self.problem or NO_INDEX
 
     def summary(self, seconds: float) -> Summary:
         """The summary of the run, which took `seconds`."""
@@ -243,6 +242,8 @@ class Run:
             yield self.recipe, folder, shard, self.manifest.identity
 
     def _out_of_space(self, problem: OSError, todo: Sequence[PlannedShard]) -> str:
+        if not todo:
+            return NO_INDEX
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
         largest = max((needed_bytes([shard]) for shard in todo), default=0.0)
         cause, needed = {

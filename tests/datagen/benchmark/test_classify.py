@@ -228,6 +228,8 @@ def test_the_learning_curve_is_that_of_ones_own_estimator(classify, tmp_path, in
     ((name, points),) = results["learning_curve"].items()
     assert name == "Common"
     assert [point["bearings"] for point in points] == [8]  # of ten, two are held out
+    assert "learning curve: Common 0." in done.stdout
+    assert "] from 8 virtual bearings" in done.stdout
     fitted = sys.modules["own_curves"].FITTED
     assert [(times, width) for times, width, _ in fitted] == [(1, columns)] * 2
     assert fitted[0][2] < fitted[1][2]

@@ -228,6 +228,14 @@ def test_the_summary_says_why_there_is_no_ratio_of_signal_to_noise(portrait, lay
     assert reason in summary(silent)
 
 
+def test_a_preview_says_so_where_it_has_to_compile_first(recipe_file, tmp_path, monkeypatch):
+    monkeypatch.setattr("physics.warming.is_warm", lambda: False)
+    monkeypatch.setattr("physics.warming.warm_up", lambda: None)
+    said = []
+    draw_preview(recipe_file, 1, tmp_path / "recipe.png", said.append)
+    assert said == ["compiling the physics; this is done once for each version of it"]
+
+
 def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file, tmp_path):
     folder = tmp_path / "corpus"
     generate(load_recipe(recipe_file), folder)

@@ -372,6 +372,20 @@ def test_a_disk_without_room_for_a_manifest_is_told_without_a_traceback(
     assert "the disk is full" in run.problem
 
 
+def test_a_full_disk_does_not_tell_of_missing_records_where_all_are_made(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    generate(tiny, tmp_path / "out", engine=ALONE)
+
+    def full(path: Path, data: bytes | memoryview = b"") -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    monkeypatch.setattr(datagen.corpus_files.manifest, "write_atomically", full)
+    run = generate(tiny, tmp_path / "out", limit=10, engine=ALONE)
+    assert (run.made, run.asked) == (10, 10)
+    assert run.problem == "the disk is full: no room for the index; the same command continues from there"
+
+
 @pytest.mark.usefixtures("record_3_fails")
 def test_a_record_that_cannot_be_simulated_is_named_and_the_others_are_made(tiny: Recipe, tmp_path: Path) -> None:
     for _ in range(2):  # the second run has nothing to do and says the same

@@ -85,7 +85,8 @@ class Corpus:
             _require_at_its_place(file, record, position, shard)
             if not _is_of_records(file, variable):
                 known = ", ".join(name for name in file.variables if _is_of_records(file, name))
-                raise BadInput(f"record {record} has no such signal", shard, "variable", variable, known)
+                held = f"; dataset({record}) has it among its tables" if variable in file.variables else ""
+                raise BadInput(f"record {record} has no such signal{held}", shard, "variable", variable, known)
             return _values(file, variable, position)
 
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:

@@ -40,7 +40,7 @@ CONSTANT = ("rate_hz",)
 # What is allowed where a variable does not give one number.
 ONE_OF_THEM = 'a single number of it, as in "NAME[0]" or "NAME[0,2]"'
 MOST_OF_THEM = "finite numbers throughout, as missing_samples fills channels only; or a single number, as NAME[0]"
-FACTOR = "factor brings times to s: 1e-6 those in µs, 1e-9 those in ns"
+FACTOR = "factor brings times to s: 1e-3 those in ms, 1e-6 those in µs, 1e-9 those in ns"
 TIMES = "times in s; of dates and hours of a clock the rate itself, a number"
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))

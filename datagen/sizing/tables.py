@@ -82,7 +82,7 @@ def _spall(record: ScoredRecord) -> tuple[str, str, str]:
 
 
 def _with_interval(value: float, low: float, high: float) -> str:
-    return f"{value:.3g} [{low:.3g}, {high:.3g}]"
+    return f"{value:.3g} [{low:.3g}, {high:.3g}]" if math.isfinite(low) else f"{value:.3g}"
 
 
 def stated_sentence(stated: StatedSizes) -> str:

@@ -139,6 +139,8 @@ def test_an_unknown_record_or_signal_is_refused_with_what_is_known(corpus: Corpu
         corpus.waveform(14)
     with pytest.raises(BadInput, match=r"velocity.*allowed: .*acceleration"):
         corpus.waveform(0, "velocity")
+    with pytest.raises(BadInput, match=r"no such signal; dataset\(0\) has it among its tables"):
+        corpus.waveform(0, "entry_time")
 
 
 def test_a_corpus_is_a_sequence_of_signals_and_labels_that_can_be_pickled(corpus: Corpus) -> None:

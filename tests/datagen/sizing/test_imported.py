@@ -308,3 +308,16 @@ def test_an_exponent_without_its_factor_is_refused(tmp_path: Path) -> None:
     (tmp_path / "states.csv").write_text(STATES)
     with pytest.raises(BadInput, match="an exponent needs its factor K"):
         imported(tmp_path, STATED % ", exponent = 1.4", none=noise(1))
+
+
+def test_a_size_without_an_interval_is_shown_without_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "plain_sizes.py").write_text(
+        "from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome\n"
+        "def a_tenth(acceleration, rate, situation):\n"
+        "    return SizeEstimate(SizeOutcome.ESTIMATED, 'constant', 'outer', lag=1e-3, extent=0.1, trust=1.0)\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    corpus = imported(tmp_path, noise=noise(2))
+    code, said, message = size(corpus, "--estimator", "plain_sizes:a_tenth")
+    assert code == 0, message
+    assert "│ 5.73 │" in said  # degrees

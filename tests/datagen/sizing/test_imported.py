@@ -314,10 +314,10 @@ def test_a_size_without_an_interval_is_shown_without_one(tmp_path: Path, monkeyp
     (tmp_path / "plain_sizes.py").write_text(
         "from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome\n"
         "def a_tenth(acceleration, rate, situation):\n"
-        "    return SizeEstimate(SizeOutcome.ESTIMATED, 'constant', 'outer', lag=1e-3, extent=0.1, trust=1.0)\n"
+        "    return SizeEstimate(SizeOutcome.ESTIMATED, 'constant', 'outer', lag=1e-3, lag_arc=0.1, extent=0.1, extent_mm=2.5, trust=1.0)\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
     corpus = imported(tmp_path, noise=noise(2))
     code, said, message = size(corpus, "--estimator", "plain_sizes:a_tenth")
     assert code == 0, message
-    assert "│ 5.73 │" in said  # degrees
+    assert "│ 5.73 │ 2.5 │" in said  # degrees, mm

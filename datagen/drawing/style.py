@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 if TYPE_CHECKING:
@@ -83,6 +84,11 @@ def with_panels(rows: int = 1, columns: int = 1, *, figsize: tuple[float, float]
     return figure, figure.subplots(rows, columns, **options)
 
 
+def roomy() -> ConstrainedLayoutEngine:
+    """A layout of many panels in which neither titles touch the edge nor labels the panel beside."""
+    return ConstrainedLayoutEngine(h_pad=0.09, w_pad=0.09)
+
+
 def faint_grid(axes: Axes) -> None:
     """Pale horizontal lines across the panel, at its ticks."""
     axes.grid(True, axis="y", color=PALE, linewidth=0.5)
@@ -102,7 +108,7 @@ def plain_log_ticks(axis: Axis) -> None:
     if low < PLAIN[0] or high > PLAIN[1]:
         return
     if high / low < LINEAR_BELOW:
-        axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+        axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     else:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high / low < FINE_BELOW else (1.0,)))
     axis.set_minor_locator(NullLocator())

@@ -33,7 +33,9 @@ Workers = Annotated[
     int,
     typer.Option(metavar="N", min=1, help="Processes; one by default, as each further one loads the estimator again."),
 ]
-OutFolder = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for report, table and pictures.")]
+OutFolder = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Folder for report, table and, with truth, picture.")
+]
 
 
 @command("spallgen size out/size_ladder --out out/size_report")
@@ -71,13 +73,14 @@ def size(
             count=listener.counting("sizes"),
         )
     write_json(json_file, flat_scores(scores))
-    if out is not None:
-        from datagen.drawing.size_report import size_report_png
+    if out is None:
+        _print_result(scores)
+        return
+    from datagen.drawing.size_report import size_report_png
 
-        write_report(scores, out, size_report_png(scores) if scores.summary is not None else None)
+    written = write_report(scores, out, size_report_png(scores) if scores.summary is not None else None)
     _print_result(scores)
-    if out is not None:
-        print(f"report, table and pictures are in {out}")
+    print(f"{', '.join(written[:-1])} and {written[-1]} are in {out}")
 
 
 def _print_result(scores: SizeScores) -> None:

@@ -4,7 +4,7 @@
   and `path_panels`; `close_up` is the stretch shown enlarged
 - `measured_portrait`, `measured_sheet`: the same of an imported recording
 - `overview`: a whole corpus
-- `classifier_sheet`: scores of classifiers; `size_report`: of spall sizes
+- `classifier_sheet` and its `classifier_panels`: scores of classifiers; `size_report`: of spall sizes
 - `work_precision`: speed against accuracy; `stability_map`: where methods fail
 - `style`: one look for all
 """

@@ -1,30 +1,56 @@
-"""The sheet of a benchmark: scores with intervals, confusion, calibration, what accuracy depends on, importances."""
+"""The sheet of a benchmark: of each corpus tested the panels that have something to show, then what was learned."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+from matplotlib.figure import Figure
 
-from datagen.counts import counted
-from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILLION, faint_grid, png_of, with_panels
-from physics.bearing import RACES
+from datagen.drawing.classifier_panels import (
+    differing,
+    draw_against,
+    draw_confusion,
+    draw_curve,
+    draw_importances,
+    draw_noise,
+    draw_reliability,
+    draw_scores,
+    has_curve,
+    has_reliability,
+    say,
+)
+from datagen.drawing.style import GREY, INK, png_of, roomy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-    from datagen.benchmark.model_scores import Confusion
-    from datagen.benchmark.results import CorpusScores, Results
+    from datagen.benchmark.results import CorpusResults, Results
 
-COLOURS = (GREY, BLUE, VERMILLION, GREEN, PURPLE, ORANGE)
-WIDTH, ROW, DPI = 20.0, 3.0, 100
-MOST_FEATURES = 15
-AGAINST = {"snr_db": "SNR, dB", "speed_rpm": "speed, rpm", "extent_mm": "size, mm"}
-COLUMNS = 3 + len(AGAINST)
-COLUMN_WIDTHS = (1.0, 1.6, *[1.0] * (COLUMNS - 2))  # room for a confusion table of each model
+Draw = Callable[["Axes"], None]
+
+COLUMN, WIDE, ROW, HEADING, LINE, DPI = 3.7, 1.4, 3.0, 0.4, 0.16, 100  # inches, WIDE in columns
+FEWEST_ACROSS, MOST_ACROSS = 3, 5
+LETTERS = 16.5  # of the caption, an inch
+CAPTION = (
+    "faults: balanced accuracy over the faults of either race, where to call one healthy is an error; "
+    "by a quantity: share of them that is called by its own race\u00a0 ·  "
+    "race: share of the faults of which the right race is named, be they called healthy or not\u00a0 ·  "
+    "AUC: area under the ROC curve, faults against healthy records\u00a0 ·  "
+    "vertical bars and shading: 95 % intervals"
+)
+
+
+@dataclass(frozen=True)
+class Section:
+    """Panels below one heading."""
+
+    heading: str
+    panels: list[Draw]
 
 
 def scores_png(results: Results) -> bytes:
@@ -33,158 +59,71 @@ def scores_png(results: Results) -> bytes:
 
 
 def draw_results(results: Results) -> Figure:
-    """The figure of the results of `classify`: one row of panels a corpus, then the model."""
-    tests = [test.scores for test in results.tests]
-    rows = len(tests) + 1
-    figure, axes = with_panels(
-        rows, COLUMNS, figsize=(WIDTH, ROW * rows), layout="constrained", squeeze=False, width_ratios=COLUMN_WIDTHS
-    )
-    for panels, test in zip(axes, tests, strict=False):
-        draw_scores(panels[0], test)
-        draw_confusion(panels[1], test)
-        draw_reliability(panels[2], test)
-        for panel, quantity in zip(panels[3:], AGAINST, strict=True):
-            draw_against(panel, test, quantity)
-    draw_importances(axes[-1][:-2], results)
-    draw_curve(axes[-1][-2], results)
-    axes[-1][-1].axis("off")
+    """The figure of the results of `classify`: what each corpus shows and then the models, row by row."""
+    parts = sections(results)
+    across = columns([len(part.panels) for part in parts])
+    rows = [-(-len(part.panels) // across) for part in parts]
+    width = COLUMN * (across + (WIDE - 1.0 if across > 1 else 0.0))
+    caption = fill(CAPTION, int(width * LETTERS)) if results.tests else ""
+    heights = [ROW * count + HEADING for count in rows]
+    figure = Figure(figsize=(width, sum(heights) + LINE * (caption.count("\n") + 2)), layout=roomy())
+    for place, part, count in zip(
+        figure.subfigures(len(parts), 1, squeeze=False, height_ratios=heights)[:, 0], parts, rows, strict=True
+    ):
+        _draw_section(place, part, count, across)
+    figure.supxlabel(caption, x=0.012, ha="left", fontsize=8, color=GREY)
     return figure
 
 
-def draw_scores(axes: Axes, test: CorpusScores) -> None:
-    """Balanced accuracy over faults, race accuracy and detection AUC of each model, with intervals; false alarms where
-    there are no faults."""
-    title = f"{Path(test.corpus).name}: {counted(test.records, 'record')}"
-    if not any(test.locations[race] for race in RACES):
-        alarms = (f"{name}: {said.false_alarms} of {said.healthy}" for name, said in test.models.items())
-        say(axes, title, "no faults to score\n\nfalse alarms\n" + "\n".join(alarms))
-        return
-    models = test.models
-    words = list(next(iter(models.values())).headline)
-    for place, (name, scores) in enumerate(models.items()):
-        shift = (place - 0.5 * (len(models) - 1)) * 0.16
-        for spot, found in enumerate(scores.headline.values()):
-            if np.isfinite(found.value):
-                axes.plot([spot + shift] * 2, [found.low, found.high], color=_colour(place), linewidth=2)
-                axes.plot(spot + shift, found.value, "o", color=_colour(place), markersize=4)
-        axes.plot([], [], "o-", color=_colour(place), label=name)
-    axes.set_xticks(range(len(words)), words)
-    axes.set_xlim(-0.5, len(words) - 0.5)
-    axes.set_ylim(0.0, 1.03)
-    if not test.locations["none"]:
-        axes.text(2, 0.5, "no healthy\nrecords", ha="center", va="center", color=GREY)
-    axes.set_title(title, parse_math=False)
-    axes.legend(loc="lower left")
-    faint_grid(axes)
+def sections(results: Results) -> list[Section]:
+    """What is drawn: of every corpus its panels, and those of the models with the only one, or after them all."""
+    learned = list(_model_panels(results))
+    origin = f"learned from {Path(results.train).name}"
+    found = [
+        Section(f"{Path(test.scores.corpus).name}: {test.scores.records} records, {origin}", list(_test_panels(test)))
+        for test in results.tests
+    ]
+    if len(found) == 1:
+        return [Section(found[0].heading, found[0].panels + learned)]
+    if learned or not found:
+        found.append(Section(origin, learned or [partial(say, title="", text="nothing was tested")]))
+    return found
 
 
-def say(axes: Axes, title: str, text: str) -> None:
-    """Words in place of a panel that has nothing to show."""
-    axes.axis("off")
-    axes.set_title(title, parse_math=False)
-    axes.text(0.5, 0.5, text, ha="center", va="center", color=INK, transform=axes.transAxes)
+def _test_panels(test: CorpusResults) -> Iterator[Draw]:
+    """Panels of one corpus that have something to show; that of the confusion is the second."""
+    scores = test.scores
+    yield partial(draw_scores, test=scores)
+    yield partial(draw_confusion, test=scores)
+    if has_reliability(scores):
+        yield partial(draw_reliability, test=scores)
+    for quantity in differing(scores):
+        yield partial(draw_against, test=scores, quantity=quantity)
+    if test.noise:
+        yield partial(draw_noise, test=test)
 
 
-def draw_confusion(axes: Axes, test: CorpusScores) -> None:
-    """Truth against what each model says, a small table a model in the place of `axes`."""
-    models, place = test.models, axes.get_subplotspec()
-    if place is None:
-        raise ValueError("the axes stand in no grid that could be divided")
-    axes.axis("off")
-    across = 1 if len(models) == 1 else 2
-    cells = place.subgridspec(-(-len(models) // across), across)
-    for number, (name, scores) in enumerate(models.items()):
-        row, column = divmod(number, across)
-        panel = axes.figure.add_subplot(cells[row, column])
-        below = number + across >= len(models)
-        _draw_table(panel, name, scores.confusion, named_rows=column == 0, named_columns=below)
+def _model_panels(results: Results) -> Iterator[Draw]:
+    """Panels of what was learned."""
+    for name, table in results.importances.items():
+        yield partial(draw_importances, name=name, table=table)
+    if has_curve(results.learning_curve):
+        yield partial(draw_curve, curve=results.learning_curve)
 
 
-def _draw_table(axes: Axes, name: str, table: Confusion, named_rows: bool, named_columns: bool) -> None:
-    counts = np.array(table.counts)
-    shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
-    axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.3, aspect="auto")
-    for row, column in np.ndindex(*counts.shape):
-        axes.text(column, row, str(counts[row, column]), ha="center", va="center", color=INK, fontsize=7)
-    axes.set_xticks(range(len(table.columns)), table.columns if named_columns else [])
-    axes.set_yticks(range(len(table.rows)), table.rows if named_rows else [])
-    axes.tick_params(labelsize=7)
-    if named_rows:
-        axes.set_ylabel("truth")
-    axes.set_title(f"said by {name}", fontsize=8.5)
+def columns(panels: list[int]) -> int:
+    """In how many columns sections of so many `panels` leave the fewest places empty; of these the most."""
+    most = max(panels)
+    choices = range(min(most, FEWEST_ACROSS), min(most, MOST_ACROSS) + 1)
+    return min(choices, key=lambda across: (sum(-count % across for count in panels), -across))
 
 
-def draw_reliability(axes: Axes, test: CorpusScores) -> None:
-    """Share of spalls against the probability predicted."""
-    calibrated = any(scores.calibration for scores in test.models.values())
-    if not (calibrated and test.locations["none"]):
-        say(axes, "reliability", "needs healthy records and\nfaults of known size")
-        return
-    axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
-    for place, (name, scores) in enumerate(test.models.items()):
-        if scores.calibration:
-            curve = scores.calibration.reliability
-            axes.plot(curve["predicted"], curve["observed"], "o-", color=_colour(place), markersize=3, label=name)
-    axes.legend(loc="upper left")
-    axes.set_xlabel("predicted probability of a spall")
-    axes.set_ylabel("share of spalls")
-    axes.set_title("reliability")
-
-
-def draw_against(axes: Axes, test: CorpusScores, quantity: str) -> None:
-    """Accuracy over fault records against one of AGAINST, in bins of equally many records."""
-    models = test.models
-    if not any(quantity in scores.accuracy_against for scores in models.values()):
-        say(axes, "accuracy over faults", f"{AGAINST[quantity]}:\nunknown, or the same in all")
-        return
-    for place, scores in enumerate(models.values()):
-        table = scores.accuracy_against.get(quantity, [])
-        at, value = [point["at"] for point in table], np.array([point["accuracy"] for point in table])
-        axes.plot(at, value, "o-", color=_colour(place), markersize=3)
-        axes.fill_between(
-            at,
-            [point["low"] for point in table],
-            [point["high"] for point in table],
-            color=_colour(place),
-            alpha=0.1,
-            linewidth=0,
-        )
-    axes.set_xlabel(AGAINST[quantity])
-    axes.set_ylim(0.0, 1.03)
-    axes.set_title("accuracy over faults")
-    faint_grid(axes)
-
-
-def draw_importances(axes: NDArray[Any], results: Results) -> None:
-    """The features that each model uses most, one of `axes` (N,) each."""
-    for panel in axes:
+def _draw_section(place: Any, part: Section, rows: int, across: int) -> None:
+    """The panels of a section in its subfigure, below its heading."""
+    widths = [WIDE if column == 1 else 1.0 for column in range(across)]  # room for a confusion table of each model
+    panels = place.subplots(rows, across, squeeze=False, width_ratios=widths).ravel()
+    for panel, draw in zip(panels, part.panels, strict=False):
+        draw(panel)
+    for panel in panels[len(part.panels) :]:
         panel.axis("off")
-    for panel, (name, table) in zip(axes, results.importances.items(), strict=False):
-        chosen = list(table.items())[:MOST_FEATURES][::-1]
-        panel.axis("on")
-        panel.barh([row[0] for row in chosen], [row[1] for row in chosen], color=BLUE)
-        panel.tick_params(axis="y", labelsize=6.5)
-        panel.set_xlabel("rise of log loss when shuffled, nats")
-        panel.set_title(f"importances, {name}")
-
-
-def draw_curve(axes: Axes, results: Results) -> None:
-    """Balanced accuracy against the number of virtual bearings learned from."""
-    if not results.learning_curve:
-        axes.axis("off")
-        return
-    for place, (name, points) in enumerate(results.learning_curve.items()):
-        bearings = [point["bearings"] for point in points]
-        axes.plot(
-            bearings, [point["value"] for point in points], "o-", color=_colour(place + 1), markersize=3, label=name
-        )
-        low, high = [point["low"] for point in points], [point["high"] for point in points]
-        axes.fill_between(bearings, low, high, color=_colour(place + 1), alpha=0.15, linewidth=0)
-    axes.set_xlabel("virtual bearings learned from")
-    axes.set_ylabel("balanced accuracy, records")
-    axes.set_title("learning curve")
-    axes.legend(loc="lower right")
-
-
-def _colour(place: int) -> str:
-    return COLOURS[place % len(COLOURS)]
+    place.suptitle(part.heading, x=0.012, ha="left", fontsize=12, fontweight="bold", color=INK, parse_math=False)

@@ -21,6 +21,7 @@ CURSOR_TOLERANCE = 0.012
 RESOLVED_BINS = 4.0  # from the middle of one line to the next, each as wide as its window
 FEWEST_LINES = 2
 DECADES = 4.5
+LINE_IN_SIGHT = 1.2  # least end of an axis, in frequencies of its first line
 
 
 def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, float], axis: str = "y") -> None:
@@ -56,12 +57,22 @@ def envelope_band(portrait: Portrait) -> tuple[float, float]:
     return float(low), float(high)
 
 
+def envelope_end(wanted: float, line: float, band: tuple[float, float], rate: float) -> float:
+    """Where the axis of an envelope spectrum ends (Hz): at `wanted` or, if that is lower, at the width of the band.
+
+    The frequencies of a squared envelope are differences of two within its band, so that nothing lies beyond; yet the
+    place of the first `line` (Hz) stays on the axis, to show that it is empty.
+    """
+    low, high = band
+    return min(wanted, max(high - low, LINE_IN_SIGHT * line), rate / 2.0)
+
+
 def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
     """Squared envelope spectrum, (m/s²)² against Hz and orders of the shaft, with cursors of the record's own kind."""
     frequency, amplitude = squared_envelope_spectrum(portrait.envelope, portrait.rate)
     known = portrait.frequencies
     main = known[portrait.defect_frequency]
-    top = min((HARMONICS + 0.6) * main, portrait.rate / 2.0)
+    top = envelope_end((HARMONICS + 0.6) * main, main, envelope_band(portrait), portrait.rate)
     shown = (frequency > 0.0) & (frequency <= top)
     limits = decades(amplitude[shown])
     axes.semilogy(frequency[shown], above(amplitude[shown], limits), color=BLUE, linewidth=0.8)
@@ -109,13 +120,20 @@ def cursors(portrait: Portrait) -> list[tuple[str, str, str, list[float]]]:
     harmonics = [k * known[main] for k in range(1, HARMONICS + 1)]
     by = "shaft" if main == "BPFI" else "FTF"
     sidebands = [f + s * known[by] for f in harmonics[:3] for s in (-1.0, 1.0)]
-    beyond = "" if known[main] < portrait.rate / 2.0 else " (above half the rate)"
-    families = [(f"{main} {known[main]:.4g} Hz{beyond}", "o", VERMILLION, harmonics)]
+    families = [(f"{main} {known[main]:.4g} Hz{_beyond(portrait)}", "o", VERMILLION, harmonics)]
     if known[by] * portrait.duration >= RESOLVED_BINS:
         families.append((f"± {by} {known[by]:.3g} Hz", "D", GREEN, sidebands))
     if by != "shaft" and known["shaft"] * portrait.duration >= RESOLVED_BINS:
         families.append((f"shaft {known['shaft']:.3g} Hz", "s", PURPLE, [k * known["shaft"] for k in range(1, 4)]))
     return families
+
+
+def _beyond(portrait: Portrait) -> str:
+    """Why the frequency of the defect has no line, in brackets; nothing where it may have one."""
+    main, (low, high) = portrait.frequencies[portrait.defect_frequency], envelope_band(portrait)
+    if main >= portrait.rate / 2.0:
+        return " (above half the rate)"
+    return " (beyond the band's width)" if main > high - low else ""
 
 
 def line_heights(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, line_heights
+from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, envelope_end, line_heights
 from datagen.drawing.measured_portrait import MeasuredPortrait
 from datagen.drawing.sheet import DPI
 from datagen.drawing.style import (
@@ -166,6 +166,7 @@ def _top(portrait: MeasuredPortrait) -> float:
     """Highest frequency shown, Hz."""
     known = portrait.frequencies
     top = ORDERS_WITHOUT_GEOMETRY * known["shaft"] if "shaft" in known else HERTZ_WITHOUT_SPEED
+    line = max((known[name] for name in portrait.expected_lines), default=0.0)
     if portrait.expected_lines:
-        top = (HARMONICS + 0.6) * max(known[name] for name in portrait.expected_lines)
-    return min(top, portrait.rate / 2.0)
+        top = (HARMONICS + 0.6) * line
+    return envelope_end(top, line, portrait.band, portrait.rate)

@@ -18,7 +18,9 @@ from datagen.drawing.style import (
     VERMILLION,
     faint_grid,
     outside_legend,
+    plain_log_ticks,
     png_of,
+    whole_numbers,
     with_panels,
 )
 from labels.schema import LABEL
@@ -28,11 +30,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-WIDTH, ROW_HEIGHT, DPI = 11.0, 2.7, 120
+PANEL_WIDTH, ROW_HEIGHT, DPI = 11.0 / 3.0, 2.7, 120
 ACROSS, MOST_DISTRIBUTIONS = 3, 5
 COLOURS = {"none": SKY, "outer": BLUE, "inner": VERMILLION, "ball": GREEN, "cage": PURPLE, "several": ORANGE}
 SPLIT_COLOURS = {"train": BLUE, "validation": ORANGE, "test": GREEN, "unknown": GREY}
 WORTH_SHOWING = ("speed_rpm", "load_n", "extent_mm", "snr_db", "depth", "mean_slip", "rate_hz", "error_estimate")
+TITLES = {"snr_db": "SNR"}
 SHOWN_IN = {"depth": (1e6, "µm")}
 BINS, FEW = 24, 8
 LOGARITHMIC_FROM = 20.0
@@ -46,8 +49,9 @@ def overview_png(labels: pandas.DataFrame, name: str) -> bytes:
 def draw_overview(labels: pandas.DataFrame, name: str) -> Figure:
     """The figure of a table of labels: records of each kind, then how the labels are distributed."""
     shown = [column for column in WORTH_SHOWING if _values(labels, column).size > 1][:MOST_DISTRIBUTIONS]
-    rows = -(-(1 + len(shown)) // ACROSS)
-    figure, grid = with_panels(rows, ACROSS, figsize=(WIDTH, ROW_HEIGHT * rows + 0.5), layout="constrained")
+    rows, across = _grid(1 + len(shown))
+    size = (PANEL_WIDTH * max(across, 2), ROW_HEIGHT * rows + 0.5)  # one panel alone is wide, for the name above it
+    figure, grid = with_panels(rows, across, figsize=size, layout="constrained")
     panels = list(np.ravel(grid))
     draw_kinds(panels[0], labels)
     for panel, column in zip(panels[1:], shown, strict=False):
@@ -56,6 +60,12 @@ def draw_overview(labels: pandas.DataFrame, name: str) -> Figure:
         panel.set_axis_off()
     figure.suptitle(f"{name}: {len(labels)} records", x=0.01, ha="left", fontsize=12, fontweight="bold", color=INK)
     return figure
+
+
+def _grid(panels: int) -> tuple[int, int]:
+    """Rows and columns for so many panels, with as few places left empty as can be."""
+    across = 2 if panels == 4 else min(panels, ACROSS)
+    return -(-panels // across), across
 
 
 def _values(labels: pandas.DataFrame, column: str) -> NDArray[np.float64]:
@@ -80,6 +90,7 @@ def draw_kinds(axes: Axes, labels: pandas.DataFrame) -> None:
     for place, total in enumerate(left):
         axes.text(total, place, f" {total:.0f}", va="center", fontsize=8, color=INK)
     axes.set(xlabel="records", xlim=(0.0, 1.15 * left.max()))
+    whole_numbers(axes.xaxis)
     axes.invert_yaxis()
     axes.tick_params(axis="y", length=0)
     axes.set_title("Kinds")
@@ -107,11 +118,19 @@ def draw_distribution(axes: Axes, labels: pandas.DataFrame, column: str) -> None
         axes.hist([values for _, values in stacked], edges, stacked=True, color=colours, label=names)
         if logarithmic:
             axes.set_xscale("log")
+            plain_log_ticks(axes.xaxis)
     axes.set(xlabel=unit if unit != "1" else "", ylabel="records")
-    axes.set_title(column.replace("_", " ").removesuffix(f" {unit.lower()}"))
+    whole_numbers(axes.yaxis)
+    axes.set_title(_title(column, unit))
     faint_grid(axes)
     if len(names) > 1:
         outside_legend(axes)
+
+
+def _title(column: str, unit: str) -> str:
+    """The name of a label without the unit, as a title is written."""
+    words = column.replace("_", " ").removesuffix(f" {unit.lower()}")
+    return TITLES.get(column, words[0].upper() + words[1:])
 
 
 def _draw_bars(
@@ -127,10 +146,10 @@ def _draw_bars(
 
 
 def _short(distinct: NDArray[np.float64]) -> list[str]:
-    """Texts of different numbers with as few digits as keep them apart."""
+    """Texts of different numbers with as few digits as keep them apart; no power of ten for what is large."""
     texts: list[str] = []
-    for digits in range(3, 7):
-        texts = [f"{value:.{digits}g}" for value in distinct]
+    for digits in range(3, 10):
+        texts = [f"{value:.0f}" if abs(value) >= 10**digits - 0.5 else f"{value:.{digits}g}" for value in distinct]
         if len(set(texts)) == distinct.size:
             break
     return texts

@@ -7,7 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, VERMILLION, faint_grid, png_of, with_panels
+from datagen.drawing.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    VERMILLION,
+    faint_grid,
+    plain_log_ticks,
+    png_of,
+    roomy,
+    with_panels,
+)
 from datagen.sizing.record_errors import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
 from datagen.sizing.scored_record import ScoredRecord
 
@@ -20,6 +31,7 @@ if TYPE_CHECKING:
 
 RULE_COLOURS = (ORANGE, VERMILLION, GREY, GREEN)
 DPI = 130
+ACROSS = 3
 MOST_BINS = 8
 LONGEST_LEVEL_NAMES = 44  # letters of all names together that fit side by side
 
@@ -34,22 +46,38 @@ def size_report_png(scores: SizeScores) -> bytes:
 
 def draw_size_report(scores: SizeScores, summary: SizeSummary) -> Figure:
     """The figure of a corpus scored against a known truth, and of the `summary` of its scores."""
-    dependences = {name: rows for name, rows in summary.by.items() if name != "size, mm"}
-    figure, axes = with_panels(4, 3, figsize=(11.5, 13.0), layout="constrained")
+    tables = dependences(summary)
+    rows = -(-(4 + len(tables)) // ACROSS)
+    figure, axes = with_panels(rows, ACROSS, figsize=(11.5, 3.25 * rows), layout=roomy())
     panels = axes.ravel()
     answered = [record for record in scores.records if record.truth.known and record.scorable and record.found]
     _against_truth(panels[0], answered, "lag")
     _against_truth(panels[1], answered, "extent")
     _rules(panels[2], answered)
-    for panel, (name, rows) in zip(panels[3:11], dependences.items(), strict=True):
-        _bars(panel, rows, name[0].upper() + name[1:])
-    _abstention(panels[11], scores.records)
+    for panel, (name, table) in zip(panels[3:], tables.items(), strict=False):
+        _bars(panel, table, name[0].upper() + name[1:])
+    if tables:
+        _name_bars(panels[3])
+    _abstention(panels[3 + len(tables)], scores.records)
+    for panel in panels[4 + len(tables) :]:
+        panel.set_axis_off()
     return figure
+
+
+def dependences(summary: SizeSummary) -> dict[str, list[ErrorRow]]:
+    """The tables of errors that are drawn: of what differs between the records, or of noise if nothing does.
+
+    Sizes in mm are left out, as those in spacings of the balls show the same.
+    """
+    differing = {name: rows for name, rows in summary.by.items() if len(rows) > 1 and name != "size, mm"}
+    return differing or {name: rows for name, rows in summary.by.items() if rows and name == "noise, dB"}
 
 
 def _against_truth(axes: Axes, answered: list[ScoredRecord], what: str) -> None:
     for clean, colour, name in ((True, BLUE, "clean"), (False, ORANGE, "noisy")):
         shown = [record for record in answered if math.isinf(noise_level(record)) == clean]
+        if not shown:
+            continue
         scale = 1e3 if what == "lag" else math.degrees(1.0)
         true = np.array([getattr(record.truth, what) for record in shown]) * scale
         axes.loglog(
@@ -63,25 +91,27 @@ def _against_truth(axes: Axes, answered: list[ScoredRecord], what: str) -> None:
     if answered:
         low, high = axes.get_xlim()
         axes.plot([low, high], [low, high], color=GREY, lw=0.8)
+        plain_log_ticks(axes.xaxis)
+        plain_log_ticks(axes.yaxis)
+        axes.legend()
     else:
         _say_empty(axes)
     unit = "ms" if what == "lag" else "degrees"
     axes.set(title=f"{what.capitalize()} of scored records", xlabel=f"true, {unit}", ylabel=f"estimated, {unit}")
-    axes.legend()
 
 
 def _rules(axes: Axes, answered: list[ScoredRecord]) -> None:
-    place = np.arange(len(NOISE_LEVELS))
+    met = {noise_level(record) for record in answered}
+    levels = [level for level in NOISE_LEVELS if level in met or not met]
+    place = np.arange(len(levels))
     methods = {"this estimator": extent_error} | RULES
     width = 0.8 / len(methods)
     for k, ((name, error), colour) in enumerate(zip(methods.items(), (BLUE, *RULE_COLOURS), strict=True)):
-        means = [
-            _mean([error(record) for record in answered if noise_level(record) == level]) for level in NOISE_LEVELS
-        ]
+        means = [_mean([error(record) for record in answered if noise_level(record) == level]) for level in levels]
         axes.bar(place + (k - (len(methods) - 1) / 2) * width, means, width, color=colour, label=name)
-    axes.set_xticks(place, [noise_name(level) for level in NOISE_LEVELS])
+    axes.set_xticks(place, [noise_name(level) for level in levels])
     axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
-    axes.set_xlim(-0.6, len(NOISE_LEVELS) - 0.4)
+    axes.set_xlim(-0.6, len(levels) - 0.4)
     axes.margins(y=0.35)  # room for the legend
     if not answered:
         axes.set_ylim(0.0, 1.0)
@@ -114,10 +144,13 @@ def _bars(axes: Axes, rows: list[ErrorRow], title: str) -> None:
     _name_bins(axes, table)
     left_out = f", {len(table)} of {len(rows)}" if len(table) < len(rows) else ""
     axes.set(title=f"{title} (records{left_out})", ylabel="mean |error| / true; share without estimate")
-    if title.startswith("Noise"):
-        axes.margins(y=0.35)
-        axes.legend(fontsize=6.5, ncols=3, loc="upper left", columnspacing=1.0, handlelength=1.2)
     faint_grid(axes)
+
+
+def _name_bars(axes: Axes) -> None:
+    """The legend of one panel of bars, which is that of all."""
+    axes.margins(y=0.35)
+    axes.legend(fontsize=6.5, ncols=3, loc="upper left", columnspacing=1.0, handlelength=1.2)
 
 
 def most_frequent(rows: list[ErrorRow]) -> list[ErrorRow]:

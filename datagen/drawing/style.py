@@ -9,15 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 # Okabe and Ito's palette.
 BLUE, VERMILLION, GREEN, ORANGE, SKY, PURPLE = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7"
 INK, GREY, PALE = "#222222", "#8a8a8a", "#d9d9d9"
 HEALTHY, LINE, EXTENDED = GREEN, BLUE, VERMILLION
 MAP = "magma"
+# Ends of a logarithmic axis that is given plain numbers, and its highest over its lowest value, below which ticks stand
+# at equal distances, and below which also at 2 and 5 of each decade.
+PLAIN = (1e-3, 99999.0)
+LINEAR_BELOW, FINE_BELOW = 8.0, 300.0
 
 SETTINGS: dict[Any, Any] = {
     "font.family": "DejaVu Sans",
@@ -77,9 +84,35 @@ def with_panels(rows: int = 1, columns: int = 1, *, figsize: tuple[float, float]
     return figure, figure.subplots(rows, columns, **options)
 
 
+def roomy() -> ConstrainedLayoutEngine:
+    """A layout of many panels in which neither titles touch the edge nor labels the panel beside."""
+    return ConstrainedLayoutEngine(h_pad=0.09, w_pad=0.09)
+
+
 def faint_grid(axes: Axes) -> None:
     """Pale horizontal lines across the panel, at its ticks."""
     axes.grid(True, axis="y", color=PALE, linewidth=0.5)
+
+
+def whole_numbers(axis: Axis) -> None:
+    """Ticks of a linear axis that counts something: whole numbers only."""
+    axis.set_major_locator(MaxNLocator("auto", integer=True, min_n_ticks=1, steps=[1, 2, 5, 10]))
+
+
+def plain_log_ticks(axis: Axis) -> None:
+    """Few ticks of a logarithmic axis, as plain numbers; those of a range that would need many zeros are left alone.
+
+    Called when the limits of the axis stand: matplotlib names every tick of a range below a decade, one upon the other.
+    """
+    low, high = sorted(axis.get_view_interval())
+    if low < PLAIN[0] or high > PLAIN[1]:
+        return
+    if high / low < LINEAR_BELOW:
+        axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    else:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high / low < FINE_BELOW else (1.0,)))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.6g}"))
 
 
 def outside_legend(axes: Axes, lift: float = 0.0) -> None:

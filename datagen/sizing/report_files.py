@@ -14,10 +14,10 @@ from datagen.sizing.size_scores import SizeScores
 LISTS = ("candidates", "candidates_deg", "candidates_mm")
 
 
-def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> None:
+def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> list[str]:
     """Write `size_report.json`, `estimates.csv` and, if there is a `picture`, `size_report.png` into `folder`.
 
-    BadInput if that cannot be.
+    Gives the names of what was written; BadInput if it cannot be.
     """
     files = {
         "size_report.json": plain_json(flat_scores(scores)).encode(),
@@ -26,6 +26,7 @@ def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> Non
     if picture is not None:
         files["size_report.png"] = picture
     write_results(folder, files)
+    return list(files)
 
 
 def estimates_csv(scores: SizeScores) -> str:

@@ -21,6 +21,8 @@ LEVEL = 0.95
 FEWEST_A_SIDE = 5
 # Spread of a score over the draws that is rounding alone.
 SAME = 1e-9
+# Share of the largest value by which the lower ends of bins differ at least.
+NEAR = 1e-3
 Names = NDArray[Any]
 Stratum = list[NDArray[np.int64]]
 Score = Callable[..., float]
@@ -191,19 +193,26 @@ def confusion(truth: Names, said: Names, rows: Sequence[str], columns: Sequence[
     return np.array(counts, dtype=np.int64)
 
 
+def _starts(quantity: Array, bins: int) -> Array:
+    """Lower ends (B,) of so many bins of a `quantity` (N,), but for those that are nearly the one before, as are
+    measurements of one speed."""
+    edges = np.unique(np.quantile(quantity, np.linspace(0.0, 1.0, bins + 1)))
+    starts = edges[: max(edges.size - 1, 1)]
+    return starts[np.diff(starts, prepend=-np.inf) > NEAR * np.abs(edges).max()]
+
+
 def accuracy_against(
     quantity: Array, right: NDArray[np.bool_], bins: int = 5, groups: Names | None = None
 ) -> list[dict[str, float]]:
     """Accuracy with its interval in bins of equally many records of a `quantity` (N,), NaN left out; rows of one of
-    `groups` (N,) are drawn together."""
+    `groups` (N,) are drawn together. Bins of values that are nearly the same are one."""
     quantity, right = np.asarray(quantity, dtype=np.float64), np.asarray(right, dtype=bool)
     known = np.isfinite(quantity)
     quantity, right = quantity[known], right[known]
     owners = np.flatnonzero(known) if groups is None else np.asarray(groups)[known]
     if quantity.size == 0:
         return []
-    edges = np.unique(np.quantile(quantity, np.linspace(0.0, 1.0, bins + 1)))
-    place = np.clip(np.searchsorted(edges, quantity, side="right") - 1, 0, max(edges.size - 2, 0))
+    place = np.searchsorted(_starts(quantity, bins), quantity, side="right") - 1
     table = []
     for bin_ in np.unique(place):
         rows = place == bin_

@@ -1,13 +1,15 @@
-"""The sheet of a benchmark says in words what a corpus leaves nothing to draw of."""
+"""The sheet of a benchmark: panels of what there is to show, and words where a corpus has nothing to score."""
 
 from dataclasses import replace
 
 import pytest
 
+from datagen.benchmark.model_scores import Calibration, Confusion
 from datagen.benchmark.options import Options
-from datagen.benchmark.results import CorpusResults, CorpusScores, Results
-from datagen.drawing.classifier_sheet import draw_against, draw_confusion, draw_reliability, draw_scores, scores_png
-from datagen.drawing.style import house_style, with_panels
+from datagen.benchmark.results import CorpusResults, CorpusScores, NoisyScores, Results
+from datagen.drawing.classifier_panels import draw_confusion, draw_curve, draw_noise, draw_scores
+from datagen.drawing.classifier_sheet import columns, draw_results, scores_png
+from datagen.drawing.style import INK, house_style, with_panels
 from labels.interval import Interval
 
 HALF = Interval(0.5, 0.4, 0.6)
@@ -54,9 +56,9 @@ def test_a_corpus_without_healthy_records_says_that_it_has_none(words, summary_o
     assert words(draw_scores, summary_of(5, 10)) == ""
 
 
-def test_what_cannot_be_drawn_is_explained(words, summary_of):
-    assert "needs healthy records" in words(draw_reliability, summary_of(96, 0))
-    assert "unknown, or the same in all" in words(draw_against, summary_of(96, 0), "snr_db")
+def test_a_corpus_of_unknown_state_says_so(words, summary_of):
+    unknown = replace(summary_of(0, 0), locations={"none": 0, "outer": 0, "inner": 0, "unknown": 7})
+    assert words(draw_scores, unknown) == "the true class of no record is known"
 
 
 def test_every_model_has_its_table_of_confusion(summary_of):
@@ -71,6 +73,125 @@ def test_every_model_has_its_table_of_confusion(summary_of):
         draw_confusion(axes, replace(test, models=models))
         drawn = {panel.get_title(loc="left"): panel.texts[0].get_text() for panel in figure.axes if panel.texts}
     assert drawn == {"said by rule": "7", "said by forest": "8", "said by logistic": "9"}
+
+
+COUNTS = [[0, 0, 0, 0], [1, 9, 0, 0], [0, 5, 5, 0], [0, 0, 0, 0]]
+
+
+def test_classes_of_no_record_have_no_row_and_dark_cells_have_white_digits(summary_of):
+    test = summary_of(0, 10)
+    table = Confusion(("none", "outer", "inner", "unknown"), ("none", "outer", "inner", "rejected"), COUNTS)
+    models = {"rule": replace(test.models["rule"], confusion=table)}
+    with house_style():
+        figure, axes = with_panels(figsize=(4.0, 3.0))
+        draw_confusion(axes, replace(test, models=models))
+    panel = figure.axes[-1]
+    assert [label.get_text() for label in panel.get_yticklabels()] == ["outer", "inner"]
+    assert {text.get_text(): text.get_color() for text in panel.texts} == {
+        "0": INK, "1": INK, "5": INK, "9": "white",
+    }  # fmt: skip
+
+
+def point(at, **more):
+    return {"at": at, "bearings": at, "records": 5, "accuracy": 0.5, "value": 0.5, "low": 0.4, "high": 0.6} | more
+
+
+@pytest.fixture
+def results_of(summary_of):
+    """Function (corpora tested=1, levels of noise=(), **fields of the facts) → results of ten faults and five healthy
+    records, of which the accuracy over speeds is known; of two models."""
+
+    def made(tested=1, levels=(), **facts):
+        test = summary_of(5, 10)
+        rule = replace(test.models["rule"], accuracy_against={"speed_rpm": [point(900), point(1800)]})
+        calibrated = Calibration({"predicted": [0.1, 0.9], "observed": [0.0, 1.0], "records": [5, 5]}, HALF)
+        test = replace(test, models={"rule": rule, "forest": replace(rule, calibration=calibrated)})
+        noise = [NoisyScores(level, 1, test) for level in levels]
+        facts = {"importances": {"forest": {"kurtosis": 0.1}}} | facts
+        return Results("out/learned", Options(), facts, [CorpusResults(test, [], noise)] * tested, 1.0)
+
+    return made
+
+
+def drawn(results):
+    with house_style():
+        figure = draw_results(results)
+        figure.draw_without_rendering()
+    return figure
+
+
+def shown(figure):
+    """Titles of the panels that show something, those of tables of confusion left out."""
+    titles = [axes.get_title(loc="left") for axes in figure.axes if axes.axison]
+    return [title for title in titles if not title.startswith("said by")]
+
+
+def empty_places(figure):
+    tables = sum(axes.get_title(loc="left") == "said by rule" for axes in figure.axes)
+    return sum(not axes.axison for axes in figure.axes) - tables  # each stands in a place of its own
+
+
+def test_only_what_says_something_has_a_panel(results_of):
+    figure = drawn(results_of())
+    assert shown(figure) == ["scores", "reliability", "faults, by speed", "importances, forest"]
+    assert empty_places(figure) == 0
+    quiet = results_of()
+    (test,) = quiet.tests
+    lone = {"rule": replace(test.scores.models["rule"], accuracy_against={"speed_rpm": [point(900)]})}
+    quiet = replace(quiet, tests=[replace(test, scores=replace(test.scores, models=lone))])
+    assert shown(drawn(quiet)) == ["scores", "importances, forest"]
+
+
+def test_scores_with_noise_added_are_drawn_over_its_level(results_of):
+    assert "faults, with noise added" in shown(drawn(results_of(levels=(0.0,))))
+    with house_style():
+        _, axes = with_panels(figsize=(4.0, 3.0))
+        draw_noise(axes, results_of(levels=(0.0, -10.0)).tests[0])
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["-10", "0", "none added"]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["rule", "forest"]
+
+
+def test_every_panel_of_scores_names_its_axis_and_its_models(results_of):
+    figure = drawn(results_of(levels=(0.0,)))
+    panels = {axes.get_title(loc="left"): axes for axes in figure.axes}
+    for title in ("scores", "faults, by speed", "faults, with noise added"):
+        assert panels[title].get_ylabel()
+        assert [text.get_text() for text in panels[title].get_legend().get_texts()] == ["rule", "forest"]
+
+
+def test_a_caption_says_what_the_words_mean(results_of):
+    said = drawn(results_of()).get_supxlabel()
+    for word in ("faults:", "race:", "AUC:", "95 % intervals"):
+        assert word in said
+
+
+def test_every_corpus_has_its_heading_and_the_models_follow(results_of):
+    figure = drawn(results_of(tested=2))
+    headings = [part.get_suptitle() for part in figure.subfigs]
+    assert headings == ["made: 15 records, learned from learned"] * 2 + ["learned from learned"]
+    assert [part.get_suptitle() for part in drawn(results_of()).subfigs] == headings[:1]
+
+
+def test_a_learning_curve_of_one_point_is_left_out(results_of):
+    assert "learning curve" not in shown(drawn(results_of(learning_curve={"forest": [point(8)]})))
+    curve = {"forest": [point(8), point(9)]}
+    assert "learning curve" in shown(drawn(results_of(learning_curve=curve)))
+    with house_style():
+        _, axes = with_panels(figsize=(4.0, 3.0))
+        draw_curve(axes, curve)
+    assert all(float(place).is_integer() for place in axes.get_xticks())
+
+
+@pytest.mark.parametrize(
+    ("panels", "across"), [([2], 2), ([5], 5), ([8], 4), ([7], 4), ([6, 5, 2], 3), ([10, 10], 5), ([12], 4)]
+)
+def test_sections_stand_in_as_many_columns_as_leave_the_fewest_places_empty(panels, across):
+    assert columns(panels) == across
+
+
+def test_where_nothing_was_tested_the_models_are_drawn_alone(results_of):
+    assert shown(drawn(results_of(tested=0))) == ["importances, forest"]
+    assert scores_png(results_of(tested=0, importances={})).startswith(b"\x89PNG")
 
 
 def test_the_sheet_of_a_corpus_without_faults_is_a_picture(summary_of):

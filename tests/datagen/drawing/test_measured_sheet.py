@@ -70,6 +70,21 @@ def test_every_panel_is_drawn_whatever_is_unknown() -> None:
     assert np.asarray(places) == pytest.approx(90.0 * np.arange(1, 7), abs=1.0)
 
 
+@pytest.mark.parametrize(
+    ("changes", "end"),
+    [
+        ({}, 6.6 * 90.0),
+        ({"envelope_band": (2000.0, 2420.0)}, 420.0),  # no envelope varies faster than its band is wide
+        ({"envelope_band": (2000.0, 2050.0)}, 1.2 * 90.0),  # the line looked for stays in sight
+        (UNKNOWN | {"envelope_band": (2000.0, 2300.0)}, 300.0),
+    ],
+)
+def test_the_axis_of_the_envelope_spectrum_ends_where_its_content_does(changes: dict[str, Any], end: float) -> None:
+    with house_style():
+        figure = draw_measured_sheet(portrait(**changes))
+    assert figure.axes[4].get_xlim() == pytest.approx((0.0, end))
+
+
 def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
     assert heading(portrait()) == "mine, record 4: 105 DE, line defect on the outer race"
     assert heading(portrait(**UNKNOWN)) == "mine, record 4: 105 DE, state unknown"

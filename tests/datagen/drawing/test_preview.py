@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from command_line import run
 
-from datagen.drawing.frequency_panels import cursors, line_heights
+from datagen.drawing.frequency_panels import cursors, draw_envelope_spectrum, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
@@ -149,6 +149,20 @@ def test_lines_that_a_short_record_cannot_resolve_are_not_marked(seconds, marked
     drawn = portrait("line, outer")
     lasting = replace(drawn, acceleration=np.zeros((round(seconds * drawn.rate), 2)))
     assert [name.split()[0] for name, *_ in cursors(lasting)] == marked
+
+
+@pytest.mark.parametrize(
+    ("width", "end", "beyond"),
+    [(400.0, 6.6 * 34.283, False), (150.0, 150.0, False), (20.0, 1.2 * 34.283, True)],
+)
+def test_the_envelope_spectrum_ends_where_its_content_does(width, end, beyond, portrait):
+    drawn = portrait("line, outer")
+    drawn = replace(drawn, labels=drawn.labels | {"envelope_band": (6000.0, 6000.0 + width)})
+    with house_style():
+        _, axes = with_panels(figsize=(4.0, 3.0))
+        draw_envelope_spectrum(axes, drawn)
+    assert axes.get_xlim() == pytest.approx((0.0, end), rel=2e-5)  # last printed digit of 34.283
+    assert ("(beyond the band's width)" in cursors(drawn)[0][0]) == beyond
 
 
 def test_the_flank_of_a_line_is_not_marked_as_its_sideband():

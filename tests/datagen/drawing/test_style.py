@@ -7,7 +7,7 @@ import matplotlib
 import pytest
 from matplotlib.figure import Figure
 
-from datagen.drawing.style import SETTINGS, png_of, with_panels
+from datagen.drawing.style import SETTINGS, house_style, plain_log_ticks, png_of, with_panels
 
 
 def test_a_picture_is_drawn_in_the_house_style():
@@ -54,3 +54,30 @@ def test_panels_are_laid_out_as_asked():
 def test_a_picture_without_the_name_of_its_program_does_not_hold_it():
     assert b"Software" in png_of(Figure, 50)
     assert b"Software" not in png_of(Figure, 50, metadata={"Software": None})
+
+
+@pytest.mark.parametrize(
+    ("ends", "some"),
+    [((0.28, 0.52), {"0.3", "0.4"}), ((0.9, 12.0), {"1", "2", "5", "10"}), ((1.0, 9000.0), {"1", "10", "1000"})],
+)
+def test_ticks_of_a_logarithmic_axis_are_plain_numbers_side_by_side(ends, some):
+    with house_style():
+        figure, axes = with_panels(figsize=(2.5, 2.0), layout="constrained")
+        axes.loglog(ends, ends)
+        plain_log_ticks(axes.xaxis)
+        figure.draw_without_rendering()
+        labels = [label for label in axes.get_xticklabels(which="both") if label.get_text()]
+        boxes = [label.get_window_extent() for label in labels]
+    assert some <= {label.get_text() for label in labels}
+    assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
+
+
+def test_a_logarithmic_axis_of_very_small_numbers_keeps_its_powers_of_ten():
+    with house_style():
+        figure, axes = with_panels(figsize=(2.5, 2.0))
+        axes.loglog([1e-7, 1e-4], [1.0, 2.0])
+        plain_log_ticks(axes.xaxis)
+        figure.draw_without_rendering()
+        labels = [label.get_text() for label in axes.get_xticklabels() if label.get_text()]
+    assert labels
+    assert all("10^" in label for label in labels)

@@ -80,6 +80,7 @@ def test_recordings_are_given_sizes_or_not_without_being_scored(tmp_path: Path) 
     assert "│ 0 │ noise │ │ │ │" in said
     assert (tmp_path / "out" / "estimates.csv").read_text().count("\n") == 2  # a line of names and one record
     assert not (tmp_path / "out" / "size_report.png").exists()
+    assert "size_report.json and estimates.csv are in" in said
 
 
 TABLE = """

@@ -129,6 +129,21 @@ def test_the_confusion_counts_rows_of_truth():
     assert confusion(truth, said, ("x", "y"), ("x", "y")).tolist() == [[1, 1], [0, 1]]
 
 
+@pytest.mark.parametrize(
+    ("speeds", "places"),
+    [
+        ([1772.0, 1772.0 + 1e-10] * 6, [1772.0]),  # but for rounding the same
+        ([1771.9, 1772.3] * 6, [1772.1]),
+        ([900.0] * 6 + [1771.9, 1772.1, 1772.3] * 2, [900.0, 1772.2]),  # the lowest of the three fall to the bin before
+        ([1730.0, 1750.0, 1772.0, 1797.0] * 3, [1730.0, 1750.0, 1784.5]),
+    ],
+)
+def test_values_that_are_nearly_the_same_share_a_bin(speeds, places):
+    table = accuracy_against(np.array(speeds), np.ones(12, dtype=bool), bins=3)
+    assert [row["at"] for row in table] == pytest.approx(places)
+    assert sum(row["records"] for row in table) == 12
+
+
 def test_accuracy_against_a_quantity_leaves_unknown_values_out():
     quantity = np.array([1.0, 2.0, 3.0, 4.0, np.nan])
     table = accuracy_against(quantity, np.array([True, True, False, False, False]), bins=2)

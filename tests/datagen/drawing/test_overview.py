@@ -1,0 +1,75 @@
+"""The overview of a corpus: counts in whole numbers, values in plain ones, and no places left empty."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from datagen.drawing.overview import WORTH_SHOWING, draw_overview
+from datagen.drawing.style import house_style
+
+
+def table(**columns: Any) -> pandas.DataFrame:
+    """Labels of 12 records, half of them healthy, of which nothing is known but the `columns` given."""
+    unknown = dict.fromkeys(WORTH_SHOWING, np.nan)
+    kinds = {"location": ["none", "outer"] * 6, "condition": ["healthy", "line"] * 6, "split": "train"}
+    return pandas.DataFrame({"record": range(12)} | kinds | unknown | columns)
+
+
+def drawn(labels: pandas.DataFrame) -> Figure:
+    with house_style():
+        figure = draw_overview(labels, "made")
+        figure.draw_without_rendering()
+    return figure
+
+
+def panel(figure: Figure, title: str) -> Axes:
+    return next(axes for axes in figure.axes if axes.get_title(loc="left") == title)
+
+
+def words(axes: Axes) -> list[str]:
+    return [label.get_text() for label in axes.get_xticklabels()]
+
+
+@pytest.mark.parametrize(
+    ("column", "title", "values", "ticks"),
+    [
+        ("speed_rpm", "Speed", [1477.0, 2954.0], ["1477", "2954"]),
+        ("load_n", "Load", [0.0, 1477.2], ["0", "1477"]),
+        ("rate_hz", "Rate", [12000.0, 48000.0], ["12000", "48000"]),
+        ("snr_db", "SNR", [1.5, 20.0], ["1.5", "20"]),
+        ("speed_rpm", "Speed", [1772.01, 1772.04], ["1772.01", "1772.04"]),
+    ],
+)
+def test_a_few_values_are_named_in_plain_numbers(
+    column: str, title: str, values: list[float], ticks: list[str]
+) -> None:
+    assert words(panel(drawn(table(**{column: values * 6})), title)) == ticks
+
+
+def test_counts_have_ticks_at_whole_numbers_only() -> None:
+    figure = drawn(table(speed_rpm=np.linspace(100.0, 1200.0, 12), load_n=[1.0, 2.0] * 6))
+    counting = [panel(figure, "Kinds").xaxis, panel(figure, "Speed").yaxis, panel(figure, "Load").yaxis]
+    for axis in counting:
+        places = axis.get_majorticklocs()
+        assert len(places) > 1
+        assert np.array_equal(places, np.round(places))
+
+
+def test_sizes_over_decades_are_named_in_plain_numbers() -> None:
+    sizes = np.geomspace(0.2, 20.0, 12)
+    labels = pandas.concat([table(extent_mm=sizes), table(extent_mm=sizes)], ignore_index=True)
+    labels["record"], labels["location"] = range(24), "outer"
+    assert {"0.5", "1", "10"} <= set(words(panel(drawn(labels), "Extent")))
+
+
+@pytest.mark.parametrize(("known", "places"), [(0, 1), (1, 2), (2, 3), (3, 4), (4, 6), (5, 6)])
+def test_a_sheet_has_no_more_places_than_fill_its_rows(known: int, places: int) -> None:
+    figure = drawn(table(**{column: [1.0, 2.0, 3.0] * 4 for column in WORTH_SHOWING[:known]}))
+    assert len(figure.axes) == places
+    assert sum(axes.axison for axes in figure.axes) == known + 1

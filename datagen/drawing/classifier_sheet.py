@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
 
+from datagen.counts import counted
 from datagen.drawing.classifier_panels import (
     differing,
     draw_against,
@@ -29,7 +30,7 @@ from datagen.drawing.style import GREY, INK, png_of, roomy
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from datagen.benchmark.results import CorpusResults, Results
+    from datagen.benchmark.results import CorpusResults, CorpusScores, Results
 
 Draw = Callable[["Axes"], None]
 
@@ -79,15 +80,16 @@ def sections(results: Results) -> list[Section]:
     """What is drawn: of every corpus its panels, and those of the models with the only one, or after them all."""
     learned = list(_model_panels(results))
     origin = f"learned from {Path(results.train).name}"
-    found = [
-        Section(f"{Path(test.scores.corpus).name}: {test.scores.records} records, {origin}", list(_test_panels(test)))
-        for test in results.tests
-    ]
+    found = [Section(f"{_named(test.scores)}, {origin}", list(_test_panels(test))) for test in results.tests]
     if len(found) == 1:
         return [Section(found[0].heading, found[0].panels + learned)]
     if learned or not found:
         found.append(Section(origin, learned or [partial(say, title="", text="nothing was tested")]))
     return found
+
+
+def _named(test: CorpusScores) -> str:
+    return f"{Path(test.corpus).name}: {counted(test.records, 'record')}"
 
 
 def _test_panels(test: CorpusResults) -> Iterator[Draw]:

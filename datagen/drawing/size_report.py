@@ -19,7 +19,7 @@ from datagen.drawing.style import (
     roomy,
     with_panels,
 )
-from datagen.sizing.record_errors import NOISE_LEVELS, RULES, extent_error, noise_level, noise_name
+from datagen.sizing.record_errors import RULES, extent_error, noise_level, noise_levels, noise_name
 from datagen.sizing.scored_record import ScoredRecord
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def _against_truth(axes: Axes, answered: list[ScoredRecord], what: str) -> None:
 
 def _rules(axes: Axes, answered: list[ScoredRecord]) -> None:
     met = {noise_level(record) for record in answered}
-    levels = [level for level in NOISE_LEVELS if level in met or not met]
+    levels = [level for level in noise_levels(answered) if level in met or not met]
     place = np.arange(len(levels))
     methods = {"this estimator": extent_error} | RULES
     width = 0.8 / len(methods)

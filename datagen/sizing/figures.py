@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
-from datagen.sizing.record_errors import NOISE_LEVELS, RULES, extent_error, lag_error, noise_level, noise_name, silent
+from datagen.sizing.record_errors import RULES, extent_error, lag_error, noise_level, noise_levels, noise_name, silent
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import Figure
 from labels.interval import Interval
@@ -27,7 +27,7 @@ def figures_of(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     scorable = [record for record in records if record.scorable]
     answered = [record for record in scorable if record.found]
     figures: list[Figure] = []
-    for level in NOISE_LEVELS:
+    for level in noise_levels(scorable):
         name = noise_name(level) + ("" if level == math.inf else " dB")
         sized = [record for record in answered if noise_level(record) == level]
         asked = [record for record in scorable if noise_level(record) == level]

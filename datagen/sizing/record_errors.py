@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from datagen.sizing.scored_record import CLEAN_DB, ScoredRecord
 
-NOISE_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0)
+# Those of the size ladder, and others that are shown where records are nearest to them.
+NOISE_LEVELS, OTHER_LEVELS = (math.inf, 20.0, 10.0, 5.0, 0.0), (40.0, 30.0, -10.0)
 
 
 def noise_level(record: ScoredRecord) -> float:
     """The nominal noise level of a record, dB; infinite if it is clean, which is what 60 dB and more count as."""
     if not record.truth.snr_db < CLEAN_DB:
         return math.inf
-    return min(NOISE_LEVELS[1:], key=lambda level: abs(level - record.truth.snr_db))
+    return min((*NOISE_LEVELS[1:], *OTHER_LEVELS), key=lambda level: abs(level - record.truth.snr_db))
+
+
+def noise_levels(records: Iterable[ScoredRecord]) -> list[float]:
+    """The levels of noise to tell of, quietest first: those of the size ladder, and others that records have."""
+    return sorted({*NOISE_LEVELS, *map(noise_level, records)}, reverse=True)
 
 
 def noise_name(level: float) -> str:

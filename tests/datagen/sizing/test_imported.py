@@ -315,7 +315,8 @@ def test_a_size_without_an_interval_is_shown_without_one(tmp_path: Path, monkeyp
     (tmp_path / "plain_sizes.py").write_text(
         "from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome\n"
         "def a_tenth(acceleration, rate, situation):\n"
-        "    return SizeEstimate(SizeOutcome.ESTIMATED, 'constant', 'outer', lag=1e-3, lag_arc=0.1, extent=0.1, extent_mm=2.5, trust=1.0)\n"
+        "    size = {'lag': 1e-3, 'lag_arc': 0.1, 'extent': 0.1, 'extent_mm': 2.5}\n"
+        "    return SizeEstimate(SizeOutcome.ESTIMATED, 'constant', 'outer', trust=1.0, **size)\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
     corpus = imported(tmp_path, noise=noise(2))

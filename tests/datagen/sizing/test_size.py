@@ -23,7 +23,7 @@ from datagen.sizing.aggregation import summarise
 from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
-from datagen.sizing.record_errors import extent_error, lag_error, noise_level
+from datagen.sizing.record_errors import extent_error, lag_error, noise_level, noise_levels
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records
@@ -282,6 +282,15 @@ def test_between_two_and_five_samples_nothing_is_scored(scored: Callable[..., Sc
     assert not between.scorable
     assert not between.without_event
     assert noise_level(between) == 10.0
+
+
+@pytest.mark.parametrize(("ratio", "level"), [(5.9, 5.0), (26.0, 30.0), (47.0, 40.0), (61.0, math.inf), (-8.0, -10.0)])
+def test_records_are_told_of_at_the_level_of_noise_nearest_to_theirs(
+    scored: Callable[..., ScoredRecord], ratio: float, level: float
+) -> None:
+    record = scored({"snr_db": ratio})
+    assert noise_level(record) == level
+    assert noise_levels([record]) == sorted({math.inf, 20.0, 10.0, 5.0, 0.0, level}, reverse=True)
 
 
 def test_events_are_release_and_regain_or_else_fall_and_rise() -> None:

@@ -15,7 +15,7 @@ from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
-from datagen.judging.scored_runs import log_path
+from datagen.judging.scored_runs import no_log
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.judging.user_code import load_user_code
 from labels.classifier.learners import LEARNERS
@@ -121,7 +121,7 @@ def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> Non
         if corpus.labels.empty:
             raise BadInput("this corpus has no records", str(folder), "--test")
         if corpus.manifest.imported and not os.access(folder, os.W_OK):
-            raise BadInput("runs on recordings are logged here, and it cannot be written", str(log_path(folder)))
+            raise no_log(folder)
 
 
 def _corpus(folder: Path, option: str, allowed: str) -> Corpus:

@@ -27,5 +27,10 @@ def write_line(folder: Path, said: dict[str, Any]) -> None:
         with log_path(folder).open("a", encoding="utf-8") as file:
             file.write(json.dumps(line, default=str) + "\n")
     except OSError as problem:
-        raise BadInput(f"runs on recordings are logged here, and it cannot be written: {problem.strerror}",
-                       str(log_path(folder))) from None  # fmt: skip
+        raise no_log(folder, f": {problem.strerror}") from None
+
+
+def no_log(folder: Path, reason: str = "") -> BadInput:
+    """What is said where the log of a corpus cannot be written, as in a folder for reading only."""
+    problem = f"runs on recordings are logged here, and it cannot be written{reason}"
+    return BadInput(problem, str(log_path(folder)), allowed="a corpus that can be written to, such as a copy of it")

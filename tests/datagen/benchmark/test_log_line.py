@@ -28,5 +28,5 @@ def test_each_run_adds_a_line_of_what_was_learned_from_and_the_scores(tiny_corpu
 
 def test_a_log_that_cannot_be_written_is_refused_by_name(tmp_path):
     log_path(tmp_path).mkdir()
-    with pytest.raises(BadInput, match=r"scored_runs\.jsonl: runs on recordings are logged here"):
+    with pytest.raises(BadInput, match=r"scored_runs\.jsonl: runs on recordings are logged here.*such as a copy of it"):
         log_run(tmp_path, tmp_path / "impulses", "", {}, {})

@@ -22,6 +22,7 @@ COMMANDS = (
     "report",
     "paper",
     "chart",
+    "features",
     "classify",
     "size",
     "catalog",

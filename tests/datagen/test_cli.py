@@ -124,7 +124,7 @@ def test_the_catalogue_gives_every_number_with_its_source(tmp_path: Path) -> Non
         (("generate", "RECIPE", "--out", "OUT", "--backend", "ray"), "loky, dask"),
         (("generate", "nowhere.toml", "--out", "OUT"), "nowhere.toml"),
         (("generate", "RECIPE", "--out", "OUT", "--limt", "3"), "--limit"),
-        (("check", "OUT"), "no such folder"),
+        (("check", "OUT"), "no such file or folder, and no dataset of that name"),
         (("info", "OUT"), "no such folder"),
         (("preview", "RECIPE", "--record", "99", "--out", "x.png"), "0 to 13"),
         (("frobnicate",), "frobnicate"),

@@ -41,7 +41,10 @@ class RecipeFacts:
 def is_recipe(source: Path) -> bool:
     """Whether `source` names a recipe and no corpus: a file, a name, or a folder with a recipe and nothing of a
     corpus."""
-    if not source.is_dir():
+    try:
+        if not source.is_dir():
+            return True
+    except OSError:  # such as a name too long for the system, which is told where the recipe is looked for
         return True
     return (source / FILE_NAME).is_file() and not manifest_path(source).exists() and not has_finished_shards(source)
 

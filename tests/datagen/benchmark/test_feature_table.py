@@ -8,6 +8,7 @@ import pandas
 import pytest
 from command_line import run
 
+from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.feature_table import COLUMNS, LABELS_SHOWN, feature_table, rejections
 from datagen.benchmark.fitness import TOO_SHORT
 from datagen.benchmark.plan import Benchmark
@@ -59,6 +60,16 @@ def test_it_holds_the_very_rows_that_classify_learns_from(tiny_corpus):
     assert [["x", "y"][axis] for axis in learned.rows.axis] == table["axis"].tolist()
     assert table["class"].tolist() == learned.classes.tolist()
     assert table["bearing_id"].tolist() == learned.bearings.tolist()
+
+
+def test_it_holds_the_very_rows_that_classify_judges(recordings):
+    records = Corpus(recordings).labels["record"].to_numpy()
+    judged = read_rows(recordings, records, Benchmark(recordings, ()).reading(), workers=1)
+    table = feature_table([recordings])
+    rows = table[table["reason"] == ""]
+    assert np.array_equal(rows[NAMES].to_numpy(), judged.rows.table)
+    assert rows["record"].tolist() == judged.rows.record.tolist()
+    assert dict(zip(table["record"], table["reason"], strict=False)) == {r: judged.rejected.get(r, "") for r in records}
 
 
 @pytest.mark.usefixtures("short_records_are_judged")

@@ -109,3 +109,9 @@ def test_what_is_no_recipe_is_refused_in_one_line(text, message, tmp_path):
     done = run("check", tmp_path / "mine.toml")
     assert (done.exit_code, done.stdout, done.stderr.count("\n")) == (2, "", 1)
     assert message in done.stderr
+
+
+def test_a_path_too_long_for_the_system_is_told():
+    done = run("check", "x" * 5000)
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert "cannot be read" in done.output

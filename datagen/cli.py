@@ -11,6 +11,7 @@ from datagen.commands import (
     chart,
     check,
     classify,
+    features,
     generate,
     import_recordings,
     info,
@@ -25,7 +26,21 @@ from datagen.exits import OUTPUT_CLOSED
 from datagen.garbage import collect_seldom
 from physics.freed_memory import keep_freed_memory
 
-COMMANDS = (generate, import_recordings, check, info, preview, report, paper, chart, classify, size, catalog, schema)
+COMMANDS = (
+    generate,
+    import_recordings,
+    check,
+    info,
+    preview,
+    report,
+    paper,
+    chart,
+    features,
+    classify,
+    size,
+    catalog,
+    schema,
+)
 
 
 def main() -> None:

@@ -4,7 +4,7 @@
 - `classify`: the run from training to report, in two halves, `run_learning` and `run_scoring`
 - `fitness`: whether a record can be judged
 - `rows`: the table that is learned from; `reading_policy`, `record_rows`, `corpus_rows`: how records become rows of
-  features; `windows`: raw pieces for other people's estimators
+  features; `feature_table`: these for people; `windows`: raw pieces for other people's estimators
 - `training`, `trained` (what came of it, as a file), `learning` (the curve), `importance`
 - `impulse_signal`, `impulse_training`: learning without physics
 - `machines`: no record is scored of a machine that was learned from; `answers`: what an estimator says, checked

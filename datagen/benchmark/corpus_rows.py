@@ -45,8 +45,15 @@ class CorpusRows:
 def read_rows(
     folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = ignore
 ) -> CorpusRows:
-    """Rows of the `records` of a corpus, made by several processes, each with one waveform in memory; `count` is
-    called with how many are done."""
+    """Rows of the `records` of a corpus as one table; `count` is called with how many are done."""
+    return rows_of_records(read_records(folder, records, reading, workers, count))
+
+
+def read_records(
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = ignore
+) -> dict[int, RecordRows]:
+    """Rows of each of the `records` of a corpus, made by several processes, each with one waveform in memory; `count`
+    is called with how many are done."""
     tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
     found: dict[int, RecordRows] = {}
     count(0, records.size)
@@ -54,7 +61,7 @@ def read_rows(
         for part in results:
             found |= part
             count(len(found), records.size)
-    return rows_of_records(found)
+    return found
 
 
 def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:

@@ -9,16 +9,13 @@ from datagen.judging.known import what_is_missing
 from labels.band_tree import usable_bandwidth
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.kinematics import Kinematics
+from labels.features.signal_features import FEWEST_TURNS, HIGHEST_SHARE
 
 TOO_SHORT = "too short"
 TOO_FAST = "ball passes too fast for the rate"
 # s; the shortest that is learned from lasts 0.3 s. In 0.1 s a third of the faults of CWRU is found, in 0.05 s a sixth,
 # and a healthy recording of MFPT alarms.
 SHORTEST = 0.1
-# Turns of the shaft: in a single one several balls pass even of a slow bearing, and it is judged well by them.
-FEWEST_TURNS = 1.0
-# Share of the bandwidth above which no band has lines of an envelope.
-HIGHEST_SHARE = 0.45
 
 
 def unfit(labels: Mapping[str, Any], kinematics: Kinematics | None, samples: int, rate: float, bandwidth: float) -> str:

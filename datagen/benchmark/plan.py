@@ -20,6 +20,21 @@ if TYPE_CHECKING:
     import pandas
 
 
+def reading_of(learning: Learning) -> Reading:
+    """How records are read that are judged with these options."""
+    return Reading() if learning.bandwidth is None else Reading(bandwidth=learning.bandwidth)
+
+
+def training_reading_of(learning: Learning) -> Reading:
+    """How records are read that are learned from with these options."""
+    return replace(
+        reading_of(learning),
+        speed_error=learning.speed_error,
+        lowest_bandwidth=LOWEST_BANDWIDTH,
+        copies_db=COPIES_DB,
+    )
+
+
 @dataclass(frozen=True)
 class Benchmark:
     """What is learned from, what is tested on, and how.
@@ -54,17 +69,12 @@ class Benchmark:
 
     def reading(self) -> Reading:
         """How the records that are tested on are read."""
-        return Reading() if self.learning.bandwidth is None else Reading(bandwidth=self.learning.bandwidth)
+        return reading_of(self.learning)
 
     def training_reading(self) -> Reading:
         """How the records that are learned from are read: with speeds only roughly known, any bandwidth, and noisy
         copies."""
-        return replace(
-            self.reading(),
-            speed_error=self.learning.speed_error,
-            lowest_bandwidth=LOWEST_BANDWIDTH,
-            copies_db=COPIES_DB,
-        )
+        return training_reading_of(self.learning)
 
     def windows(self, folder: Path, labels: pandas.DataFrame, listener: Listener) -> Rows:
         """Raw windows of the records of the corpus in `folder` that have these labels."""

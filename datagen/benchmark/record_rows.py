@@ -21,11 +21,9 @@ from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
-from labels.features.glitches import without_glitches
-from labels.features.jumps import without_jumps
 from labels.features.kinematics import Kinematics
 from labels.features.known_lines import races_in_mains
-from labels.features.shocks import without_shocks
+from labels.features.mending import mended
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning
 from physics.arrays import Array
@@ -36,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Row:
-    """One row: `values` (F,) of the feature table, of one window of one `axis` of a record.
+    """One row: `values` (F,) of the feature table, of one `window` of one `axis` of a record, both counted from 0.
 
     It is `noisy` if noise was added to learn from. `reason` says why what it shows must not be classified, "" if it
     may. `shaft_hz` is the frequency of the shaft that was found in it.
@@ -47,6 +45,7 @@ class Row:
     reason: str
     axis: int = 0
     shaft_hz: float = math.nan
+    window: int = 0
 
 
 @dataclass(frozen=True)
@@ -92,13 +91,9 @@ def record_rows(
     jumps = glitches = shocks = 0
     turns = kinematics.shaft_hz * len(signals) / rate
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
-        levelled = drawn_over = cut = 0
-        if not is_dead(signal):
-            signal, levelled = without_jumps(signal, turns)
-            signal, drawn_over = without_glitches(signal, turns)
-            signal, cut = without_shocks(signal, turns)
-        found = signal_rows(signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
-        jumps, glitches, shocks = jumps + levelled, glitches + drawn_over, shocks + cut
+        whole = mended(signal, turns)
+        found = signal_rows(whole.signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
+        jumps, glitches, shocks = jumps + whole.jumps, glitches + whole.glitches, shocks + whole.shocks
         rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
     step = piece_count(len(signals), rate, reading.window) * rate / len(signals)
@@ -125,14 +120,14 @@ def signal_rows(
         part = reading.stretch(heard.size, rate, copy, stream)
         pieces = equal_pieces(heard[part], rate, reading.window)
         angles = repeat(None) if turning is None else equal_pieces(turning.angle[part], rate, reading.window)
-        for piece, angle in zip(pieces, angles, strict=False):
+        for window, (piece, angle) in enumerate(zip(pieces, angles, strict=False)):
             given = kinematics.at(kinematics.shaft_hz * reading.speed_factor(stream))
             bandwidth = reading.drawn_bandwidth(rate, stream)
             if piece.size < FEWEST_SAMPLES_USED or is_dead(piece[: fft.prev_fast_len(piece.size, real=True)]):
                 continue
             analysis = analyse(piece, rate, given, bandwidth, None if angle is None else Turning(angle))
             values, reason = feature_values(analysis), liveness(analysis, piece).reason
-            rows.append(Row(values, copy > 0, reason, shaft_hz=analysis.speed.shaft_hz))
+            rows.append(Row(values, copy > 0, reason, shaft_hz=analysis.speed.shaft_hz, window=window))
     return rows
 
 

@@ -71,10 +71,15 @@ def _require_learning(learning: Learning) -> None:
         raise BadInput(field="--input", value=learning.input, allowed=", ".join(INPUTS))
     if learning.takes_windows and not learning.estimator:
         raise BadInput("our learners take features", field="--input", value=WINDOWS, allowed="with --estimator")
-    if learning.bandwidth is not None and not LEAST_BANDWIDTH <= learning.bandwidth < math.inf:
-        raise BadInput(field="--bandwidth", value=learning.bandwidth, allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
+    require_bandwidth(learning.bandwidth)
     if not 0.0 <= learning.speed_error <= SPEED_ERROR:
         raise BadInput(field="--speed-error", value=learning.speed_error, allowed=f"0 to {SPEED_ERROR:g}")
+
+
+def require_bandwidth(bandwidth: float | None) -> None:
+    """Raise BadInput for a `bandwidth` (Hz; None: as usual) in which features see too little."""
+    if bandwidth is not None and not LEAST_BANDWIDTH <= bandwidth < math.inf:
+        raise BadInput(field="--bandwidth", value=bandwidth, allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
 
 
 def _require_scoring(scoring: Scoring) -> None:

@@ -1,7 +1,7 @@
 """One file a command. Heavy packages are imported inside the commands, so that help comes at once.
 
 - corpora: `generate`, `import_recordings`, `check`, `info`, `preview`, `report`
-- scores: `classify`, `size`, `chart`, `paper`
+- scores: `features`, `classify`, `size`, `chart`, `paper`
 - reference: `catalog`, `schema`
 - what they share: `program` (how a command ends and complains), `usage` (command lines that cannot be read),
   `grouped` (options that belong together), `termination` (SIGTERM), `tables` (results on a terminal),

@@ -44,6 +44,14 @@ def require_results_folder(folder: Path) -> None:
         raise BadInput(problem, field=OUT, value=str(folder), allowed="a folder of its own")
 
 
+def require_table(path: Path) -> None:
+    """Raise BadInput if no table can be put at `path`, or it would lie among the files of a corpus."""
+    require_file(path)
+    if (path.absolute().parent / MANIFEST).is_file():
+        problem = "this is in the folder of a corpus, and the table would be mixed with its files"
+        raise BadInput(problem, field=OUT, value=str(path), allowed="a file in another folder")
+
+
 def refuse_other_than_file(path: Path, allowed: str) -> None:
     """Raise BadInput that says what lies at `path` where no file does; nothing happens if nothing lies there."""
     if path.exists():

@@ -76,19 +76,25 @@ def record_memory(scenario: Scenario, stored: tuple[str, ...]) -> float:
 
 
 def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) -> None:
-    """Raise BadInput if a shard does not fit into memory, or one of its records not onto the disk of a new `folder`.
-
-    Of all shards of one size one is looked at, and of its records the first: to draw all again takes too long.
-    """
+    """Raise BadInput if a shard does not fit into memory, or one of its records not onto the disk of a new `folder`."""
+    shards = _one_of_each_size(planned)
     free = math.inf if manifest_path(folder).exists() else shutil.disk_usage(_existing(folder)).free
-    memory = memory_bytes()
-    kinds = {(shard.record_bytes, shard.raw_bytes, len(shard.records)): shard for shard in planned}
-    for shard in kinds.values():
+    for shard in shards:
         if shard.record_bytes > free:
             raise BadInput(
                 f"one record needs about {bytes_text(shard.record_bytes)} of disk space; {bytes_text(free)} are free",
                 field=OUT, value=str(folder), allowed="a folder on a larger disk, or shorter records",
             )  # fmt: skip
+    require_shard_memory(recipe, shards)
+
+
+def require_shard_memory(recipe: Recipe, planned: Iterable[PlannedShard]) -> None:
+    """Raise BadInput if a shard, or one of its records, does not fit into memory.
+
+    Of all shards of one size one is looked at, and of its records the first: to draw all again takes too long.
+    """
+    memory = memory_bytes()
+    for shard in _one_of_each_size(planned):
         scenario = draw_scenario(recipe, shard.records[0])
         require_record_memory(recipe, scenario, shard.stored)
         left = memory - record_memory(scenario, shard.stored)
@@ -100,6 +106,10 @@ def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) 
                 f"{bytes_text(memory)}",
                 recipe.store.records_per_shard, f"at most {max(int(left / (COPIES * shard.raw_bytes)), 1)}",
             )  # fmt: skip
+
+
+def _one_of_each_size(planned: Iterable[PlannedShard]) -> list[PlannedShard]:
+    return list({(shard.record_bytes, shard.raw_bytes, len(shard.records)): shard for shard in planned}.values())
 
 
 def _require_record(recipe: Recipe, rate: float, duration: float, need: float) -> None:

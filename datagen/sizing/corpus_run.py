@@ -7,8 +7,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 from datagen.corpus_files.index import read_index
-from datagen.errors import BadInput
 from datagen.judging.scored_runs import write_line
+from datagen.judging.splits import ALL, require_split
 from datagen.progress import Count, ignore
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.comparison import score_record, unsized_row
@@ -21,9 +21,7 @@ from datagen.sizing.size_scores import SizeScores
 from datagen.sizing.size_summary import StatedSizes
 from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
-from labels.schema import SPLITS
 
-ALL = "all"
 NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 
 
@@ -109,7 +107,5 @@ def _split(folder: Path, asked: str | None) -> str:
     present = set(read_index(folder)["split"])
     if asked is None:
         return "test" if "test" in present else ALL
-    if asked != ALL and asked not in present:
-        allowed = ", ".join([ALL, *(name for name in SPLITS if name in present)])
-        raise BadInput("no records of this split", str(folder), "--split", asked, allowed)
+    require_split(folder, present, asked)
     return asked

@@ -1,6 +1,7 @@
 """The feature table: numbers that a vibration analyst would recognise, from acceleration, geometry and shaft speed.
 
-- `jumps`, `glitches`, `shocks`: a bias that jumps, what a recorder wrote wrongly, blows from outside: taken out first
+- `jumps`, `glitches`, `shocks`: a bias that jumps, what a recorder wrote wrongly, blows from outside: taken out first,
+  by `mending`
 - `conditioning`: a signal's spectrum, raw and flattened; `envelopes`: envelope spectra of a tree of bands
 - `turning`: all of that over the angle turned, for speeds that change
 - `combs`: lines of another shaft's knocks, taken out
@@ -8,4 +9,5 @@
 - `families`: evidence of lines with harmonics and sidebands; `kinematics`: where a bearing has them
 - `speed`: the shaft's speed refined; `analysis`: all of these of one record, computed once
 - `waveform`, `modulation`, `orders`: groups of features; `table`: all of them, by name; `feature`: what a row says
+- `signal_features`: all of that for one array
 """

@@ -62,12 +62,7 @@ def condition(
     ValueError for fewer than 64 samples, a rate that is no finite number above 0, samples that are not finite or a
     signal that does not change.
     """
-    signal = np.asarray(signal, dtype=np.float64)
-    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES_USED or not 0.0 < rate < math.inf:
-        needed = f"features need at least {FEWEST_SAMPLES_USED} samples of one axis"
-        raise ValueError(f"{signal.shape} samples at {rate:g} Hz; {needed}")
-    if not np.isfinite(signal).all():
-        raise ValueError("the signal holds a sample that is not finite")
+    signal = sound_signal(signal, rate)
     signal = signal[: fft.prev_fast_len(signal.size, real=True)]
     if np.ptp(signal) == 0.0:
         raise ValueError("the signal does not change")
@@ -78,6 +73,21 @@ def condition(
     spectrum[0] = 0.0
     used = turning.first(signal.size) if turning is not None else None
     return Conditioned(spectrum, _flattened(spectrum), step, top, signal.size, used)
+
+
+def sound_signal(signal: Array, rate: float) -> Array:
+    """The `signal` (T,) as float64.
+
+    ValueError for fewer than 64 samples or several axes, samples that are not finite, or a `rate` (Hz) that is no
+    finite number above 0.
+    """
+    signal = np.asarray(signal, dtype=np.float64)
+    if signal.ndim != 1 or signal.size < FEWEST_SAMPLES_USED or not 0.0 < rate < math.inf:
+        needed = f"features need at least {FEWEST_SAMPLES_USED} samples of one axis"
+        raise ValueError(f"{signal.shape} samples at {rate:g} Hz; {needed}")
+    if not np.isfinite(signal).all():
+        raise ValueError("the signal holds a sample that is not finite")
+    return signal
 
 
 def local_mean_power(power: Array, block: int) -> Array:

@@ -171,6 +171,7 @@ def test_it_ends_with_2_and_one_message_and_nothing_is_written(case: str, tmp_pa
     assert done.stderr.count("\n") == 1
     assert setting in done.stderr
     assert allowed in done.stderr
+    assert run("check", path) == done
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -200,6 +201,7 @@ def test_numbers_beyond_all_machines_are_refused(line: str, message: str, tmp_pa
     done = run("generate", tmp_path, "--out", tmp_path / "out")
     assert (done.exit_code, done.output.count("\n")) == (2, 1)
     assert message in done.output
+    assert run("check", tmp_path) == done
     assert not (tmp_path / "out").exists()
 
 

@@ -1,9 +1,12 @@
 """The benchmark on a tiny corpus: splits by bearing, own estimators, logs, reports."""
 
 import json
+import re
 import shutil
 import sys
+from dataclasses import replace
 from datetime import UTC, datetime
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -17,11 +20,14 @@ from datagen.benchmark.machines import learned_machines, machines, share_machine
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordRows, equal_pieces, record_rows
 from datagen.benchmark.rows import Rows
+from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import (
     TrainingSet,
     train_rule,
     training_records,
 )
+from datagen.benchmark.verdicts import Tested as Judged
+from datagen.benchmark.verdicts import Verdicts
 from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -381,3 +387,50 @@ def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):
     np.testing.assert_allclose(found.table[: len(first)], first, rtol=1e-6, atol=1e-12)  # float32 in the file
     assert set(found.record.tolist()) == {record}
     assert found.axis.tolist() == np.repeat([0, 1], len(found) // 2).tolist()
+
+
+def explained(head):
+    """The names in the first column of a table of docs/transfer.md that begins with this head."""
+    page = (Path(__file__).parents[3] / "docs" / "transfer.md").read_text(encoding="utf-8")
+    rows = page.split(f"| {head} | meaning |\n")[1].split("\n\n")[0].splitlines()[1:]
+    return [name for row in rows for name in re.findall(r"`([^`]+)`", row.split("|")[1])]
+
+
+def test_the_page_explains_every_column_and_key_of_the_reports(classify, tmp_path):
+    done, report = classify("--estimator", "own_estimators:Guesser", "--out", tmp_path / "scores")
+    assert done.exit_code == 0, done.output
+    (tested,) = report["tests"]
+    keys = explained("key of `report.json`")
+    assert set(keys) == {*report, "learning_curve", *tested}
+    scores = explained("key of a model's scores")
+    assert set(scores) == {*tested["models"]["Guesser"], *tested["models"]["rule"]}
+    columns = explained("column of `report.csv`")
+    shown = [column.replace("MODEL", model) for model in ("rule", "Guesser") for column in columns if "MODEL" in column]
+    with (tmp_path / "scores" / "report.csv").open() as file:
+        assert file.readline().strip().split(",") == [*(one for one in columns if "MODEL" not in one), *shown]
+    assert {"faults", "race", "AUC", "false alarms", "rejected"} <= set(explained("in that line"))
+
+
+def test_the_race_is_scored_of_every_fault_whether_it_raised_the_alarm_or_not():
+    said = Verdicts(
+        name="model",
+        location=np.array(["none", "none", "outer", "rejected", "none"]),
+        condition=np.array(["healthy", "healthy", "line", "rejected", "healthy"]),
+        race=np.array(["outer", "inner", "outer", "rejected", "outer"]),
+        score=np.array([0.1, 0.2, 0.9, np.nan, 0.3]),
+        alarm=np.full(5, 0.5),
+    )
+    rule = replace(said, name="rule")
+    truth = np.array(["outer", "outer", "inner", "outer", "none"])
+    nothing, blank = np.zeros(5, dtype=np.int64), np.full(5, "")
+    labels = pandas.DataFrame({"record": range(5), "bearing_id": list("abcde")}).assign(
+        snr_db=np.nan, speed_rpm=100.0, extent_mm=np.nan, extent_spacing=np.nan
+    )
+    tested = Judged(
+        Path("corpus"), labels, truth, np.full(5, "unknown"), blank, nothing, nothing, nothing, blank,
+        np.full(5, np.nan), (rule,), True,
+    )  # fmt: skip
+    scores = summarise(tested).models["rule"]
+    assert scores.race_accuracy.value == 0.25  # right: the first of four faults; healthy records do not count
+    assert scores.faults_balanced_accuracy.value == 0.0
+    assert scores.detection_auc.value == pytest.approx(1.0 / 3.0)  # of three faults with a score one is above 0.3

@@ -147,7 +147,7 @@ def test_records_asked_for_beyond_the_recipe_are_no_manifest(copy: Path) -> None
     assert "its entries are not those of this version of the format" in told_by("check", copy)
 
 
-@pytest.mark.parametrize("command", ["info", "check", "report", "size"])
+@pytest.mark.parametrize("command", ["info", "report", "size"])
 def test_what_is_no_corpus_is_told_apart(command: str, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     (tmp_path / "folder").mkdir()
@@ -155,6 +155,14 @@ def test_what_is_no_corpus_is_told_apart(command: str, tmp_path: Path) -> None:
     if command != "report":  # whose own folder would lie in it, which is said first
         assert "this is not a folder" in told_by(command, tmp_path / "file")
     assert "so it is not a corpus, or its making was interrupted" in told_by(command, tmp_path / "folder")
+
+
+def test_what_is_neither_a_corpus_nor_a_recipe_is_told_apart(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder").mkdir()
+    assert "no such file or folder, and no dataset of that name" in told_by("check", tmp_path / "nowhere")
+    assert "name: this setting is missing" in told_by("check", tmp_path / "file")
+    assert "so it is not a corpus, or its making was interrupted" in told_by("check", tmp_path / "folder")
 
 
 def test_a_preview_of_neither_corpus_nor_recipe_says_so(tmp_path: Path) -> None:

@@ -57,7 +57,8 @@ def _check_recipe(source: Path, json_file: Path | None) -> None:
 def _print_recipe(facts: RecipeFacts) -> None:
     parts = f" in {len(facts.parts)} parts" if len(facts.parts) > 1 else ""
     print(f"{facts.recipe}: a sound recipe")
-    print(f"it makes {facts.records} records of {facts.machines} virtual machines{parts}, in {facts.shards} shards")
+    made = f"{counted(facts.records, 'record')} of {counted(facts.machines, 'virtual machine')}"
+    print(f"it makes {made}{parts}, in {counted(facts.shards, 'shard')}")
     print(f"they last {_span(facts.durations_s)} s each, {facts.signal_seconds:.6g} s together")
     print(f"sampled at {_span(facts.rates_hz)} Hz, about {bytes_text(facts.bytes)} on the disk")
 

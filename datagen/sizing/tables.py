@@ -49,7 +49,8 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
     """Size of the spall of every record with its 90 % intervals, or in words why none is given."""
     table = Table(
         caption="In brackets 90 % intervals. Trust: 1 less the relative error to be expected of the time between the "
-        "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files."
+        "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files. Where "
+        "an exit and the\nnext entry were taken for entry and exit, the spall is what the size lacks of a ball spacing."
     )
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")

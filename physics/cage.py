@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -61,15 +61,22 @@ class CagePath:
     def _check_knots(self) -> None:
         require_positive("knot_step", self.knot_step, "s")
         require_finite("knot_start", self.knot_start, "s")
-        last = self.knot_start + self.knot_step * (len(self.knot_values) - 1)
+        self._require_known_slip(self.knot_start + self.knot_step * (len(self.knot_values) - 1))
+        for slip in self.knot_values:
+            if not abs(slip) <= LARGEST_SLIP:
+                require_between("knot_values", slip, -LARGEST_SLIP, LARGEST_SLIP)
+
+    def _require_known_slip(self, last: float) -> None:
         require(
             self.knot_start <= 0.0 and last >= self.duration,
             f"slip knots cover {self.knot_start:g} to {last:g} s; they must cover 0 to {self.duration:g} s",
             "knot_values",
         )
-        for slip in self.knot_values:
-            if not abs(slip) <= LARGEST_SLIP:
-                require_between("knot_values", slip, -LARGEST_SLIP, LARGEST_SLIP)
+
+    def going_on(self, seconds: float) -> CagePath:
+        """The same path for so many seconds longer, behind its last knot at the speed that it has there."""
+        settings = {field.name: getattr(self, field.name) for field in fields(self)}
+        return LongerPath(**settings | {"duration": self.duration + seconds})
 
     @property
     def mean_speed(self) -> float:
@@ -93,6 +100,9 @@ class CagePath:
     @cached_property
     def polynomial(self) -> PPoly:
         """The angle as a piecewise polynomial in time (rad); one piece between each two knots."""
+        return self._polynomial()
+
+    def _polynomial(self) -> PPoly:
         if not self.knot_values:
             straight = np.array([[self.mean_speed], [self.start_angle]])
             return PPoly(straight, np.array([0.0, self.duration]), extrapolate=True)
@@ -114,6 +124,27 @@ class CagePath:
     def crossing_times(self, target: NDArray[np.float64]) -> NDArray[np.float64]:
         """Times (N,) at which the cage angle equals each `target` angle (N,), s; beyond the ends at the mean speed."""
         return crossing_times(self.polynomial, self.mean_speed, self.duration, np.asarray(target, dtype=float))
+
+
+@dataclass(frozen=True)
+class LongerPath(CagePath):
+    """A path that goes on behind its last knot, at the speed that it has there."""
+
+    def _require_known_slip(self, last: float) -> None:
+        """Its slip is known, however long it lasts."""
+
+    def _polynomial(self) -> PPoly:
+        """As that between the knots, with pieces as long behind the last one."""
+        known = super()._polynomial()
+        beyond = math.ceil((self.duration - known.x[-1]) / self.knot_step) if self.knot_values else 0
+        if beyond <= 0:
+            return known
+        since = self.knot_step * np.arange(beyond)
+        straight = np.zeros((known.c.shape[0], beyond))
+        straight[-2] = known(known.x[-1], nu=1)
+        straight[-1] = known(known.x[-1]) + straight[-2] * since
+        edges = np.concatenate([known.x, known.x[-1] + since + self.knot_step])
+        return PPoly(np.concatenate([known.c, straight], axis=1), edges, extrapolate=True)
 
 
 def crossing_times(

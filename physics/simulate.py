@@ -19,7 +19,7 @@ from physics.response.modal_case import resting
 from physics.response.oversampling import oversampling
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
-from physics.response.resampling import decimate
+from physics.response.resampling import HALF_LENGTH_SAMPLES, decimate
 from physics.response.silence import silence
 from physics.response.single_march import respond_by_reference
 from physics.rms import rms
@@ -113,14 +113,16 @@ def _respond_simply(scene: Scene, rate: float, solution: Simpler, keep: Kept) ->
     """By a model of physics.ladder."""
     simpler = SIMPLER_MODELS[solution.model]
     factor = oversampling(scene, rate) if simpler.rings else 1
-    return _lowered(simpler.respond(scene, rate * factor, keep), rate, factor, _samples(scene, rate))
+    longer, _ = _looking_ahead(scene, rate, factor)
+    return _lowered(simpler.respond(longer, rate * factor, keep), rate, factor, _samples(scene, rate))
 
 
 def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kept) -> Trace:
     """By steps that the modal method chooses."""
     samples, accuracy = _samples(scene, rate), solution.accuracy
     rest, factor = resting(scene), oversampling(scene, rate, keep.fastest_path)
-    asked = (scene, rest, rate * factor, samples * factor, accuracy, solution.least_error)
+    longer, marched = _looking_ahead(scene, rate, factor)
+    asked = (longer, rest, rate * factor, marched, accuracy, solution.least_error)
     alone = keep == ACCELERATION_ALONE
     repeated = solution.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
     trace = respond_until_repeated(*asked) if repeated else respond_accurately(*asked, keep)
@@ -135,16 +137,28 @@ def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSt
     """By fixed steps, or by the slow reference method."""
     samples = _samples(scene, rate)
     rest, factor = carried(scene, np.zeros(1)), oversampling(scene, rate, keep.fastest_path)
-    raised = (rate * factor, samples * factor)
+    longer, marched = _looking_ahead(scene, rate, factor)
+    raised = (rate * factor, marched)
     if isinstance(solution, Reference):
         start = starting_state(motion_model(scene), rest.displacement[0])
-        trace = respond_by_reference(scene, start, *raised, keep_state=keep.state)
+        trace = respond_by_reference(longer, start, *raised, keep_state=keep.state)
     elif isinstance(solution, HalvedSteps):
-        trace = respond_by_fixed_steps(scene, rest, *raised, solution.method, None, solution.accuracy, keep)
+        trace = respond_by_fixed_steps(longer, rest, *raised, solution.method, None, solution.accuracy, keep)
     else:
         accuracy = math.inf if solution.estimate_error else None
-        trace = respond_by_fixed_steps(scene, rest, *raised, solution.method, solution.substeps, accuracy, keep)
+        trace = respond_by_fixed_steps(longer, rest, *raised, solution.method, solution.substeps, accuracy, keep)
     return _lowered(trace, rate, factor, samples)
+
+
+def _looking_ahead(scene: Scene, rate: float, factor: int) -> tuple[Scene, int]:
+    """The scene that is marched at a `factor` times the `rate` (Hz), and for how many samples: it lasts longer by what
+    the low-pass behind it looks ahead, if there is one."""
+    if factor == 1:
+        return scene, _samples(scene, rate)
+    ahead = HALF_LENGTH_SAMPLES / rate
+    second = None if scene.second_cage is None else scene.second_cage.going_on(ahead)
+    longer = replace(scene, cage=scene.cage.going_on(ahead), second_cage=second)
+    return longer, (_samples(scene, rate) + HALF_LENGTH_SAMPLES) * factor
 
 
 def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:
@@ -160,6 +174,7 @@ def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:
         time=time,
         outer_rate=raised,
         acceleration=decimate(trace.acceleration, factor)[:samples],
+        changes=trace.changes.before(samples / rate),
         state=None if trace.state is None else trace.state[::factor][:samples],
         contact_force=None if trace.contact_force is None else trace.contact_force[::factor][:samples],
     )

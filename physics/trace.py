@@ -26,6 +26,11 @@ class ContactChanges:
     made: NDArray[np.bool_]
     initial: NDArray[np.bool_]
 
+    def before(self, end: float) -> ContactChanges:
+        """Those before an `end` (s)."""
+        early = self.time < end
+        return ContactChanges(self.time[early], self.row[early], self.ball[early], self.made[early], self.initial)
+
 
 @dataclass(frozen=True)
 class Kept:

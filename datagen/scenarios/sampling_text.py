@@ -9,11 +9,12 @@ from physics.response.oversampling import raised_times
 from physics.response.resampling import HALF_LENGTH_SAMPLES, HALVED_SHARE, KAISER_BETA
 
 LOWERING_RULE = (
-    "simulated at the instants k / (oversampling rate_hz), k = 0 to samples oversampling - 1; from a signal x at these "
-    "instants the record takes y[m] = sum of h[n] x[m oversampling + n] over n = -half_length to half_length, x before "
-    "its first and after its last value being that value; h[n] = g sinc(cutoff n) I0(kaiser_beta sqrt(1 - (n / "
-    "half_length)^2)), sinc(v) = sin(pi v) / (pi v), I0 the modified Bessel function, g such that the sum of h is 1. "
-    "Lowered so are the resonator's acceleration and the sum of the chain's modes; contact forces are samples"
+    "simulated at the instants k / (oversampling rate_hz), k = 0 to samples oversampling + half_length - 1, the cage "
+    "going on behind its last knot at the speed it has there; from a signal x at these instants the record takes y[m] "
+    "= sum of h[n] x[m oversampling + n] over n = -half_length to half_length, x before its first value being that "
+    "value; h[n] = g sinc(cutoff n) I0(kaiser_beta sqrt(1 - (n / half_length)^2)), sinc(v) = sin(pi v) / (pi v), I0 "
+    "the modified Bessel function, g such that the sum of h is 1. Lowered so are the resonator's acceleration and the "
+    "sum of the chain's modes; contact forces are samples"
 )
 
 

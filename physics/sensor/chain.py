@@ -66,4 +66,4 @@ def _of_outer_ring(modes: tuple[SensorMode, ...], trace: Trace) -> Array:
         raise ValueError("sensor modes need a trace that kept the outer ring's motion: keep=Kept(outer=True)")
     motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
     raised = mode_accelerations(modes, *motion, trace.outer_rate)
-    return decimate(raised, round(trace.outer_rate / trace.rate))
+    return decimate(raised, round(trace.outer_rate / trace.rate))[: trace.time.size]

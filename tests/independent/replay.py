@@ -86,16 +86,22 @@ def read_machine(scenario: dict[str, Any]) -> Machine:
 
 
 def cage_path(slip: dict[str, Any], start_angle: float) -> tuple[Any, Any]:
-    """Functions angle(t) and speed(t) of a cage: nominal speed times (1 - mean slip + spline through the knots)."""
+    """Functions angle(t) and speed(t) of a cage: nominal speed times (1 - mean slip + spline through the knots), whose
+    last value goes on behind it."""
     nominal, knots = slip["nominal_speed"], np.array(slip["knots"], dtype=float)
     mean = nominal * (1.0 - slip["mean_slip"])
     if knots.size == 0:
         return lambda t: start_angle + mean * t, lambda t: np.full_like(t, mean)
     spline = CubicSpline(slip["knot_start_s"] + slip["knot_step_s"] * np.arange(knots.size), knots, bc_type="natural")
-    slipped = spline.antiderivative()
+    slipped, last = spline.antiderivative(), spline.x[-1]
+
+    def slip_until(t: Array) -> Any:
+        known = np.minimum(t, last)
+        return slipped(known) + spline(last) * (t - known)
+
     return (
-        lambda t: start_angle + mean * t + nominal * (slipped(t) - slipped(0.0)),
-        lambda t: mean + nominal * spline(t),
+        lambda t: start_angle + mean * t + nominal * (slip_until(t) - slip_until(np.zeros(()))),
+        lambda t: mean + nominal * spline(np.minimum(t, last)),
     )
 
 
@@ -279,7 +285,8 @@ def replay(scenario: dict[str, Any], substeps: int = SUBSTEPS) -> dict[str, Arra
     """Time, resonator acceleration, state and contact forces of the record that a parsed scenario describes."""
     factor = scenario["sampling"].get("oversampling", 1)
     run = march(scenario, factor, -(-substeps // factor))
-    lower = {key: run[key][::factor] for key in run} | {"acceleration": lowered(run["acceleration"], scenario)}
+    acceleration = lowered(run["acceleration"], scenario)
+    lower = {key: run[key][::factor][: acceleration.shape[0]] for key in run} | {"acceleration": acceleration}
     return {key: recorded(lower[key], scenario) for key in lower}
 
 
@@ -289,20 +296,21 @@ def recorded(signal: Array, scenario: dict[str, Any]) -> Array:
 
 
 def lowered(signal: Array, scenario: dict[str, Any]) -> Array:
-    """The record's samples of a `signal` (T oversampling, 2): as it is where the rate was not raised."""
+    """The record's samples of a `signal` (T oversampling + half_length, 2): as it is where the rate was not raised."""
     rule, factor = scenario["sampling"].get("lowering"), scenario["sampling"].get("oversampling", 1)
     if rule is None:
         return signal
     reach = rule["half_length"]
     n = np.arange(-reach, reach + 1)
     taps = np.sinc(rule["cutoff"] * n) * np.i0(rule["kaiser_beta"] * np.sqrt(1.0 - (n / reach) ** 2))
-    held = np.concatenate([np.repeat(signal[:1], reach, axis=0), signal, np.repeat(signal[-1:], reach, axis=0)])
-    windows = [held[first : first + n.size] for first in range(0, signal.shape[0], factor)]
+    held = np.concatenate([np.repeat(signal[:1], reach, axis=0), signal])
+    windows = [held[first : first + n.size] for first in range(0, signal.shape[0] - reach, factor)]
     return np.array([taps @ window for window in windows]) / taps.sum()
 
 
 def march(scenario: dict[str, Any], factor: int, substeps: int) -> dict[str, Array]:
-    """What `replay` gives, at `factor` times the record's rate, before it is lowered, and from t = -settle_s on."""
+    """What `replay` gives, at `factor` times the record's rate, before it is lowered, and from t = -settle_s on to
+    where the low-pass looks."""
     m, second = read_machine(scenario), scenario.get("second_cage")
     paths = [cage_path(scenario["slip"], scenario["parameters"]["phi_c0"])] * m.ball_offset.shape[0]
     if second:
@@ -310,6 +318,8 @@ def march(scenario: dict[str, Any], factor: int, substeps: int) -> dict[str, Arr
     rate = factor * scenario["sampling"]["rate_hz"]
     settle = scenario["sampling"].get("settle_s", 0.0)
     samples = factor * round(rate / factor * (scenario["sampling"]["duration_s"] + settle))
+    if scenario["sampling"].get("lowering"):
+        samples += scenario["sampling"]["lowering"]["half_length"] * factor // scenario["sampling"]["oversampling"]
     z, h = (
         initial_state(m, np.array([float(angle(np.array(-settle))) for angle, _ in paths]), -settle),
         1.0 / rate / substeps,

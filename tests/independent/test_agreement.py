@@ -157,7 +157,7 @@ def test_a_record_at_a_low_rate_agrees_to_its_ends_once_it_is_lowered_as_its_tex
     ours = simulate(made, rate).acceleration
     assert text["sampling"]["oversampling"] == factor
     assert again.shape == ours.shape
-    samples = march(text, factor, 32)["acceleration"][::factor]
+    samples = march(text, factor, 32)["acceleration"][::factor][: ours.shape[0]]
     assert distance(ours, again) < 1e-3  # the replay's own error at 32 steps a raised sample
     assert distance(ours, samples) > 8e-3  # what replays that knew no filter were away
 

@@ -139,6 +139,15 @@ def test_a_larger_ball_carries_more_and_a_smaller_one_less(gearbox, build_scene)
         assert (loads_of(build_scene(gearbox, imperfections=uneven))[0, 0, 9] > even[0, 9]) == more
 
 
+def test_a_ball_s_size_counts_along_the_contact_normal_and_clearance_along_the_radius(gearbox, build_scene):
+    angle, larger, clearance = math.radians(30), 5e-6, 2e-6
+    oversize = Imperfections(ball_deviation=((larger,) * 12,) * 2)
+    bearing = {"contact_angle": angle, "clearance": clearance}
+    scene = build_scene(gearbox, bearing=bearing, operation={"load": 0.0}, imperfections=oversize)
+    each = gearbox.bearing.load_deflection * (larger - clearance * math.cos(angle)) ** 1.5  # the shaft at the centre
+    assert loads_of(scene) == pytest.approx(each, rel=1e-9)  # rounding
+
+
 def test_with_a_contact_angle_balls_press_harder_and_the_shaft_sinks_deeper(gearbox, build_scene):
     tilted = equilibrium(build_scene(gearbox, bearing={"contact_angle": math.radians(30)}), START)
     straight = equilibrium(build_scene(gearbox), START)

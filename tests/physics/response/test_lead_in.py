@@ -168,6 +168,13 @@ def test_a_lead_in_of_which_the_slip_is_not_known_is_refused():
         started_earlier(scene, 0.1)
 
 
+def test_the_slip_of_both_cages_has_to_be_known_during_the_lead_in():
+    known = slipping("G1", 0.02)
+    late = dataclasses.replace(known, second_cage=reference_scene("G1", 0.02, slip_seed=1).cage)
+    with pytest.raises(SimulationFailed, match=r"a lead-in of 0.1 s; the cage's slip is known from -0.0\d+ s on"):
+        simulate(late, RATE, lead_in=LeadIn(LEAD_IN))
+
+
 def test_a_lead_in_whose_whole_samples_begin_before_the_slip_is_known_is_refused():
     scene = reference_scene("G1", 0.02, slip_seed=1)
     known = -scene.cage.knot_start

@@ -308,6 +308,21 @@ def test_an_edge_takes_off_the_load_that_the_ball_carries(angle, fluctuation, re
     assert np.abs(edges.change[edges.unloads]) == pytest.approx(carried[edges.unloads], rel=1e-9)
 
 
+def test_an_edge_of_a_shallow_spall_leaves_the_ball_what_its_law_gives_for_the_rest_of_its_compression(reference_scene):
+    scene, depth, angle = reference_scene("G1", 0.1), 2e-6, 0.4
+    bearing = dataclasses.replace(scene.rig.bearing, contact_angle=angle)
+    shallow = dataclasses.replace(scene.spalls[0], depth=depth, entry_taper=0.0, exit_taper=0.0)
+    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(shallow,))
+    edges = edges_of(scene)
+    carried = equilibrium(dataclasses.replace(scene, spalls=()), edges.time).ball_load
+    carried = carried[np.arange(edges.time.size), edges.row - 1, edges.ball - 1]
+    pressed = (carried / bearing.load_deflection) ** (1.0 / 1.5)  # along the contact normal
+    left = bearing.load_deflection * (pressed - depth * math.cos(angle)) ** 1.5
+    assert pressed.min() > 2.0 * depth
+    assert np.abs(edges.change) == pytest.approx(carried - left, rel=1e-9)  # rounding
+    assert not edges.unloads.any()
+
+
 def test_a_spall_that_turns_with_the_cage_makes_no_impulses(reference_scene):
     scene = reference_scene("F1", 0.05)
     inner = dataclasses.replace(scene.spalls[0], race="inner")

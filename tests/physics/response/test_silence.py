@@ -69,6 +69,15 @@ def test_forces_of_preload_and_waves_follow_from_the_contact_law():
     assert largest_forces(preloaded("G0", 346.0, 1e-5, both)) == 346.0
 
 
+def test_silence_is_what_forces_known_so_well_do_to_the_outer_ring():
+    scene = preloaded("G0", 300.0, clearance=1e-5)
+    heavy = replace(scene, rig=replace(scene.rig, outer_mass=2.0 * scene.rig.outer_mass))
+    light = replace(scene, rig=replace(scene.rig, inner_mass=0.5 * scene.rig.inner_mass))
+    assert silence(scene) == pytest.approx(300e-12 / 10.268)  # N, kg
+    assert silence(heavy) == 0.5 * silence(scene)
+    assert silence(light) == silence(scene)
+
+
 def test_the_largest_ball_stands_proud_as_waves_do():
     machine = preloaded("G0", 0.0).rig.bearing  # 2 rows of 12 balls, contact angle 0
     balls = ((4e-6, *(-9e-6,) * 11), (0.0,) * 12)

@@ -246,6 +246,8 @@ def test_without_contact_changes_nothing_is_said_of_contact(make_scene, line_spa
     assert np.isnan(table.release_time).all()
     assert np.isnan(table.regain_time).all()
     assert not table.loaded.any()
+    assert np.isnan(table.fall_time).all()
+    assert np.isnan(table.rise_time).all()
 
 
 def test_release_and_regain_shorten_the_lag_by_about_twice_the_static_release_angle(make_scene):

@@ -1,7 +1,9 @@
 import dataclasses
+import math
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from physics.checks import InvalidParameter
 
@@ -20,6 +22,8 @@ def test_the_shaft_is_held_by_nothing_but_the_bearing(fan):
 
 
 def test_moving_outer_ring_and_resonator_together_stretches_only_the_support(fan):
+    uneven = {"support_stiffness_y": 3.0 * fan.support_stiffness_y, "support_damping_y": 0.5 * fan.support_damping_y}
+    fan = dataclasses.replace(fan, **uneven)
     together = np.array([0.0, 0.0, 2.0, 3.0, 2.0, 3.0])
     force = fan.stiffness_matrix() @ together
     expected = [0.0, 0.0, 2.0 * fan.support_stiffness_x, 3.0 * fan.support_stiffness_y, 0.0, 0.0]
@@ -27,6 +31,12 @@ def test_moving_outer_ring_and_resonator_together_stretches_only_the_support(fan
     drag = fan.damping_matrix() @ together
     expected = [0.0, 0.0, 2.0 * fan.support_damping_x, 3.0 * fan.support_damping_y, 0.0, 0.0]
     assert drag == pytest.approx(expected, rel=1e-12, abs=1e-9)  # rounding of sums of 1e3
+
+
+def test_the_free_resonance_is_the_fastest_mode_on_next_to_no_support(fan):
+    hanging = dataclasses.replace(fan, support_stiffness_x=1.0, support_stiffness_y=1.0)
+    squared = eigh(hanging.stiffness_matrix(), hanging.mass_matrix(), eigvals_only=True)
+    assert fan.free_resonance == pytest.approx(math.sqrt(squared[-1]), rel=1e-6)  # 1 N/m beside 4e8
 
 
 def test_each_mass_stands_twice_on_the_diagonal(gearbox):

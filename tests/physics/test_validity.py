@@ -136,12 +136,15 @@ def measured(extent, angle, depth):
     return Spall("outer", 1, DOWN, extent, 0.0, profile="table", table_angle=angle, table_depth=depth)
 
 
-@pytest.mark.parametrize("pit", [0.0, 1e-6])
-def test_a_ball_that_climbs_a_proud_bump_takes_the_force_of_its_way_up(fan, pit):
-    # A plateau with cliffs, and perhaps a shallow pit in it: the ball touches the corner of a cliff where its centre is
-    # off by the arc at which it hangs as far below the plateau as that stands above the race.
+@pytest.mark.parametrize(
+    ("foot", "pit", "end"), [(0.01, 0.0, 0.0), (0.01, 1e-6, 1e-6), (0.0, 40e-6, 0.0)], ids=["flat", "shallow", "deep"]
+)
+def test_a_ball_that_climbs_a_proud_bump_takes_the_force_of_its_way_up(fan, foot, pit, end):
+    # A plateau with a cliff, and perhaps a shallow pit behind it, or a deep one with long slopes: the ball
+    # touches the corner of the cliff where its centre is off by the arc at which it hangs as far below the plateau as
+    # that stands above the race.
     height, half = 20e-6, 0.05
-    bump = measured(2.0 * half, (-half, -0.01, 0.01, half), (-height, -height, pit, pit))
+    bump = measured(2.0 * half, (-half, -0.03 if end < pit else -0.01, foot, half), (-height, -height, pit, end))
     scene = scene_of(fan, (bump,))
     top, ball = fan.bearing.raceway_radius("outer") - height, fan.bearing.ball_radius
     # The law of cosines: corner, centre of the ball before it climbs, axis of the bearing.

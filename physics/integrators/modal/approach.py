@@ -18,6 +18,7 @@ from physics.integrators.modal.memory import (
     BALL,
     BUDGET,
     CELL,
+    EXACT,
     GRADED,
     LEFT,
     NO_BALL,
@@ -66,7 +67,7 @@ def meet_change(
     clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
     clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
-    if losing and marks[ON_GRID] == 1 and jump < allowed and clock[GRADED] > unit:
+    if losing and marks[ON_GRID] == 1 and marks[CELL] >= marks[EXACT] and jump < allowed and clock[GRADED] > unit:
         left = unit * max(1, int(left / unit + 0.5))
     marks[BALL], clock[LEFT], clock[ON_WAY] = ball, left, left
     if not losing:
@@ -95,7 +96,12 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
         size = contacts.balls.shape[2]
         cage, place = marks[BALL] // size, marks[BALL] % size
         if not _changes_at_zero(contacts, memory, cage, place) or _wrong_by(contacts, cage, place, step) <= tolerance:
-            return False
+            if marks[CELL] < marks[EXACT] or not _is_past(contacts, step, tolerance, marks[BALL]):
+                return False
+            # Put on the grid, the change would be taken behind that of another ball.
+            marks[BALL], marks[EXACT] = NO_BALL, marks[CELL] + 1
+            clock[PACE] = min(clock[PACE], step)
+            return True
         late, then = _late(contacts, cage, place), clock[TIME] + step
         if _is_met_at_wall(contacts, marks[BALL], then, grid.interval):
             marks[AT_WALL] = 1
@@ -107,7 +113,7 @@ def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) 
             marks[TRIED] += 1
             clock[LEFT] = step - late
             return late > 0.0
-    past = count_changes(contacts) > 0 and _is_past(contacts, step, tolerance)
+    past = count_changes(contacts) > 0 and _is_past(contacts, step, tolerance, NO_BALL)
     if past or clock[LEFT] - step <= SMALLEST_STEP_SHARE * grid.interval:
         marks[BALL] = NO_BALL
         clock[PACE] = min(clock[PACE], step)
@@ -136,11 +142,12 @@ def _wrong_by(contacts: Contacts, cage: int, place: int, step: float) -> float:
 
 
 @njit_inline
-def _is_past(contacts: Contacts, step: float, tolerance: float) -> bool:
-    """Whether some ball contradicts the contact set by more than the tolerance (N s)."""
+def _is_past(contacts: Contacts, step: float, tolerance: float, apart_from: int) -> bool:
+    """Whether some ball, `apart_from` one, contradicts the contact set by more than the tolerance (N s)."""
     for cage in range(contacts.balls.shape[0]):
         for place in range(contacts.balls.shape[2]):
             contradicts = touches(contacts, cage, place) != (contacts.balls[cage, ACTIVE, place] > 0.5)
+            contradicts = contradicts and cage * contacts.balls.shape[2] + place != apart_from
             if contradicts and _wrong_by(contacts, cage, place, step) > tolerance:
                 return True
     return False

@@ -31,9 +31,9 @@ TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(CLO
 # Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
 # of the contact change ahead, whether `time` is a whole number of units, balls that pull now, sample from which on the
 # tolerance is to be set anew, 1 where a step may pass over bumps of a path unseen, 1 where the contact change ahead
-# is at a wall of the path.
-MARKS_ENTRIES = 10
-CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL = range(MARKS_ENTRIES)
+# is at a wall of the path, unit before which no loss of contact is put on the grid.
+MARKS_ENTRIES = 11
+CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL, EXACT = range(MARKS_ENTRIES)
 
 
 class Memory(NamedTuple):

@@ -135,6 +135,10 @@ def test_lines_beyond_half_the_rate_are_left_out_and_not_folded_back(draw):
     assert list(lines(draw(np.random.default_rng(8)))) == [3000.0]
 
 
+def test_a_line_at_half_the_rate_itself_is_left_out():
+    assert list(lines(mains_hum(np.random.default_rng(8), MainsHum(RATE / 4.0, (1.0, 1.0)), SAMPLES, RATE))) == [2048.0]
+
+
 def test_a_single_knock_is_a_decaying_sine_from_an_instant_between_two_samples():
     layer = Impulses(0.3, 4.0, 0.0, (Resonance(700.0, 0.03),))
     seed = next(s for s in range(99) if np.random.default_rng(s).poisson(0.6) == 1)

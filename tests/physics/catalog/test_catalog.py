@@ -211,6 +211,15 @@ def test_assumed_dampings_are_the_share_of_critical_that_their_note_says(entry, 
     assert f"{percent:g} %" in getattr(RIGS[entry], damping).note
 
 
+@pytest.mark.parametrize(
+    ("entry", "play_um"),
+    [("skf_6205", 6), ("skf_6203", 6), ("ldk_uer204", 6), ("nice_mfpt", 6), ("rexnord_za2115", 20)],
+)
+def test_an_assumed_clearance_is_half_of_the_play_that_its_note_says(entry, play_um):
+    assert f"half of a diametral play of {play_um} µm" in BEARINGS[entry].clearance.note
+    assert BEARINGS[entry].clearance.value == pytest.approx(0.5e-6 * play_um)
+
+
 def test_self_aligning_bearings_have_a_spherical_outer_raceway():
     for name in ("koyo_1205", "nachi_2206gk"):
         ring = bearing(name)

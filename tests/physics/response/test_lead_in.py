@@ -7,13 +7,16 @@ from functools import cache
 import numpy as np
 import pytest
 
+from physics.cage import CagePath
 from physics.checks import InvalidParameter
+from physics.imperfections import Imperfections, Waviness
 from physics.outcome import Outcome, SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.request import FixedSteps, HalvedSteps, LeadIn, Reference, Simpler
 from physics.response.lead_in import from_start, respond_behind, started_earlier
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
+from physics.statics.load_distribution import equilibrium, load_vector
 from physics.trace import Kept
 
 RATE = 65536.0
@@ -55,6 +58,25 @@ def test_a_scene_that_started_earlier_does_the_same_later():
     np.testing.assert_allclose(earlier.cage.angle(instants + LEAD_IN), scene.cage.angle(instants), atol=1e-12)
     np.testing.assert_allclose(earlier.cage.speed(instants + LEAD_IN), scene.cage.speed(instants), rtol=1e-12)
     assert earlier.duration == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_loads_spalls_waves_and_both_cages_stand_after_the_lead_in_where_the_record_begins_with_them(race):
+    scene = reference_scene("G1", 0.05)
+    turning = {"unbalance_force": 60.0, "unbalance_phase": 0.3, "load_fluctuation": 0.2, "fluctuation_phase": 1.9}
+    scene = dataclasses.replace(
+        scene,
+        operation=dataclasses.replace(scene.operation, **turning),
+        second_cage=CagePath(0.97 * scene.cage.nominal_speed, 0.05, 0.1),
+        spalls=(dataclasses.replace(scene.spalls[0], race=race, extent=0.3),),
+        imperfections=Imperfections((Waviness("outer", 7, 1e-6, 0.4), Waviness("inner", 3, 2e-6, 1.1))),
+    )
+    earlier, instants = started_earlier(scene, LEAD_IN), np.linspace(0.0, 0.05, 101)
+    load = load_vector(scene, instants)
+    assert load_vector(earlier, instants + LEAD_IN) == pytest.approx(load, abs=1e-9)  # N; rounding of phases
+    # What each ball bears tells where it is, and spall and waves below it.
+    borne = equilibrium(scene, instants).ball_load
+    assert equilibrium(earlier, instants + LEAD_IN).ball_load == pytest.approx(borne, abs=1e-6)  # N, of up to 70
 
 
 def test_the_modal_method_keeps_its_accuracy_behind_a_start_that_is_much_louder():
@@ -144,6 +166,13 @@ def test_a_lead_in_of_which_the_slip_is_not_known_is_refused():
         simulate(scene, RATE, lead_in=LeadIn(0.1))
     with pytest.raises(InvalidParameter, match="slip knots cover"):
         started_earlier(scene, 0.1)
+
+
+def test_the_slip_of_both_cages_has_to_be_known_during_the_lead_in():
+    known = slipping("G1", 0.02)
+    late = dataclasses.replace(known, second_cage=reference_scene("G1", 0.02, slip_seed=1).cage)
+    with pytest.raises(SimulationFailed, match=r"a lead-in of 0.1 s; the cage's slip is known from -0.0\d+ s on"):
+        simulate(late, RATE, lead_in=LeadIn(LEAD_IN))
 
 
 def test_a_lead_in_whose_whole_samples_begin_before_the_slip_is_known_is_refused():

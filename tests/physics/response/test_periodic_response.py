@@ -50,6 +50,25 @@ def _times(changes, ball, made):
     return changes.time[(changes.ball == ball) & (changes.made == made)]
 
 
+def test_an_accuracy_that_may_be_too_fine_to_read_is_kept_all_the_same(steady):
+    trace, exact = simulate(steady, RATE, Accurate(3e-4)), simulate(steady, RATE, Accurate(1e-5))
+    assert relative_error(trace.acceleration, exact.acceleration) <= trace.error_estimate <= 3e-4
+
+
+def test_the_estimate_counts_what_the_last_period_has_not_settled_yet(reference_scene):
+    scene = _without_slip(reference_scene("F1p", speed_factor=0.5), 1.2)
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
+    assert trace.method == METHOD
+    assert relative_error(trace.acceleration, exact.acceleration) <= trace.error_estimate
+
+
+def test_spikes_of_a_spall_that_is_passed_within_a_sample_are_not_read_between_samples(reference_scene):
+    narrow = {"extent": 3e-4, "entry_taper": 1.2e-4, "exit_taper": 1.2e-4}
+    scene = changed(_without_slip(reference_scene("G1"), 0.8), spall=narrow)
+    trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
+    assert relative_error(trace.acceleration, exact.acceleration) <= trace.error_estimate <= 1e-3
+
+
 def test_a_finer_accuracy_than_can_be_read_is_marched_to_the_end(steady):
     assert simulate(steady, RATE, Accurate(1e-4)).method == MODAL
 

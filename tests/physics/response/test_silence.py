@@ -69,6 +69,24 @@ def test_forces_of_preload_and_waves_follow_from_the_contact_law():
     assert largest_forces(preloaded("G0", 346.0, 1e-5, both)) == 346.0
 
 
+def test_silence_is_what_forces_known_so_well_do_to_the_outer_ring():
+    scene = preloaded("G0", 300.0, clearance=1e-5)
+    heavy = replace(scene, rig=replace(scene.rig, outer_mass=2.0 * scene.rig.outer_mass))
+    light = replace(scene, rig=replace(scene.rig, inner_mass=0.5 * scene.rig.inner_mass))
+    assert silence(scene) == pytest.approx(300e-12 / 10.268)  # N, kg
+    assert silence(heavy) == 0.5 * silence(scene)
+    assert silence(light) == silence(scene)
+
+
+def test_the_largest_ball_stands_proud_as_waves_do():
+    machine = preloaded("G0", 0.0).rig.bearing  # 2 rows of 12 balls, contact angle 0
+    balls = ((4e-6, *(-9e-6,) * 11), (0.0,) * 12)
+    both = Imperfections((Waviness("outer", 12, 1e-6),), balls)
+    assert largest_forces(preloaded("G0", 0.0, 3e-6, both)) == pytest.approx(24 * machine.load_deflection * 2e-6**1.5)
+    small = Imperfections(ball_deviation=((-9e-6,) * 12, (-9e-6,) * 12))
+    assert largest_forces(preloaded("G0", 0.0, -8e-6, small)) == 0.0
+
+
 def test_a_load_that_swings_and_turns_counts_at_its_largest():
     scene = preloaded("G0", -300.0, clearance=1e-5)
     run = replace(scene.operation, load_fluctuation=0.5, unbalance_force=20.0)

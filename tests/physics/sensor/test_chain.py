@@ -35,6 +35,23 @@ def test_modes_add_to_the_resonator_and_the_mounting_comes_last(trace):
     assert sensed(chain, trace) == pytest.approx(mounted(Mounting(9000.0, 4), together, trace.rate), rel=1e-12)
 
 
+def test_the_fastest_of_its_modes_is_that_of_the_chain():
+    assert SensorChain(MODES).fastest == SensorChain(MODES[::-1]).fastest == 7100.0
+    assert SensorChain().fastest == 0.0
+
+
+@pytest.mark.parametrize(
+    ("chain", "message"),
+    [
+        (SensorChain(MODES), r"sensor resonance = 7100\.0 Hz; allowed: 0 to 7000 Hz"),
+        (SensorChain(mounting=Mounting(7500.0)), r"mounting cutoff = 7500\.0 Hz; allowed: 0 to 7000 Hz"),
+    ],
+)
+def test_a_rate_too_low_for_a_mode_or_the_mounting_is_refused(chain, message):
+    with pytest.raises(InvalidParameter, match=message):
+        chain.check_rate(14000.0)
+
+
 def test_modes_do_not_push_back(trace, reference_scene):
     alone = simulate(reference_scene("F1", 0.05), 65536.0)
     assert np.array_equal(alone.acceleration, trace.acceleration)

@@ -8,9 +8,11 @@ import pytest
 from at_rest import LINE, SOLVED, START, angles
 from scipy.optimize import brentq
 
+from physics.cage import CagePath
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
+from physics.spall import Spall
 from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import OUTCOMES, carried, equilibrium, load_range, load_vector
 from physics.statics.rest import NO_EQUILIBRIUM
@@ -130,6 +132,19 @@ def test_an_inner_spall_redistributes_only_while_it_turns_through_the_load_zone(
         assert (difference > 1.0) == changed
 
 
+def test_rows_on_cages_of_their_own_that_change_places_with_their_spall_change_loads(gearbox, build_scene):
+    machine, stagger = gearbox.bearing, math.pi / 12
+    first, second = ((17.9, 0.3), (16.0, 1.1))  # speed (rad/s) and angle of ball 1 (rad) of each row
+    spall = Spall("outer", 1, math.radians(270.0), 0.3, 12e-6, 0.1, 0.1)
+    cage, other = (CagePath(speed, 0.5, angle) for speed, angle in (first, (second[0], second[1] - stagger)))
+    scene = build_scene(gearbox, spall, cage=cage, second_cage=other)
+    cage, other = (CagePath(speed, 0.5, angle) for speed, angle in (second, (first[0], first[1] - stagger)))
+    turned = build_scene(gearbox, dataclasses.replace(spall, row=2), cage=cage, second_cage=other)
+    time = np.linspace(0.0, 0.5, 101)
+    assert machine.stagger == stagger
+    np.testing.assert_allclose(loads_of(turned, time)[:, ::-1], loads_of(scene, time), atol=1e-6)  # N; the solver's
+
+
 def test_a_larger_ball_carries_more_and_a_smaller_one_less(gearbox, build_scene):
     even = loads_of(build_scene(gearbox))[0]
     for deviation, more in ((1e-6, True), (-1e-6, False)):
@@ -137,6 +152,15 @@ def test_a_larger_ball_carries_more_and_a_smaller_one_less(gearbox, build_scene)
         rows[0][9] = deviation
         uneven = Imperfections(ball_deviation=tuple(tuple(row) for row in rows))
         assert (loads_of(build_scene(gearbox, imperfections=uneven))[0, 0, 9] > even[0, 9]) == more
+
+
+def test_a_ball_s_size_counts_along_the_contact_normal_and_clearance_along_the_radius(gearbox, build_scene):
+    angle, larger, clearance = math.radians(30), 5e-6, 2e-6
+    oversize = Imperfections(ball_deviation=((larger,) * 12,) * 2)
+    bearing = {"contact_angle": angle, "clearance": clearance}
+    scene = build_scene(gearbox, bearing=bearing, operation={"load": 0.0}, imperfections=oversize)
+    each = gearbox.bearing.load_deflection * (larger - clearance * math.cos(angle)) ** 1.5  # the shaft at the centre
+    assert loads_of(scene) == pytest.approx(each, rel=1e-9)  # rounding
 
 
 def test_with_a_contact_angle_balls_press_harder_and_the_shaft_sinks_deeper(gearbox, build_scene):

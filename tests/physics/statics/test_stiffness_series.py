@@ -86,6 +86,8 @@ def test_the_stride_shows_every_ball_pass_and_every_wave(gearbox, build_scene):
     assert (
         coarsest_stride(build_scene(gearbox), 1.0 / RATE) == 16
     )  # 48 passes of the inner race a second, 64 nodes each
+    # 14.1 instants a node of the inner race, 20.5 of the outer one, whose balls pass more slowly
+    assert coarsest_stride(build_scene(gearbox), 1.0 / 45_000.0) == 8
     waves = Imperfections(waviness=(Waviness("outer", 120, 1e-8),))
     assert coarsest_stride(build_scene(gearbox, imperfections=waves), 1.0 / RATE) == 4  # 840 waves a second, 16 nodes
     assert coarsest_stride(build_scene(gearbox), 1.0) == 1

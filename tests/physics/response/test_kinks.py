@@ -1,0 +1,36 @@
+"""The instants that steps must not run over: which ball is at an edge of its path then."""
+
+import math
+
+import numpy as np
+import pytest
+from variants import changed
+
+from physics.assembly import assemble
+from physics.cage import CagePath
+from physics.contact.forces import PLACE
+from physics.paths.profile import build_path, wrap
+from physics.response.kinks import known_kinks
+from physics.spall import Spall
+
+
+@pytest.mark.parametrize("own_cages", [False, True])
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_at_every_kink_its_ball_is_at_an_edge_of_the_path_on_its_own_row_and_cage(race, own_cages, reference_scene):
+    spalls = tuple(Spall(race, row, 4.0 + row, 0.1, 1e-5, 0.02, 0.03) for row in (1, 2))
+    scene = changed(reference_scene("G0", 0.5), spalls=spalls)
+    if own_cages:
+        scene = changed(scene, second_cage=CagePath(0.9 * scene.cage.nominal_speed, 0.5, 0.7))
+    contacts = assemble(scene)
+    kinks = known_kinks(scene, contacts)
+    cage, place = np.divmod(kinks.ball, contacts.balls.shape[2])
+    turned = np.array([path.angle(kinks.time) for path in scene.cages])[cage, np.arange(cage.size)]
+    angle = turned + contacts.balls[cage, PLACE, place]
+    edges = np.concatenate(
+        [spall.angle + spall.travel_sign * build_path(spall, scene.rig.bearing).breaks for spall in spalls]
+    )
+    away = np.abs(wrap((angle - scene.race_speed(race) * kinks.time)[:, None] - edges)).min(axis=1)
+    assert away.max() < 1e-9  # rad
+    assert (np.diff(kinks.time) >= 0.0).all()
+    passes = sum(abs(scene.race_speed(race) - scene.cage_of(row).mean_speed) for row in (1, 2)) * 0.5 / math.tau * 12
+    assert kinks.time.size == pytest.approx(4 * passes, abs=8)  # two edges and two ends of tapers on each row

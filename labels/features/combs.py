@@ -113,8 +113,9 @@ def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags
 def race_combs(excess: Array, step: float, known: Kinematics, readable: Flags) -> list[float]:
     """Rates (Hz) of impulse trains of which every third to twelfth line passes for one of a race.
 
-    In spectra (B, F) over their floor, as `foreign_combs` takes them. Between the lines of a race nothing stands as
-    high as they do, but for what cage and shaft make. Halves of BPFO are in recordings of faults.
+    Takes spectra (B, F) over their floor, and which components are `readable` (F,), as `foreign_combs` does. Between
+    the lines of a race nothing stands as high as they do, except what the cage and the shaft make. Every second line is
+    not looked at, as recordings of faults have lines at halves of BPFO.
     """
     lines, shaft = lines_in(excess, step), known.shaft_hz
     slowest = max(SLOWEST * shaft, 4.0 * step)

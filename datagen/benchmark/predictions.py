@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -82,20 +81,16 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             recording=str(row["recording"]),
             bearing_id=str(row["bearing_id"]),
             truth=str(row["location"]),
-            rejected=str(tested.reasons[place]),
-            levelled=int(tested.jumps[place]),
-            despiked=int(tested.glitches[place]),
-            shocks_cut=int(tested.shocks[place]),
-            in_mains=str(tested.in_mains[place]),
-            found_speed_rpm=_rpm(float(tested.found_rpm[place])),
+            rejected=facts.reason,
+            levelled=facts.jumps,
+            despiked=facts.glitches,
+            shocks_cut=facts.shocks,
+            in_mains=" ".join(facts.in_mains),
+            found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )
-        for place, (_, row) in enumerate(tested.labels.iterrows())
+        for place, ((_, row), facts) in enumerate(zip(tested.labels.iterrows(), tested.facts, strict=True))
     ]
-
-
-def _rpm(found: float) -> float | None:
-    return None if math.isnan(found) else float(f"{found:.6g}")
 
 
 def _answer(said: Verdicts, place: int) -> ModelAnswer:

@@ -49,13 +49,19 @@ def summarise(tested: Tested) -> CorpusScores:
         imported=tested.imported,
         records=len(tested.labels),
         locations={name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
-        rejections=dict(Counter(str(reason) for reason in tested.reasons if reason)),
-        levelled={"records": int((tested.jumps > 0).sum()), "jumps": int(tested.jumps.sum())},
-        despiked={"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
-        shocks_cut={"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
-        in_mains={race: int((np.char.find(tested.in_mains, race) >= 0).sum()) for race in RACES},
+        rejections=dict(Counter(facts.reason for facts in tested.facts if facts.reason)),
+        levelled=_taken_out(tested, "jumps"),
+        despiked=_taken_out(tested, "glitches"),
+        shocks_cut=_taken_out(tested, "shocks"),
+        in_mains={race: sum(race in facts.in_mains for facts in tested.facts) for race in RACES},
         models={verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
     )
+
+
+def _taken_out(tested: Tested, what: str) -> dict[str, int]:
+    """How many records had any "jumps", "glitches" or "shocks" (`what`) taken out, and how many in all."""
+    counts = [getattr(facts, what) for facts in tested.facts]
+    return {"records": sum(count > 0 for count in counts), what: sum(counts)}
 
 
 def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> Scores:

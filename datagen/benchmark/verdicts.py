@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.benchmark.corpus_rows import CorpusRows
+from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.judging.truth import true_classes, true_locations
@@ -52,21 +53,15 @@ class Verdicts:
 class Tested:
     """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
 
-    `reasons` (R,) say why a record was rejected, `jumps` (R,) how many were levelled in it, `glitches` (R,) how many
-    drawn over, `shocks` (R,) how many cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks
-    between, `found_rpm` (R,) the speed of the shaft that was found, NaN without features.
+    `truth` and `classes` (R,) are the location and the class that the labels state, `facts` (R) what reading the
+    records showed.
     """
 
     folder: Path
     labels: pandas.DataFrame
     truth: NDArray[np.str_]
     classes: NDArray[np.str_]
-    reasons: NDArray[np.str_]
-    jumps: NDArray[np.int64]
-    glitches: NDArray[np.int64]
-    shocks: NDArray[np.int64]
-    in_mains: NDArray[np.str_]
-    found_rpm: NDArray[np.float64]
+    facts: tuple[RecordFacts, ...]
     verdicts: tuple[Verdicts, ...]
     imported: bool
 
@@ -91,12 +86,8 @@ def judge(
     has a probability below `reject`; the rule rejects only the former.
     """
     records = labels["record"].to_numpy(np.int64)
-    reasons = np.array([found.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
-    jumps, glitches, shocks = (
-        np.array([counts.get(record, 0) for record in records.tolist()], dtype=np.int64)
-        for counts in (found.jumps, found.glitches, found.shocks)
-    )
-    in_mains = np.array([" ".join(found.in_mains.get(record, ())) for record in records.tolist()], dtype=np.str_)
+    facts = tuple(found.facts.get(record, RecordFacts()) for record in records.tolist())
+    reasons = np.array([of_record.reason for of_record in facts], dtype=np.str_)
     verdicts = [_of_rule(rule, found.rows, records, reasons)]
     verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
     return Tested(
@@ -104,12 +95,7 @@ def judge(
         labels=labels,
         truth=true_locations(labels),
         classes=true_classes(labels),
-        reasons=reasons,
-        jumps=jumps,
-        glitches=glitches,
-        shocks=shocks,
-        in_mains=in_mains,
-        found_rpm=np.array([found.found_rpm.get(record, np.nan) for record in records.tolist()], dtype=np.float64),
+        facts=facts,
         verdicts=tuple(verdicts),
         imported=imported,
     )
@@ -185,6 +171,7 @@ def pooled_draws(draws: list[Tested]) -> Tested:
     return replace(
         draws[0],
         labels=pandas.concat([tested.labels for tested in draws]),
+        facts=tuple(of_record for tested in draws for of_record in tested.facts),
         verdicts=tuple(replace(of_one[0], **_joined_arrays(of_one)) for of_one in said),
         **_joined_arrays(draws),
     )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from datagen.corpus_files.format import IMPORTED, Identity, data_hash, format_hash
 from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, write_manifest
-from datagen.corpus_files.shard import finished_shards, write_shard
+from datagen.corpus_files.shard import Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.files.places import require_folder
 from datagen.progress import Say, Throttle, ignore
@@ -108,15 +108,7 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
             dataset = _dataset(planned, manifest)
             seconds = round(time.perf_counter() - start, 3)
             with writing(folder):
-                write_shard(
-                    folder=staging,
-                    shard=number,
-                    identity=manifest.identity,
-                    dataset=dataset,
-                    failed=(),
-                    compression="zlib",
-                    seconds=seconds,
-                )
+                write_shard(staging, Sidecar(number, manifest.identity, seconds=seconds), dataset, "zlib")
         with writing(folder):
             write_index(staging, finished_shards(staging))
             manifest = manifest.with_shards(staging, finished_shards(staging))

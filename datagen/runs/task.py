@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity, to_dataset
-from datagen.corpus_files.shard import Failure, write_shard
+from datagen.corpus_files.shard import Failure, Sidecar, write_shard
 from datagen.files.atomic import NO_SPACE
 from datagen.progress import Say
 from datagen.recipes.recipe import Recipe
@@ -78,15 +78,12 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
             failed.append(Failure(index, str(problem)))
     title = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
     dataset = to_dataset(records, title) if records else None
-    seconds = time.perf_counter() - began
-    write_shard(
-        folder=folder,
+    sidecar = Sidecar(
         shard=planned.number,
         identity=identity,
-        dataset=dataset,
         failed=tuple(failed),
-        compression=recipe.store.compression,
-        seconds=round(seconds, 3),
+        seconds=round(time.perf_counter() - began, 3),
         refused=count_refused(redraws),
     )
+    write_shard(folder, sidecar, dataset, recipe.store.compression)
     return ShardRow(planned.number)

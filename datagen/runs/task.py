@@ -1,4 +1,4 @@
-"""What one worker does: make the records of one shard, write them, and give back one small row."""
+"""What one worker does: make the records of one shard, write them, and return one small row."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from physics.outcome import SimulationFailed
 
 @dataclass(frozen=True)
 class ShardRow:
-    """How the making of a `shard` (its number) ended: `error` is a traceback if it could not be made, else ""."""
+    """How making a `shard` (its number) ended: `error` is a traceback if it failed, else ""."""
 
     shard: int
     error: str = ""
 
 
 def compile_kernels(say: Say) -> None:
-    """Compile every kernel, so that workers find them in the cache, or find that it holds them undamaged."""
+    """Make sure that the cache holds every kernel undamaged, compiling what it lacks, before workers start."""
     from physics.warming import is_warm, warm_up
 
     if is_warm():
@@ -43,7 +43,7 @@ def compile_kernels(say: Say) -> None:
 
 @cache
 def load_kernels() -> None:
-    """Load every kernel into this process; those that the cache of this machine lacks, or has damaged, are compiled."""
+    """Load every kernel into this process; those missing from the cache of this machine, or damaged, are compiled."""
     from physics.warming import warm_up
 
     warm_up()

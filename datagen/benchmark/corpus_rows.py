@@ -32,7 +32,7 @@ class CorpusRows:
     raw: Rows | None = None
 
     def asked_for(self, windows: bool) -> Rows:
-        """The raw windows if there are any and they are what is wanted, else the rows of features."""
+        """The raw windows if `windows` are asked for and there are any, else the rows of features."""
         return self.raw if windows and self.raw is not None else self.rows
 
 

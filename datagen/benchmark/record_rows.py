@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 class Row:
     """One row: `values` (F,) of the feature table, of one `window` of one `axis` of a record, both counted from 0.
 
-    It is `noisy` if noise was added to learn from. `reason` says why what it shows must not be classified, "" if it
-    may. `shaft_hz` is the frequency of the shaft that was found in it.
+    It is `noisy` if noise was added for training. `reason` says why its window must not be classified, "" if it may be.
+    `shaft_hz` is the frequency of the shaft that was found in it.
     """
 
     values: Array
@@ -86,8 +86,10 @@ def feature_rows(found: Sequence[Row], record: int) -> Rows:
 def record_rows(
     signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading, turning: Turning | None = None
 ) -> RecordRows:
-    """Rows of one record (T, A), one an axis and window, none if it cannot be judged; `turning` where its speed
-    changes."""
+    """Rows of one record, `signals` (T, A) in m/s², one for each axis and window; none if it cannot be judged.
+
+    `turning` says how the speed of its shaft changes, if it does.
+    """
     kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
     reason = unfit(labels, kinematics, len(signals), rate, reading.bandwidth)
     if kinematics is None or reason:
@@ -129,7 +131,8 @@ def signal_rows(
     seed: list[int],
     turning: Turning | None = None,
 ) -> list[Row]:
-    """Rows of one axis (T,), none of pieces too short or without a signal; `seed` sets the random numbers."""
+    """Rows of the `signal` (T,) of one axis at `rate` (Hz), none for pieces that are too short or without a signal;
+    `seed` decides the random numbers."""
     if is_dead(signal):
         return []
     rows = []
@@ -156,10 +159,11 @@ def equal_pieces(signal: Array, rate: float, longest: float) -> Iterator[Array]:
 
 
 def piece_count(samples: int, rate: float, longest: float) -> int:
-    """Into how many equal pieces no longer than `longest` (s), or hardly, so many `samples` at `rate` (Hz) are cut."""
+    """Into how many equal pieces `samples` at `rate` (Hz) are cut so that none is longer than `longest` (s), or hardly
+    longer."""
     return max(1, int(np.ceil(samples / rate / longest - 0.05)))
 
 
 def _seed(labels: pandas.Series[Any]) -> list[int]:
-    """Numbers that follow from the record alone, whatever is read beside it."""
+    """A seed that depends on the record alone, whatever else is read."""
     return [zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode()), int(labels["record"])]

@@ -40,8 +40,8 @@ def race_balance(truth: Any, said: Any) -> float:
 def summarise(tested: Tested) -> CorpusScores:
     """Scores of the rule and of each model on one corpus.
 
-    A fault that nobody could judge counts as an error in every accuracy, that of its race too; the area under the ROC
-    and the calibration leave out records without a score, healthy or not.
+    A fault that could not be judged counts as an error in every accuracy, that of the race included; the area under the
+    ROC and the calibration leave out records without a score, healthy or not.
     """
     rule = tested.verdicts[0]
     return CorpusScores(
@@ -134,10 +134,10 @@ def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> MinusRule:
 
 
 def _calibration(tested: Tested, said: Verdicts) -> Calibration | None:
-    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned; None
-    without both.
+    """Reliability of the probability of a spall, with healthy records and faults weighing the same, as in training;
+    None unless there are both.
 
-    Chance adds to the calibration error of every draw, so that the interval of a small error may lie above it.
+    Chance adds to the calibration error of every draw, so the interval of a small error may lie above the error itself.
     """
     known = (tested.truth != UNKNOWN) & np.isfinite(said.probability[:, 0])
     spall, probability = np.isin(tested.truth[known], RACES), 1.0 - said.probability[known, 0]

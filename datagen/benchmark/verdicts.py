@@ -31,13 +31,13 @@ RULE = "rule"
 
 @dataclass(frozen=True)
 class Verdicts:
-    """What one model says of R records.
+    """What one model says about R records; all shapes (R,) but that of the probabilities.
 
     `location` is none, outer, inner or rejected; `race` the one it would name if there had to be a spall. `score` rises
     with suspicion, and a spall is called where it passes the `alarm`. `probability` (R, 5) is that of CLASSES, empty
     for the rule.
 
-    Of a record without features it says nothing: the race is "rejected", score, alarm and probabilities are NaN.
+    It says nothing about a record without features: the race is "rejected", score, alarm and probabilities are NaN.
     """
 
     name: str
@@ -82,8 +82,8 @@ def judge(
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels, by what was `found` in them.
 
-    A record is rejected where it cannot be judged or shows no running machine, or where what is said of its location
-    has a probability below `reject`; the rule rejects only the former.
+    A record is rejected if it cannot be judged or shows no running machine; models also reject it if their answer about
+    its location has a probability below `reject`.
     """
     records = labels["record"].to_numpy(np.int64)
     facts = tuple(found.facts.get(record, RecordFacts()) for record in records.tolist())

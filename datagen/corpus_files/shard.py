@@ -137,7 +137,7 @@ def is_whole(folder: Path, sidecar: Sidecar) -> bool:
 
 
 def finished_shards(folder: Path) -> Iterator[Sidecar]:
-    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of its size.
+    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of the right size.
 
     Copies of a sidecar under another name do not count.
     """
@@ -149,7 +149,7 @@ def finished_shards(folder: Path) -> Iterator[Sidecar]:
 
 
 def sweep_unfinished(folder: Path) -> None:
-    """Delete what killed writers left in the corpus `folder`: temporary files, and files of shards without sidecar.
+    """Delete what killed writers left in the corpus `folder`: temporary files, and shard files without a sidecar.
 
     Call it with the folder locked and no writer at work in it.
     """

@@ -5,11 +5,11 @@
 - on the disk: `files/` (of any kind), `corpus_files/` (shards, index, manifest), `corpus` (reads these),
   `runs/` (workers)
 - real machines: `formats/` (files by format), `recordings/` (brought into the same schema)
-- judged: `inspection/` (is a corpus sound?), `benchmark/` (classifiers), `sizing/` (spall sizes), `judging/` (what both
-  of them need), `charts/` (speed against accuracy)
+- judged: `inspection/` (is a corpus sound?), `benchmark/` (classifiers), `sizing/` (spall sizes), `judging/` (shared by
+  the last two), `charts/` (speed against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
-- what all of them use: `errors` (what a person wrote, refused), `counts` (as people read them), `progress` (how far a
-  command has got), `exits` (how programs end), `garbage` (looked for seldom), `processes` (none outlives its parent),
-  `versions`
+- what all of them use: `errors` (bad input, refused in one line), `counts` (numbers of things in words), `progress`
+  (how far a command has got), `exits` (exit codes), `garbage` (a collector that runs rarely), `processes` (workers that
+  never outlive their parent), `versions`
 """

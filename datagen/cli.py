@@ -44,10 +44,10 @@ COMMANDS = (
 
 
 def main() -> None:
-    """Run the command line; ends the process with 0, 1 (a check failed), 2 (bad input), 130 (Ctrl-C), 141 (nobody reads
-    the output any more) or 143 (SIGTERM).
+    """Run the command line and end the process with 0, 1 (a check failed, or records could not be made), 2 (bad input),
+    130 (Ctrl-C), 141 (nobody reads the output any more) or 143 (SIGTERM).
 
-    The process keeps the memory of freed arrays (physics.freed_memory) and looks seldom for garbage.
+    The process keeps the memory of freed arrays (physics.freed_memory) and collects garbage rarely.
     """
     collect_seldom()
     keep_freed_memory()
@@ -63,9 +63,9 @@ def main() -> None:
 
 
 def _write_out() -> None:
-    """Write out what the streams still hold; ends the process if nobody reads it.
+    """Flush standard output and error; ends the process if nobody reads them.
 
-    What cannot be written is dropped, as Python would try again at its very end, and complain.
+    What cannot be written is dropped: Python would try again as it exits, and complain.
     """
     for stream in filter(None, (sys.stdout, sys.stderr)):  # None where it was closed from the beginning
         try:

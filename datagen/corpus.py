@@ -36,9 +36,9 @@ class Corpus:
     """A corpus in a folder: a sequence of (acceleration (T, axes) in m/s², labels), in the order of the record indices.
 
     Simulated records have the axes x and y, imported ones those that were recorded.
-    Fit for `torch.utils.data.DataLoader` as it is, and for several threads; corpora of one folder share their files. As
-    a context manager it closes them at the end of the block; close it before you open a shard by other means, as HDF5
-    2.2.0 may crash on texts of a file that is open twice. Raises BadInput if the folder holds no corpus.
+    It can be handed to `torch.utils.data.DataLoader` and used by several threads; readers of one folder share its open
+    files. As a context manager it closes them at the end of the block. Close it before you open a shard by other means:
+    HDF5 2.2.0 may crash on texts of a file that is open twice. Raises BadInput if the folder holds no corpus.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -125,7 +125,7 @@ class Corpus:
 
     @property
     def open_files(self) -> list[Path]:
-        """Paths of the shards that are kept open for this reader; a process keeps few at a time, whoever reads them."""
+        """Paths of the shards kept open for this reader; a process keeps few open at a time, whoever reads them."""
         return self._shards.open_files
 
     def close(self) -> None:
@@ -133,7 +133,8 @@ class Corpus:
         self._shards.close()
 
     def dataset(self, record: int) -> xarray.Dataset:
-        """Everything stored of one record: signals, labels, scenario, its ball passes and its defects."""
+        """Everything stored of one record: signals, labels, scenario, its ball passes and its defects, as
+        `xarray.open_dataset` gives them, without the record dimension. Raises BadInput if there is no such record."""
         import xarray
         from xarray.backends import NetCDF4DataStore
 
@@ -152,18 +153,21 @@ class Corpus:
         return found
 
     def scenario(self, record: int) -> dict[str, Any]:
-        """The scenario of one record: every number that is needed to simulate it again."""
+        """The scenario of one record: every number that is needed to simulate it again, SI units under `parameters`.
+
+        Raises BadInput if there is no such record, or if it was recorded and not simulated.
+        """
         found: dict[str, Any] = json.loads(str(self.waveform(record, "scenario")))
         return found
 
     def batches(
         self, size: int, variable: str = "acceleration", records: Iterable[int] | None = None
     ) -> Iterator[tuple[NDArray[np.int64], NDArray[Any]]]:
-        """What `to_numpy` gives of `records` (all, in order, if not given), in batches: pairs of records (B,) and
+        """What `to_numpy` gives for `records` (all, in order, if None), in batches: pairs of record indices (B,) and
         their arrays (B, …) with B ≤ `size`.
 
-        Only one batch is in memory at a time. Raises BadInput if its records differ in shape, or unless `size` is a
-        whole number from 1 on.
+        Only one batch is in memory at a time. Raises BadInput if the records of a batch differ in shape or one is not
+        in the corpus, and unless `size` is a whole number from 1 on.
         """
         if not isinstance(size, Integral) or size < 1:
             raise BadInput(field="size", value=size, allowed="a whole number from 1 on")
@@ -174,8 +178,8 @@ class Corpus:
             yield batch.astype(np.int64), signals
 
     def to_numpy(self, variable: str = "acceleration", records: Iterable[int] | None = None) -> NDArray[Any]:
-        """What `waveform` gives of each of `records` (all, in order, if not given), stacked to (N, …); BadInput if they
-        differ in shape."""
+        """What `waveform` gives for each of `records` (all, in order, if None), stacked to (N, …): (N, T, axes) in m/s²
+        for the acceleration. Raises BadInput if they differ in shape, none is chosen, or one is not in the corpus."""
         chosen = list(self.labels["record"] if records is None else records)
         return self._stack([self.waveform(record, variable) for record in chosen], variable)
 
@@ -194,10 +198,11 @@ class Corpus:
     def folds(
         self, count: int = 5, stratify: str = "condition", seed: int = 0
     ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-        """`count` pairs (training records, test records) with about equal shares of each value of the label `stratify`.
+        """`count` pairs of record indices to train on (M,) and to test on (N,), for cross-validation without leakage.
 
-        All records of a virtual bearing (`bearing_id`) are on the same side. Raises BadInput if there are fewer
-        bearings, or fewer records of every value, than folds, and for a label of numbers with decimals.
+        All records of a virtual bearing (`bearing_id`) are on the same side, and each side has about the same share of
+        every value of the label `stratify`. Raises BadInput if there are fewer bearings, or fewer records of every
+        value, than folds, and for a label that is unknown or of numbers with decimals.
         """
         from sklearn.model_selection import StratifiedGroupKFold
 

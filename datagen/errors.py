@@ -6,10 +6,11 @@ from datetime import date, time
 
 
 class BadInput(Exception):
-    """Input that cannot be used; `str` is one clear line and the command line turns it into exit code 2.
+    """Input that cannot be used; `str` gives one clear line, and a command ends with exit code 2.
 
-    `file` is what was read (with its line where known), `field` the dotted name of the setting, `value` what was found
-    (None: nothing to show), `allowed` what would have been accepted, `problem` a sentence where that is not enough.
+    `file` is what was read (with the line if known), `field` the dotted name of the setting or the option, `value` what
+    was found (None: nothing to show), `allowed` what would have been accepted, and `problem` a sentence for what these
+    do not say.
     """
 
     def __init__(

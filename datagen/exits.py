@@ -7,7 +7,7 @@ import sys
 FAILED = 1  # a check failed, or records could not be made
 BAD_INPUT = 2
 INTERRUPTED = 130
-# What shells say of a program that SIGPIPE ended, which Python ignores: 128 + 13.
+# As shells report a program ended by SIGPIPE, 128 + 13; Python ignores that signal.
 OUTPUT_CLOSED = 141
 TERMINATED = 143
 

@@ -39,7 +39,8 @@ def power_density(signal: Array, rate: float, resolution: float) -> tuple[Array,
 def velocity_density(acceleration: Array, rate: float, resolution: float) -> tuple[Array, Array]:
     """Frequencies (F,) in Hz and one-sided densities (F,) of the velocity, (m/s)²/Hz, of an `acceleration` (T,), m/s².
 
-    Each component over (2π f)²; the one at 0 Hz, which has no velocity, is 0.
+    Each component over (2π f)²; the one at 0 Hz, which has no velocity, is 0. `rate` and `resolution` in Hz; ValueError
+    as `power_density`.
     """
     frequency, power = power_density(acceleration, rate, resolution)
     power[1:] /= (2.0 * np.pi * frequency[1:]) ** 2

@@ -62,6 +62,6 @@ def squared_envelope_spectrum(envelope: Array, rate: float, window: str = "hann"
     """Frequencies (F,) in Hz and one-sided amplitudes (F,) of the squared `envelope` (T,) without its mean.
 
     The unit is the square of the envelope's. A squared envelope m + a cos(2π f t) has a line of height a at f, with
-    `window` "hann" (divided by its mean) as without ("none").
+    `window` "hann" (divided by its mean) as without ("none"). ValueError as `amplitude_spectrum`.
     """
     return amplitude_spectrum(np.asarray(envelope, dtype=np.float64) ** 2, rate, window)

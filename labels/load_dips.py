@@ -16,10 +16,12 @@ SHARE = 0.5
 
 
 def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, leave: Array) -> tuple[Array, Array]:
-    """First fall and last rise (N,), s, of the load of `ball` (N,), from 1, of `row` in its passes `entry` to `leave`.
+    """First fall and last rise (N,), s, of a ball's quasi-static load through half of what it would carry without
+    spalls.
 
-    Through half of what the ball would carry at that instant without spalls; NaN where that never happens between both
-    edges. A ball that comes into the load zone, or goes out of it, inside the spall neither falls nor rises there.
+    `ball` (N,) is the number, from 1, of the ball of `row` in each of N passes, which last from `entry` to `leave`
+    (N,), s. NaN where the load does not both fall and rise between the edges. That of a ball which comes into the load
+    zone, or goes out of it, inside the spall neither falls nor rises there.
     Both loads are solved at 400 equal steps of each pass, so times are exact to about a thousandth of it; over a rough
     floor a dip shorter than a step may be missed, and the times then are those of a dip beside it.
     """
@@ -43,9 +45,10 @@ def _loads(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Ar
 
 
 def first_and_last_crossing(time: Array, excess: Array) -> tuple[float, float]:
-    """First change of `excess` (S,) from above to below zero and last one back, interpolated linearly; NaN if none.
+    """Times of the first change of `excess` (S,) from above to below zero and of the last one back; NaN if none.
 
-    Zero, where a ball neither carries nor should, is neither above nor below.
+    Interpolated linearly between the instants `time` (S,), s. Zero, where a ball neither carries load nor should, is
+    neither above nor below.
     """
     above, below = excess > 0.0, excess < 0.0
     falls = np.flatnonzero(above[:-1] & below[1:])

@@ -17,7 +17,8 @@ ROUNDING = 1e-26
 def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None = None) -> float:
     """Power of `signal` (T,) over that of `noise` (T,), dB, each without its mean; NaN if either has none.
 
-    Over `band` (Hz, edges included), or from 0 to half the `rate` (Hz) if None.
+    Over `band` (Hz, edges included), or from 0 to half the `rate` (Hz) if None. ValueError unless 0 ≤ low < high ≤
+    rate / 2 in the band.
     """
     parts = (signal, noise)
     if not all(part.any() for part in parts):  # as without background, where no spectrum need be made
@@ -29,7 +30,8 @@ def signal_to_noise(signal: Array, noise: Array, rate: float, band: Band | None 
 
 
 def with_white_noise(signal: Array, snr_db: float, generator: np.random.Generator) -> Array:
-    """`signal` (T,) in white noise drawn from `generator`, of a deviation `snr_db` (dB) below its own."""
+    """The `signal` (T,) plus white noise, drawn from `generator`, whose standard deviation is `snr_db` (dB) below its
+    own."""
     return np.asarray(signal + signal.std() * 10.0 ** (-snr_db / 20.0) * generator.standard_normal(signal.size))
 
 

@@ -38,7 +38,8 @@ def amplitude_spectrum(signal: Array, rate: float, window: str = "hann") -> tupl
 
 
 def line_amplitude(frequency: Array, amplitude: Array, target: float, tolerance: float) -> float:
-    """Largest amplitude within `target` ± `tolerance` (Hz) of a spectrum (F,); ValueError if no bin lies there."""
+    """Largest `amplitude` (F,) of a spectrum within `target` ± `tolerance` (Hz) on its `frequency` axis (F,), Hz;
+    ValueError if no bin lies there."""
     slack = 1e-9 * max(abs(target), 1.0)
     near = np.abs(np.asarray(frequency) - target) <= tolerance + slack
     if not near.any():

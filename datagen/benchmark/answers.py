@@ -12,7 +12,7 @@ from datagen.judging.user_code import FIELD, user_code
 from labels.classifier.classes import CLASSES
 from physics.arrays import Array
 
-# By how much probabilities that somebody else rounded may leave the range 0 to 1 or miss a sum of 1.
+# By how much probabilities, which users may have rounded, may leave the range 0 to 1 or miss a sum of 1.
 ROUNDING = 1e-3
 ALLOWED = f"names or probabilities of {', '.join(CLASSES)}"
 
@@ -26,7 +26,7 @@ def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
     """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator.
 
     A class that it never saw has 0. Raises BadInput, which names the estimator as the user has `given` it, for names
-    that are not classes, for another shape, and for numbers that are not probabilities.
+    that are not classes, for a wrong shape, and for numbers that are not probabilities.
     """
     name = given or estimator_name(estimator)
     with user_code(name, "it failed to answer"):

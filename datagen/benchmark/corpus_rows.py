@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.benchmark.reading_policy import Reading
-from datagen.benchmark.record_rows import RecordRows, feature_rows, record_rows
+from datagen.benchmark.record_rows import RecordFacts, RecordRows, feature_rows, record_rows
 from datagen.benchmark.rows import Rows, joined
 from datagen.corpus import Corpus
 from datagen.processes import processes
@@ -24,21 +24,15 @@ RECORDS_A_TASK = 24
 
 @dataclass(frozen=True)
 class CorpusRows:
-    """The `rows` of features of records of a corpus; by record, where any, why it was `rejected`, how many jumps,
-    glitches and shocks it had, the races that hide `in_mains`, and the speed that was found, rpm. `raw` are its windows
-    for models that take them instead."""
+    """The `rows` of features of records of a corpus, and the `facts` about each record by its index. `raw` are the
+    windows of the same records, for models that take them instead."""
 
     rows: Rows
-    rejected: dict[int, str] = field(default_factory=dict)
-    jumps: dict[int, int] = field(default_factory=dict)
-    glitches: dict[int, int] = field(default_factory=dict)
-    shocks: dict[int, int] = field(default_factory=dict)
-    in_mains: dict[int, tuple[str, ...]] = field(default_factory=dict)
-    found_rpm: dict[int, float] = field(default_factory=dict)
+    facts: dict[int, RecordFacts] = field(default_factory=dict)
     raw: Rows | None = None
 
     def asked_for(self, windows: bool) -> Rows:
-        """The raw windows if there are any and they are what is wanted, else the rows of features."""
+        """The raw windows if `windows` are asked for and there are any, else the rows of features."""
         return self.raw if windows and self.raw is not None else self.rows
 
 
@@ -65,17 +59,9 @@ def read_records(
 
 
 def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:
-    """What was `found` in each record, by its number, as one table."""
+    """What was `found` in each record, by its index, as one table."""
     parts = [feature_rows(of.rows, record) for record, of in found.items()]
-    return CorpusRows(
-        joined([feature_rows([], 0), *parts]),
-        {record: of.reason for record, of in found.items() if of.reason},
-        {record: of.jumps for record, of in found.items() if of.jumps},
-        {record: of.glitches for record, of in found.items() if of.glitches},
-        {record: of.shocks for record, of in found.items() if of.shocks},
-        {record: of.in_mains for record, of in found.items() if of.in_mains},
-        {record: of.found_rpm for record, of in found.items() if of.rows},
-    )
+    return CorpusRows(joined([feature_rows([], 0), *parts]), {record: of.facts for record, of in found.items()})
 
 
 def _results(

@@ -16,6 +16,7 @@ from datagen.benchmark.record_rows import RecordRows, Row
 from datagen.benchmark.request import require_bandwidth
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.judging.known import RPM_PER_HZ
 from datagen.judging.splits import ALL, require_split
 from datagen.judging.truth import true_classes
 from datagen.progress import SILENT, Listener
@@ -47,7 +48,6 @@ LABELS_SHOWN = (
 )
 OF_ROW = ("axis", "window", "noisy", "reason", "levelled", "despiked", "shocks_cut", "in_mains", "found_speed_rpm")
 COLUMNS = ("corpus", *LABELS_SHOWN, "class", *OF_ROW, *FEATURE_NAMES)
-RPM_PER_HZ = 60.0
 
 
 def feature_table(
@@ -121,13 +121,14 @@ def _axes_by_shard(folder: Path, labels: pandas.DataFrame) -> dict[str, list[str
 
 def _record_rows(found: RecordRows, axes: Sequence[str], as_learned: bool) -> Iterator[tuple[Any, ...]]:
     """What OF_ROW and the features are in each row of one record."""
-    mended = (found.jumps, found.glitches, found.shocks, " ".join(found.in_mains))
-    if not found.rows or (found.reason and not as_learned):
+    facts = found.facts
+    of_record = (facts.reason, facts.jumps, facts.glitches, facts.shocks, " ".join(facts.in_mains))
+    if not found.rows or (facts.reason and not as_learned):
         nothing = [math.nan] * (1 + len(FEATURE_NAMES))
-        yield ("", 0, False, found.reason, *mended, *nothing)
+        yield ("", 0, False, *of_record, *nothing)
         return
     for row in found.rows:
-        yield (axes[row.axis], row.window, row.noisy, found.reason, *mended, *_numbers(row))
+        yield (axes[row.axis], row.window, row.noisy, *of_record, *_numbers(row))
 
 
 def _numbers(row: Row) -> list[float]:

@@ -1,4 +1,4 @@
-"""Which records say enough to be judged at all, from their labels and their length, before a waveform is looked at."""
+"""Which records can be judged at all, by their labels and their length, before a waveform is looked at."""
 
 from __future__ import annotations
 

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.benchmark.training import Model, TrainingSet, copy_of, train_models, train_user_estimator
+from datagen.benchmark.options import Learning
+from datagen.benchmark.training import Model, TrainingSet, copy_of, train
 from datagen.benchmark.verdicts import vote
 from datagen.errors import BadInput
 from datagen.progress import Say, ignore
@@ -23,18 +24,14 @@ SEED = 31
 
 
 def learning_curve(
-    training: TrainingSet,
-    learner: str,
-    estimator: Any | None = None,
-    takes_windows: bool = False,
-    given: str = "",
-    step: Say = ignore,
+    training: TrainingSet, learning: Learning, estimator: Any | None = None, step: Say = ignore
 ) -> dict[str, list[dict[str, Any]]]:
-    """By model: balanced accuracy of the location of records of a quarter of the bearings, without noise added, learned
-    from shares of the others, with its interval over bearings. Shares that cannot be learned from are left out.
+    """How well the location of spalls is told after learning from growing shares of the bearings, by model.
 
-    The models are our `learner`, or with the user's `estimator` copies of that, which must not be fitted yet;
-    `given` is its name in messages. `step` is called with how far it has got.
+    A quarter of the bearings is held out. Each point gives the number of `bearings` learned from, and the `value` of
+    the balanced accuracy over the held-out records, without added noise, with the ends `low` and `high` of its interval
+    over bearings. Shares that cannot be learned from are left out. The models are the learners that `learning` names,
+    or copies of the user's `estimator`, which must not be fitted yet; `step` is called with how far it has got.
     """
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))
@@ -46,13 +43,9 @@ def learning_curve(
     for count in sorted(counts):
         step(f"learning curve: {count} of {others.size} bearings")
         part = training.subset(np.isin(training.bearings, others[:count]))
-        fresh = None if estimator is None else copy_of(estimator, given)
+        fresh = None if estimator is None else copy_of(estimator, learning.estimator or "")
         try:
-            models = (
-                train_models(part, learner)
-                if fresh is None
-                else [train_user_estimator(part, fresh, takes_windows, given)]
-            )
+            models = train(part, learning, fresh)
         except BadInput:
             continue
         for model in models:

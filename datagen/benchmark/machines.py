@@ -1,4 +1,4 @@
-"""Which virtual machines two corpora have in common, so that no record is scored that was learned from."""
+"""Which virtual machines two corpora share, so that no record of a machine that was learned from is scored."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class LearnedMachines:
 
 
 def machines(corpus: Corpus) -> NDArray[np.str_]:
-    """The machine of each record: the seed of the recipe and the number of the virtual bearing, "" if recorded.
+    """The machine (R,) of each record: the recipe's seed and the number of the virtual bearing, "" if it was recorded.
 
-    Seed and number alone set what is drawn, so copies of a corpus and corpora made again have the same machines, under
-    whatever name.
+    Seed and number alone decide what is drawn, so copies of a corpus, and corpora made again under another name, have
+    the same machines.
     """
     names = corpus.labels["bearing_id"].astype(str)
     if corpus.manifest.imported:
@@ -50,9 +50,9 @@ def learned_machines(trained: Corpus, records: NDArray[np.int64]) -> LearnedMach
 
 
 def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame:
-    """Labels of the records of `tested` to score, none of a machine that was learned from.
+    """Labels of the records of `tested` to score: none of a machine that was learned from.
 
-    Those of other machines of the same corpus count if their split is "test". Raises BadInput if none is left.
+    Records of other machines of the same corpus are kept if their split is "test". Raises BadInput if none is left.
     """
     labels, of_records = tested.labels, machines(tested)
     kept = ~np.isin(of_records, learned.seen) & (~np.isin(of_records, learned.known) | (labels["split"] == TEST))

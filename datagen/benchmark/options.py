@@ -12,11 +12,11 @@ FEATURES, WINDOWS = "features", "windows"
 
 @dataclass(frozen=True)
 class Learning:
-    """What is learned and how: kept with what was learned, since it holds whenever that is used again.
+    """The options of learning. They are saved with the trained models, since they hold whenever these are used again.
 
-    `learner` is one of ours or "all"; `estimator` names the user's own, None for ours; `input` is what that is given;
-    `bandwidth` (Hz) limits all records, None: as usual; `speed_error` is the largest relative error of the speeds used
-    in training; `first` is how many records are learned from, None: all.
+    `learner` is one of ours or "all"; `estimator` names the user's own (None: ours are used) and `input` says what that
+    is given. `bandwidth` (Hz) limits all records (None: as usual); `speed_error` is the largest relative error of the
+    speeds used in training; `first` is how many records are learned from (None: all).
     """
 
     learner: str = "all"
@@ -34,8 +34,8 @@ class Learning:
 
 @dataclass(frozen=True)
 class Scoring:
-    """How it is scored: an answer of a probability below `reject` is rejected; recordings of faults are also scored
-    with noise at the ratios `noise_db` (dB, as text with commas), in `noise_draws` draws."""
+    """The options of scoring: answers with a probability below `reject` are rejected; recordings of faults are also
+    scored with noise added at the ratios `noise_db` (dB, a text with commas), in `noise_draws` draws each."""
 
     reject: float = 0.0
     noise_db: str = ""
@@ -43,7 +43,7 @@ class Scoring:
 
     @property
     def levels(self) -> tuple[float, ...]:
-        """Signal over noise, dB, of the noise to add; ValueError for text that holds anything but numbers."""
+        """Signal-to-noise ratios, dB, of the noise to add; ValueError for a text that holds anything but numbers."""
         return tuple(float(part) for part in self.noise_db.split(",") if part.strip())
 
 

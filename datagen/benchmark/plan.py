@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 
 def reading_of(learning: Learning) -> Reading:
-    """How records are read that are judged with these options."""
+    """How the records to judge are read, with these options."""
     return Reading() if learning.bandwidth is None else Reading(bandwidth=learning.bandwidth)
 
 
 def training_reading_of(learning: Learning) -> Reading:
-    """How records are read that are learned from with these options."""
+    """How the records to learn from are read, with these options."""
     return replace(
         reading_of(learning),
         speed_error=learning.speed_error,
@@ -39,9 +39,9 @@ def training_reading_of(learning: Learning) -> Reading:
 class Benchmark:
     """What is learned from, what is tested on, and how.
 
-    `train` is a corpus, or a file of what was learned from one; what is learned is kept at `save`, if given.
-    `estimator` is the user's that the options name, None for our learners. With `learning_curve` it is also learned
-    from shares.
+    `train` is a corpus, or a file with models learned from one; newly trained models are saved at `save`, if given.
+    `estimator` is the user's own that the options name, None for our learners. With `learning_curve`, models are also
+    learned from fractions of the bearings.
     """
 
     train: Path

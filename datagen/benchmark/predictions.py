@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -30,9 +29,9 @@ SAID = ("location", "score", "alarm")
 
 @dataclass(frozen=True)
 class ModelAnswer:
-    """What one model says of a record: a location, its score, and the alarm above which a spall is called, 0 where the
-    record's lines alone are one; if it gives any, probabilities of LOCATIONS and CONDITIONS by their names. Numbers are
-    NaN without features."""
+    """What one model says about a record: the location, a score, and the alarm above which a spall is called (0 if the
+    record's lines alone raise it); and probabilities of LOCATIONS and CONDITIONS by name, if the model gives any.
+    Numbers are NaN without features."""
 
     location: str
     score: float
@@ -47,10 +46,13 @@ class ModelAnswer:
 
 @dataclass(frozen=True)
 class Prediction:
-    """What is known of a record (`truth`, its location), why it was `rejected` ("" if it was not), how many jumps were
-    levelled, glitches drawn over and shocks cut, which races hide `in_mains` ("", "outer", "inner" or "outer inner"),
-    at which speed of the shaft its lines were looked for (None without features), and the answer of each of the
-    `models`."""
+    """What is known about a record, and the answer of each of the `models`.
+
+    `truth` is its location, `rejected` why it was rejected ("" if it was not). So many jumps were `levelled`, glitches
+    drawn over (`despiked`) and `shocks_cut`. `in_mains` names the races whose faults hide among multiples of the mains
+    ("", "outer", "inner" or "outer inner"), `found_speed_rpm` the shaft speed at which lines were looked for (None
+    without features).
+    """
 
     record: int
     recording: str
@@ -82,20 +84,16 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             recording=str(row["recording"]),
             bearing_id=str(row["bearing_id"]),
             truth=str(row["location"]),
-            rejected=str(tested.reasons[place]),
-            levelled=int(tested.jumps[place]),
-            despiked=int(tested.glitches[place]),
-            shocks_cut=int(tested.shocks[place]),
-            in_mains=str(tested.in_mains[place]),
-            found_speed_rpm=_rpm(float(tested.found_rpm[place])),
+            rejected=facts.reason,
+            levelled=facts.jumps,
+            despiked=facts.glitches,
+            shocks_cut=facts.shocks,
+            in_mains=" ".join(facts.in_mains),
+            found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )
-        for place, (_, row) in enumerate(tested.labels.iterrows())
+        for place, ((_, row), facts) in enumerate(zip(tested.labels.iterrows(), tested.facts, strict=True))
     ]
-
-
-def _rpm(found: float) -> float | None:
-    return None if math.isnan(found) else float(f"{found:.6g}")
 
 
 def _answer(said: Verdicts, place: int) -> ModelAnswer:

@@ -1,4 +1,4 @@
-"""How records are read for the benchmark: how much of them, with what noise added, and how roughly they are known."""
+"""How records are read for the benchmark: in which pieces, with what noise added, and with how wrong a speed."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class Reading:
     `bandwidth` (Hz) limits all records alike; `window` (s) is the longest piece. White noise is added at `noise_db`
     (signal over noise, None: none); `noise_draw` numbers its draws.
 
-    The others are for training on simulated records, whose speed is exact and whose rate is one. The speed given is off
-    by up to a share `speed_error`, and the bandwidth is drawn between `lowest_bandwidth` (None: not drawn) and the
-    record's own. With `copies_db` a record is read three times: as it is, and with noise at levels drawn between these
-    two, once all of it and once a stretch from 0.3 s up.
+    The other fields are for training on simulated records, which have exact speeds and all the same rate. The speed
+    given is off by up to the share `speed_error`, and the bandwidth is drawn between `lowest_bandwidth` (None: not
+    drawn) and the record's own. With `copies_db` each record is read three times: as it is, and twice with noise at a
+    level drawn between these two ratios (dB), once the whole record and once a stretch of at least 0.3 s.
     """
 
     bandwidth: float = COMMON_BANDWIDTH
@@ -68,12 +68,12 @@ class Reading:
         return slice(start, start + size)
 
     def drawn_bandwidth(self, rate: float, stream: np.random.Generator) -> float:
-        """The bandwidth (Hz) of one piece of a record at `rate` (Hz)."""
+        """The bandwidth (Hz), drawn if it is to be, of one piece of a record at `rate` (Hz)."""
         top = min(self.bandwidth, rate / 2.0)
         if self.lowest_bandwidth is None or self.lowest_bandwidth >= top:
             return top
         return float(np.exp(stream.uniform(np.log(self.lowest_bandwidth), np.log(top))))
 
     def speed_factor(self, stream: np.random.Generator) -> float:
-        """By what the shaft speed given of one piece is drawn to be wrong."""
+        """The factor, drawn around 1, by which the shaft speed given for one piece is wrong."""
         return 1.0 + self.speed_error * stream.uniform(-1.0, 1.0)

@@ -16,7 +16,7 @@ from scipy import fft
 from datagen.benchmark.fitness import unfit
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
-from datagen.judging.known import known_kinematics
+from datagen.judging.known import RPM_PER_HZ, known_kinematics
 from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 class Row:
     """One row: `values` (F,) of the feature table, of one `window` of one `axis` of a record, both counted from 0.
 
-    It is `noisy` if noise was added to learn from. `reason` says why what it shows must not be classified, "" if it
-    may. `shaft_hz` is the frequency of the shaft that was found in it.
+    It is `noisy` if noise was added for training. `reason` says why its window must not be classified, "" if it may be.
+    `shaft_hz` is the frequency of the shaft that was found in it.
     """
 
     values: Array
@@ -49,22 +49,28 @@ class Row:
 
 
 @dataclass(frozen=True)
-class RecordRows:
-    """The rows of one record, why it must not be classified ("" if it may), how many jumps were levelled, glitches
-    drawn over and shocks cut in it, and the races whose faults hide among multiples of the mains."""
+class RecordFacts:
+    """What reading one record showed, beside its rows.
 
-    rows: list[Row]
-    reason: str
+    `reason` says why it must not be classified, "" if it may be. So many `jumps` were levelled in it, `glitches` drawn
+    over and `shocks` cut; `in_mains` are the races whose faults hide among multiples of the mains. `found_rpm` is the
+    speed of the shaft that was found, rpm: the median over the rows without added noise, None without any.
+    """
+
+    reason: str = ""
     jumps: int = 0
     glitches: int = 0
     shocks: int = 0
     in_mains: tuple[str, ...] = ()
+    found_rpm: float | None = None
 
-    @property
-    def found_rpm(self) -> float:
-        """The speed of the shaft that was found: the median over the rows without added noise, NaN without any."""
-        found = [row.shaft_hz for row in self.rows if not row.noisy]
-        return 60.0 * float(np.median(found)) if found else math.nan
+
+@dataclass(frozen=True)
+class RecordRows:
+    """The rows of one record, none if it cannot be judged, and the `facts` about it."""
+
+    rows: list[Row]
+    facts: RecordFacts
 
 
 def feature_rows(found: Sequence[Row], record: int) -> Rows:
@@ -80,12 +86,14 @@ def feature_rows(found: Sequence[Row], record: int) -> Rows:
 def record_rows(
     signals: NDArray[Any], labels: pandas.Series[Any], reading: Reading, turning: Turning | None = None
 ) -> RecordRows:
-    """Rows of one record (T, A), one an axis and window, none if it cannot be judged; `turning` where its speed
-    changes."""
+    """Rows of one record, `signals` (T, A) in m/s², one for each axis and window; none if it cannot be judged.
+
+    `turning` says how the speed of its shaft changes, if it does.
+    """
     kinematics, rate = known_kinematics(labels), float(labels["rate_hz"])
     reason = unfit(labels, kinematics, len(signals), rate, reading.bandwidth)
     if kinematics is None or reason:
-        return RecordRows([], reason)
+        return RecordRows([], RecordFacts(reason))
     rows: list[Row] = []
     reasons: list[str] = []
     jumps = glitches = shocks = 0
@@ -99,7 +107,20 @@ def record_rows(
     step = piece_count(len(signals), rate, reading.window) * rate / len(signals)
     # Over the angle of a shaft that changes its speed, mains is no line and nothing is left out for it.
     in_mains = races_in_mains(kinematics, step) if turning is None else ()
-    return RecordRows(rows, reasons[0] if reasons and all(reasons) else "", jumps, glitches, shocks, in_mains)
+    facts = RecordFacts(
+        reason=reasons[0] if reasons and all(reasons) else "",
+        jumps=jumps,
+        glitches=glitches,
+        shocks=shocks,
+        in_mains=in_mains,
+        found_rpm=_found_rpm(rows),
+    )
+    return RecordRows(rows, facts)
+
+
+def _found_rpm(rows: Sequence[Row]) -> float | None:
+    found = [row.shaft_hz for row in rows if not row.noisy]
+    return RPM_PER_HZ * float(np.median(found)) if found else None
 
 
 def signal_rows(
@@ -110,7 +131,8 @@ def signal_rows(
     seed: list[int],
     turning: Turning | None = None,
 ) -> list[Row]:
-    """Rows of one axis (T,), none of pieces too short or without a signal; `seed` sets the random numbers."""
+    """Rows of the `signal` (T,) of one axis at `rate` (Hz), none for pieces that are too short or without a signal;
+    `seed` decides the random numbers."""
     if is_dead(signal):
         return []
     rows = []
@@ -137,10 +159,11 @@ def equal_pieces(signal: Array, rate: float, longest: float) -> Iterator[Array]:
 
 
 def piece_count(samples: int, rate: float, longest: float) -> int:
-    """Into how many equal pieces no longer than `longest` (s), or hardly, so many `samples` at `rate` (Hz) are cut."""
+    """Into how many equal pieces `samples` at `rate` (Hz) are cut so that none is longer than `longest` (s), or hardly
+    longer."""
     return max(1, int(np.ceil(samples / rate / longest - 0.05)))
 
 
 def _seed(labels: pandas.Series[Any]) -> list[int]:
-    """Numbers that follow from the record alone, whatever is read beside it."""
+    """A seed that depends on the record alone, whatever else is read."""
     return [zlib.crc32(f"{labels['bearing_id']}/{labels['recording']}".encode()), int(labels["record"])]

@@ -38,7 +38,7 @@ def benchmark_of(
     out: Path | None,
     save: Path | None,
 ) -> Benchmark:
-    """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be."""
+    """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be used."""
     learning, scoring = options.learning, options.scoring
     _require_learning(learning)
     _require_scoring(scoring)
@@ -77,7 +77,7 @@ def _require_learning(learning: Learning) -> None:
 
 
 def require_bandwidth(bandwidth: float | None) -> None:
-    """Raise BadInput for a `bandwidth` (Hz; None: as usual) in which features see too little."""
+    """Raise BadInput for a `bandwidth` (Hz; None: as usual) that is too narrow for features."""
     if bandwidth is not None and not LEAST_BANDWIDTH <= bandwidth < math.inf:
         raise BadInput(field="--bandwidth", value=bandwidth, allowed=f"{LEAST_BANDWIDTH:g} Hz or more")
 
@@ -97,7 +97,8 @@ def _require_scoring(scoring: Scoring) -> None:
 def _require_use(
     train: Path, tests: tuple[Path, ...], learning: Learning, learning_curve: bool, save: Path | None
 ) -> None:
-    """Raise BadInput unless there is something to do with what is learned, and to learn where options ask for it."""
+    """Raise BadInput unless the trained models are scored or saved, and options of learning come with a corpus to learn
+    from."""
     if save is None and not tests:
         raise BadInput("nothing to score on", field="--test", allowed=f"a corpus, or {SAVE} FILE to learn only")
     if save is not None:

@@ -15,12 +15,10 @@ from datagen.benchmark.machines import LearnedMachines, share_machines
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.trained import Trained
 from datagen.benchmark.training import (
-    Model,
     TrainingSet,
     labelled,
-    train_models,
+    train,
     train_rule,
-    train_user_estimator,
     training_records,
     training_set,
 )
@@ -44,13 +42,18 @@ def training_labels(benchmark: Benchmark) -> pandas.DataFrame | None:
 def learn(
     benchmark: Benchmark, labels: pandas.DataFrame | None, learned: LearnedMachines | None, listener: Listener
 ) -> Trained:
-    """What is learned from the records with these labels, of the machines `learned`; from impulse trains if None."""
+    """The rule and the models, learned from the records with these `labels`, or from impulse trains if None.
+
+    `learned` are the machines of those records, which must not be scored. Raises BadInput if nothing can be learned.
+    """
     training = _learned_from(benchmark, labels, listener)
     rule = train_rule(training)
     model_input = _model_input(benchmark, training, labels, listener)
     # The curve comes first: it needs copies of the user's estimator from before it has learned.
-    curve = _curve(benchmark, model_input, listener)
-    models = _models(benchmark, model_input, listener)
+    curve = None
+    if benchmark.learning_curve:
+        curve = learning_curve(model_input, benchmark.learning, benchmark.estimator, listener.step)
+    models = train(model_input, benchmark.learning, benchmark.estimator, listener.step)
     listener.step("importances of the features")
     facts: dict[str, Any] = {
         "training_records": int(np.unique(training.rows.record).size) if labels is None else len(labels),
@@ -59,8 +62,10 @@ def learn(
         "alarms": {model.name: _plain(model.alarm) for model in models},
         "importances": {model.name: importances(model, training) for model in models if not model.takes_windows},
     }
+    if curve is not None:
+        facts["learning_curve"] = curve
     recipe = "" if labels is None else Corpus(benchmark.train).manifest.identity.recipe_hash
-    return Trained(rule, models, learned, benchmark.learning, recipe, facts | curve)
+    return Trained(rule, models, learned, benchmark.learning, recipe, facts)
 
 
 def _plain(alarm: Alarm | float) -> dict[str, float] | float:
@@ -88,21 +93,3 @@ def _model_input(
         return training
     raw = benchmark.windows(benchmark.train, labels, listener)
     return labelled(raw, labels)
-
-
-def _curve(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> dict[str, Any]:
-    if not benchmark.learning_curve:
-        return {}
-    options = benchmark.learning
-    found = learning_curve(
-        training, options.learner, benchmark.estimator, options.takes_windows, options.estimator or "", listener.step
-    )
-    return {"learning_curve": found}
-
-
-def _models(benchmark: Benchmark, training: TrainingSet, listener: Listener) -> list[Model]:
-    options = benchmark.learning
-    if benchmark.estimator is None:
-        return train_models(training, options.learner, listener.step)
-    listener.step(f"learning: {options.estimator}")
-    return [train_user_estimator(training, benchmark.estimator, options.takes_windows, options.estimator or "")]

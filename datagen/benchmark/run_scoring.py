@@ -35,7 +35,8 @@ def tested_records(folder: Path, learned: LearnedMachines | None) -> pandas.Data
 def score_corpus(
     benchmark: Benchmark, folder: Path, labels: pandas.DataFrame, trained: Trained, listener: Listener
 ) -> CorpusResults:
-    """What the rule and the models say of the records with these labels, and their scores, without and with noise."""
+    """What the rule and the models say about the records with these labels, and their scores, without and with added
+    noise. Raises BadInput if a run on recordings cannot be logged."""
     imported = bool(Corpus(folder).manifest.imported)
     if imported:
         write_line(folder, {"began": benchmark.options.to_dict(), "train": str(benchmark.train)})

@@ -40,8 +40,8 @@ def race_balance(truth: Any, said: Any) -> float:
 def summarise(tested: Tested) -> CorpusScores:
     """Scores of the rule and of each model on one corpus.
 
-    A fault that nobody could judge counts as an error in every accuracy, that of its race too; the area under the ROC
-    and the calibration leave out records without a score, healthy or not.
+    A fault that could not be judged counts as an error in every accuracy, that of the race included; the area under the
+    ROC and the calibration leave out records without a score, healthy or not.
     """
     rule = tested.verdicts[0]
     return CorpusScores(
@@ -49,13 +49,19 @@ def summarise(tested: Tested) -> CorpusScores:
         imported=tested.imported,
         records=len(tested.labels),
         locations={name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
-        rejections=dict(Counter(str(reason) for reason in tested.reasons if reason)),
-        levelled={"records": int((tested.jumps > 0).sum()), "jumps": int(tested.jumps.sum())},
-        despiked={"records": int((tested.glitches > 0).sum()), "glitches": int(tested.glitches.sum())},
-        shocks_cut={"records": int((tested.shocks > 0).sum()), "shocks": int(tested.shocks.sum())},
-        in_mains={race: int((np.char.find(tested.in_mains, race) >= 0).sum()) for race in RACES},
+        rejections=dict(Counter(facts.reason for facts in tested.facts if facts.reason)),
+        levelled=_taken_out(tested, "jumps"),
+        despiked=_taken_out(tested, "glitches"),
+        shocks_cut=_taken_out(tested, "shocks"),
+        in_mains={race: sum(race in facts.in_mains for facts in tested.facts) for race in RACES},
         models={verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
     )
+
+
+def _taken_out(tested: Tested, what: str) -> dict[str, int]:
+    """How many records had any "jumps", "glitches" or "shocks" (`what`) taken out, and how many in all."""
+    counts = [getattr(facts, what) for facts in tested.facts]
+    return {"records": sum(count > 0 for count in counts), what: sum(counts)}
 
 
 def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> Scores:
@@ -128,10 +134,10 @@ def _against_rule(tested: Tested, said: Verdicts, rule: Verdicts) -> MinusRule:
 
 
 def _calibration(tested: Tested, said: Verdicts) -> Calibration | None:
-    """Reliability of the probability of a spall, healthy records and faults weighing the same, as it was learned; None
-    without both.
+    """Reliability of the probability of a spall, with healthy records and faults weighing the same, as in training;
+    None unless there are both.
 
-    Chance adds to the calibration error of every draw, so that the interval of a small error may lie above it.
+    Chance adds to the calibration error of every draw, so the interval of a small error may lie above the error itself.
     """
     known = (tested.truth != UNKNOWN) & np.isfinite(said.probability[:, 0])
     spall, probability = np.isin(tested.truth[known], RACES), 1.0 - said.probability[known, 0]

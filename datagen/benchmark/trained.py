@@ -1,4 +1,4 @@
-"""What `classify` has learned, and the file in which it is kept for recordings that come later."""
+"""The models that `classify` has trained, and the file in which they are saved for later recordings."""
 
 from __future__ import annotations
 
@@ -55,8 +55,11 @@ def save_trained(path: Path, trained: Trained) -> None:
 
 
 def load_trained(path: Path) -> Trained:
-    """What was kept at `path`; raises BadInput unless it was with these versions of Python, of the packages that
-    learning rests on, and of the features and the benchmark. Nothing is unpickled before that is known."""
+    """What was saved at `path`.
+
+    Raises BadInput unless it was saved with these versions of Python, of the packages that learning rests on, and of
+    the features and the benchmark. Nothing is unpickled before that is known.
+    """
     try:
         with path.open("rb") as file:
             _require_same(path, _head(file.readline(LONGEST_HEAD)))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.corpus_rows import read_rows
+from datagen.benchmark.options import Learning
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
@@ -138,6 +139,17 @@ def train_rule(training: TrainingSet) -> Rule:
     if not len(healthy):
         raise BadInput("no healthy record to set the rule's threshold on", field="--train")
     return fit_rule(healthy.table, healthy.record, healthy.axis)
+
+
+def train(training: TrainingSet, learning: Learning, estimator: Any | None = None, step: Say = ignore) -> list[Model]:
+    """The models that the options of `learning` ask for: our learners, or the user's `estimator` that they name.
+
+    `step` is called with the name of each. Raises BadInput if one cannot learn from this.
+    """
+    if estimator is None:
+        return train_models(training, learning.learner, step)
+    step(f"learning: {learning.estimator}")
+    return [train_user_estimator(training, estimator, learning.takes_windows, learning.estimator or "")]
 
 
 def train_models(training: TrainingSet, learner: str, step: Say = ignore) -> list[Model]:

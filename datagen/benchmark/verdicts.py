@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.benchmark.corpus_rows import CorpusRows
+from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.judging.truth import true_classes, true_locations
@@ -30,13 +31,13 @@ RULE = "rule"
 
 @dataclass(frozen=True)
 class Verdicts:
-    """What one model says of R records.
+    """What one model says about R records; all shapes (R,) but that of the probabilities.
 
     `location` is none, outer, inner or rejected; `race` the one it would name if there had to be a spall. `score` rises
     with suspicion, and a spall is called where it passes the `alarm`. `probability` (R, 5) is that of CLASSES, empty
     for the rule.
 
-    Of a record without features it says nothing: the race is "rejected", score, alarm and probabilities are NaN.
+    It says nothing about a record without features: the race is "rejected", score, alarm and probabilities are NaN.
     """
 
     name: str
@@ -52,21 +53,15 @@ class Verdicts:
 class Tested:
     """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
 
-    `reasons` (R,) say why a record was rejected, `jumps` (R,) how many were levelled in it, `glitches` (R,) how many
-    drawn over, `shocks` (R,) how many cut, `in_mains` (R,) which races hide among multiples of the mains, with blanks
-    between, `found_rpm` (R,) the speed of the shaft that was found, NaN without features.
+    `truth` and `classes` (R,) are the location and the class that the labels state, `facts` (R) what reading the
+    records showed.
     """
 
     folder: Path
     labels: pandas.DataFrame
     truth: NDArray[np.str_]
     classes: NDArray[np.str_]
-    reasons: NDArray[np.str_]
-    jumps: NDArray[np.int64]
-    glitches: NDArray[np.int64]
-    shocks: NDArray[np.int64]
-    in_mains: NDArray[np.str_]
-    found_rpm: NDArray[np.float64]
+    facts: tuple[RecordFacts, ...]
     verdicts: tuple[Verdicts, ...]
     imported: bool
 
@@ -87,16 +82,12 @@ def judge(
 ) -> Tested:
     """Verdicts of the rule and the models on the records with these labels, by what was `found` in them.
 
-    A record is rejected where it cannot be judged or shows no running machine, or where what is said of its location
-    has a probability below `reject`; the rule rejects only the former.
+    A record is rejected if it cannot be judged or shows no running machine; models also reject it if their answer about
+    its location has a probability below `reject`.
     """
     records = labels["record"].to_numpy(np.int64)
-    reasons = np.array([found.rejected.get(record, "") for record in records.tolist()], dtype=np.str_)
-    jumps, glitches, shocks = (
-        np.array([counts.get(record, 0) for record in records.tolist()], dtype=np.int64)
-        for counts in (found.jumps, found.glitches, found.shocks)
-    )
-    in_mains = np.array([" ".join(found.in_mains.get(record, ())) for record in records.tolist()], dtype=np.str_)
+    facts = tuple(found.facts.get(record, RecordFacts()) for record in records.tolist())
+    reasons = np.array([of_record.reason for of_record in facts], dtype=np.str_)
     verdicts = [_of_rule(rule, found.rows, records, reasons)]
     verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
     return Tested(
@@ -104,12 +95,7 @@ def judge(
         labels=labels,
         truth=true_locations(labels),
         classes=true_classes(labels),
-        reasons=reasons,
-        jumps=jumps,
-        glitches=glitches,
-        shocks=shocks,
-        in_mains=in_mains,
-        found_rpm=np.array([found.found_rpm.get(record, np.nan) for record in records.tolist()], dtype=np.float64),
+        facts=facts,
         verdicts=tuple(verdicts),
         imported=imported,
     )
@@ -185,6 +171,7 @@ def pooled_draws(draws: list[Tested]) -> Tested:
     return replace(
         draws[0],
         labels=pandas.concat([tested.labels for tested in draws]),
+        facts=tuple(of_record for tested in draws for of_record in tested.facts),
         verdicts=tuple(replace(of_one[0], **_joined_arrays(of_one)) for of_one in said),
         **_joined_arrays(draws),
     )

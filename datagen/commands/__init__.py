@@ -1,4 +1,4 @@
-"""One file a command. Heavy packages are imported inside the commands, so that help comes at once.
+"""One file per command. Heavy packages are imported inside the commands, so that `--help` answers at once.
 
 - corpora: `generate`, `import_recordings`, `check`, `info`, `preview`, `report`
 - scores: `features`, `classify`, `size`, `chart`, `paper`

@@ -34,8 +34,8 @@ def check(
 ) -> None:
     """Read a whole corpus and report everything that is wrong with it; or say what a recipe would make.
 
-    Of a recipe nothing is made or written. What is wrong with it is told as by generate. A folder with a corpus in it
-    is a corpus, whether it has a recipe or not.
+    Checking a recipe makes no records and writes nothing; mistakes in it are reported as generate would report them. A
+    folder that holds a corpus is checked as a corpus, even if there is a recipe in it too.
     """
     from datagen.inspection.recipe_check import is_recipe
 

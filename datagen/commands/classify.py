@@ -40,7 +40,7 @@ Save = Annotated[
     Path | None, Option("--save", metavar="FILE", help="Save what was learned; --train FILE takes it later.")
 ]
 More = Annotated[list[Path] | None, Argument(metavar="[DIR]...", help="More corpora to score on.")]
-# What Learning and Scoring hold, by the names of their fields.
+# The options that stand for the fields of Learning and Scoring, by their names.
 OPTIONS = {
     "learner": Option(help="Model to train: forest, logistic, boosting or all."),
     "estimator": Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function."),
@@ -163,7 +163,7 @@ def print_learning_curve(results: Results) -> None:
 
 
 def print_mended(found: CorpusScores) -> None:
-    """Print what was taken out of the signals of a corpus before anything was read from them."""
+    """Print what was taken out of the signals of a corpus before features were computed."""
     if found.levelled["jumps"]:
         print("  levelled   {jumps} jumps in {records} records".format(**found.levelled))
     if found.despiked["glitches"]:
@@ -187,7 +187,8 @@ def score_line(scores: Scores) -> str:
 
 
 def _bearings(scores: Scores) -> str:
-    """Of how many bearings the false alarms are, and of how many records that is unknown; nothing without healthy."""
+    """How many of the healthy bearings had a false alarm, and of how many healthy records the bearing is unknown; empty
+    without healthy records."""
     known, unknown = scores.healthy_bearings, scores.healthy_of_unknown_bearing
     parts = [f"{scores.alarming_bearings}/{known} bearings"] if known else []
     if unknown:

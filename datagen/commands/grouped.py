@@ -11,10 +11,10 @@ from typing import Annotated, Any, get_type_hints
 
 
 def grouped(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Decorator of a command some of whose parameters are dataclasses: it takes the fields of these in their place, by
-    their names and with their defaults, each described by the typer.Option of that name in `options`.
+    """Decorator of a command with dataclasses among its parameters: on the command line each stands for one option per
+    field, with the field's name and default, described by the typer.Option of that name in `options`.
 
-    Raises KeyError for a field without one.
+    Raises KeyError for a field that has none there.
     """
 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
@@ -40,7 +40,7 @@ def grouped(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Calla
                     )
 
         parameters = list(flat_parameters())
-        # The one or the other is read, by typer as by messages on command lines that cannot be read.
+        # typer reads the signature; the messages about unreadable command lines (`usage`) read the annotations.
         flat.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
         flat.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
         return flat

@@ -30,8 +30,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-# Columns of a table where there is no terminal, of which usual names take so many; the heading above names.
+# Characters a table is wide without a terminal, and how many of these a usual name of a recording takes.
 WIDTH, USUAL_NAME = 140, 40
+# Heading of the column that holds such names.
 NAMES = "recording"
 
 JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write the results to this file too.")]
@@ -59,8 +60,11 @@ def spallgen(
 def command(
     example: str, name: str | None = None, *, kept: str = "what had not been written is lost"
 ) -> Callable[[Command], Command]:
-    """Add a command to the program, called `name` or like its function: bad input, a scene that cannot be simulated
-    and Ctrl-C or SIGTERM, after which `kept` is said, end it with a sentence and their exit code."""
+    """Decorator that adds a command to the program, under `name` or the name of its function.
+
+    Bad input, a scene that cannot be simulated, Ctrl-C and SIGTERM end the command with one sentence and the exit code
+    of each. `kept` says what an interruption leaves behind; `example` is shown by `--help`.
+    """
 
     def register(function: Command) -> Command:
         @functools.wraps(function)
@@ -82,7 +86,7 @@ def command(
             except BrokenPipeError:  # the program's to handle
                 raise
             except OSError as problem:
-                # Of a file that is put in the place of another the first name is that of a temporary one.
+                # When one file replaces another, `filename` is the temporary one and `filename2` the user's.
                 print_error(f"{problem.filename2 or problem.filename or 'the output'}: {problem.strerror}")
                 raise typer.Exit(BAD_INPUT) from None
             except KeyboardInterrupt as stop:
@@ -95,14 +99,14 @@ def command(
 
 
 def show_tables(tables: list[Table]) -> None:
-    """Print tables as wide as the terminal, their texts as they stand: those of recipes may hold rich's markup.
+    """Print tables as wide as the terminal; texts are printed as they are, even if they look like rich's markup.
 
-    Without a terminal names stand whole on one line.
+    Without a terminal the tables are wide enough to keep each name on one line.
     """
     from rich.console import Console
 
     console = Console(width=None if sys.stdout.isatty() else _width(tables), markup=False, emoji=False)
-    with console.capture() as shown:  # where nobody reads, rich would end the process with a code of its own
+    with console.capture() as shown:  # if nobody reads the output, rich would end the process with its own exit code
         for table in tables:
             console.print(table)
     print(shown.get(), end="")

@@ -18,7 +18,7 @@ CLEARED = "\r\033[K"
 
 
 class Lines:
-    """Records that are done, for pipes and logs: one plain line every few seconds, on standard error."""
+    """How many records are done, for pipes and logs: one plain line every few seconds, on standard error."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -43,7 +43,7 @@ class Lines:
 
 
 class Bar:
-    """Records that are done, for a terminal: a bar with rate and remaining time, on standard error."""
+    """How many records are done, for a terminal: a bar with rate and remaining time, on standard error."""
 
     def __init__(self, progress: Progress) -> None:
         self._progress = progress
@@ -65,7 +65,7 @@ class Bar:
 
 @contextmanager
 def show_records() -> Iterator[Listener]:
-    """A listener of the block that shows how many records are done: a bar on a terminal, plain lines elsewhere."""
+    """A listener, for the block, that shows how many records are done: a bar on a terminal, plain lines elsewhere."""
     if not sys.stderr.isatty():
         lines = Lines()
         yield Listener(say=lines.say, advance=lines.advance)
@@ -122,7 +122,7 @@ class Steps:
 
 @contextmanager
 def show_steps(clock: Callable[[], float] = time.monotonic) -> Iterator[Listener]:
-    """A listener of the block that shows the step under way; the changing line is gone afterwards."""
+    """A listener, for the block, that shows the step under way; the changing line is gone afterwards."""
     steps = Steps(clock)
     try:
         yield Listener(say=steps.say, step=steps.step)

@@ -54,7 +54,7 @@ def _simulated(info: Info) -> dict[str, str]:
 
 
 def _making(info: Info, recorded: bool) -> dict[str, str]:
-    """What the records cost, and the hashes of what they came from; recordings were solved by no model."""
+    """What the records cost to make, and the hashes of what they came from; recordings have no model and no cost."""
     if recorded:
         hashes = ("recipe_hash", "format_hash", "program_hash")
         return {"SPEC and files, format, program": ", ".join(info.identity[name] for name in hashes)}
@@ -161,8 +161,8 @@ def _verdict(said: ModelAnswer) -> str:
 
 
 def _beside_alarm(said: ModelAnswer) -> str:
-    """How the probability of a spall lies to the alarm, or ≈ where that of the whole record contradicts what was called
-    by the mean margin of its windows."""
+    """Whether the probability of a spall is above the alarm (> or ≤), or ≈ if that of the whole record contradicts the
+    call, which the mean margin of its windows decides."""
     above = said.score > said.alarm
     if above != (said.location != "none"):
         return "≈"

@@ -10,15 +10,15 @@ from types import FrameType
 
 
 class Terminated(KeyboardInterrupt):
-    """SIGTERM came; whatever tidies up after Ctrl-C does so after this too."""
+    """SIGTERM was received; whatever tidies up after Ctrl-C does so after this too."""
 
 
 @contextmanager
 def terminable() -> Iterator[None]:
-    """In the block the first SIGTERM raises Terminated in the main thread, and those that follow do nothing: batch
+    """Within the block the first SIGTERM raises Terminated in the main thread, and later ones are ignored: batch
     systems send several, and tidying up must not be interrupted. Afterwards SIGTERM does what it did before.
 
-    Where somebody else handles or ignores it, and outside the main thread, it is left to them.
+    Nothing is changed if SIGTERM already has a handler or is ignored, or outside the main thread.
     """
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
         yield

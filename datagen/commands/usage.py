@@ -1,6 +1,6 @@
-"""Command lines that cannot be read: refused in one line with option, value and what is allowed, like other bad input.
+"""Command lines that cannot be parsed: refused in one line with option, value and what is allowed, as any bad input.
 
-Whoever reads the output may stop before its end, as `head` does: any command then ends without a word, with 141.
+If the reader of the output stops early, as `head` does, every command ends silently, with exit code 141.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, OUTPUT_CLOSED, print_error
 from physics.spelling import nearest
 
-# What typer raises for any command line that it cannot read; some of its versions bring their own click.
+# What typer raises for any command line that it cannot parse; some of its versions bring their own click.
 UNREADABLE: Any = typer.BadParameter.__mro__[1]
 READABLE = "a file or folder that you may read"
 KINDS = {int: "a whole number", float: "a number", Path: "a path", str: "a text"}
 
 
 class Program(TyperGroup):
-    """The group of all commands; raises BadInput for a command line that cannot be read."""
+    """The group of all commands; a command line that cannot be parsed ends it with one line and exit code 2."""
 
     def make_context(self, info_name: str | None, args: list[str], *more: Any, **extra: Any) -> Any:
-        """The context of a run with these `args`; those of the command are kept for messages."""
+        """The context of a run with these `args`, which are kept for messages."""
         self._given = [str(part) for part in args]
         with self._guarded():
             _refuse_empty(self.commands.get(next(iter(self._given), "")), self._given)
@@ -42,7 +42,7 @@ class Program(TyperGroup):
 
     @contextmanager
     def _guarded(self) -> Iterator[None]:
-        """What the block raises for a command line that cannot be read, or a closed output, becomes an exit code."""
+        """Turn what the block raises, on an unreadable command line or a closed output, into an exit code."""
         try:
             with self._readable():
                 yield
@@ -76,8 +76,8 @@ class Program(TyperGroup):
 
 
 def _refuse_empty(command: Any, given: Sequence[str]) -> None:
-    """Say so if an argument or a path among those `given` is empty, as where a variable of the shell is not set: it
-    would be the current folder. `command` is None if there is no such one.
+    """Refuse an empty argument or path among those `given`, such as "$OUT" with OUT unset: as a path it would be the
+    current folder. `command` is None if there is no command of that name.
 
     Raises typer.Exit.
     """
@@ -98,7 +98,7 @@ def _is_path(command: Any, name: str | None) -> bool:
 
 
 def _of_parameter(problem: Any, command: Any, parameter: Any, given: Sequence[str]) -> BadInput:
-    """An option or argument whose value is missing or cannot be."""
+    """An option or argument whose value is missing or not allowed."""
     is_option = parameter.param_type_name == "option"
     word = parameter.metavar or parameter.name.upper()
     name = parameter.opts[0] if is_option else word
@@ -117,7 +117,7 @@ def _locked(given: Sequence[str]) -> str | None:
 
 
 def _of_option(problem: Any, command: Any) -> BadInput:
-    """An option that there is not, that lacks its value or that takes none."""
+    """An option that does not exist, lacks its value or takes none."""
     if hasattr(problem, "possibilities"):
         names = [name for parameter in command.params for name in (*parameter.opts, *parameter.secondary_opts)]
         known = [name for name in names if name.startswith("--")]

@@ -50,9 +50,9 @@ ZLIB_SHARE = {
 class Identity:
     """What made a corpus, as hashes of 16 hexadecimal digits: a corpus never mixes two identities.
 
-    `model_hash` is of the physics, `program_hash` of the other packages that draw, describe and store records: of their
-    whole text, comments too. An imported corpus has the hash of its SPEC and of the files that it names as
-    `recipe_hash`, and no `model_hash` ("").
+    `model_hash` is that of the physics, `program_hash` that of the other packages that draw, describe and store records
+    (of their whole text, comments included). The `recipe_hash` of an imported corpus is that of its SPEC and of the
+    files that this names, and its `model_hash` is "".
     """
 
     recipe_hash: str

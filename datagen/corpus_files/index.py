@@ -38,10 +38,10 @@ def index_path(folder: Path) -> Path:
 
 
 def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
-    """Write the index of the finished shards in the order of the records, if the `sidecars` come in that of the first
-    records they were asked for; returns the number of rows.
+    """Write the index of the finished shards, in the order of the records; returns the number of rows.
 
-    `shard` is the path of the record's file in the folder, `position` its place in that file, from 0.
+    The `sidecars` must come in the order of the first record that each was asked for. The column `shard` is the path of
+    the record's file in the folder, `position` the record's place in that file, from 0.
     """
     count = 0
     with opened_atomically(index_path(folder)) as file:
@@ -56,9 +56,10 @@ def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
 
 
 class _OpenShard(NamedTuple):
-    """A shard whose rows are being read, in a heap by the `record` of the `row` that comes next; `later` are the rest.
+    """A shard whose rows are being merged: its next `row`, the `record` of that, and the `later` rows.
 
-    No two have the same `record` and `shard`, so rows are never compared.
+    As entries of a heap they are ordered by record; no two have the same `record` and `shard`, so rows are never
+    compared.
     """
 
     record: int
@@ -68,7 +69,7 @@ class _OpenShard(NamedTuple):
 
 
 def _in_order_of_records(sidecars: Iterator[Sidecar], folder: Path) -> Iterator[Row]:
-    """Rows of all shards by record, with only those shards in memory whose records interleave."""
+    """Rows of all shards by record, holding only shards whose records interleave in memory."""
     open_shards: list[_OpenShard] = []
     for sidecar in sidecars:
         if not sidecar.records:

@@ -24,7 +24,7 @@ ANEW = (
 
 
 class DamagedManifest(BadInput):
-    """A manifest that can be opened and is none: cut short, or changed by somebody."""
+    """A manifest file that can be opened but not understood: cut short, or edited by somebody."""
 
 
 @dataclass(frozen=True)
@@ -42,11 +42,12 @@ class ShardEntry:
 
 @dataclass(frozen=True)
 class Manifest:
-    """What a corpus is. `asked` are the spans [start, stop) of records that runs were asked for, over all runs.
+    """What a corpus is.
 
     `recipe` is the whole recipe as data, or the SPEC of imported recordings with its files; `origin` says which
-    ("simulated", "imported"). `shards`, `failed`, `bytes`, `seconds` (of work, summed over workers) and `refused`
-    (impossible draws, by parameter) are what the sidecars of the shards say.
+    ("simulated", "imported"). `asked` are the spans [start, stop) of records that any run was asked for. `shards`,
+    `failed`, `bytes`, `seconds` (of work, summed over workers) and `refused` (impossible draws, by parameter) are what
+    the sidecars of the shards say.
     """
 
     name: str

@@ -1,8 +1,8 @@
-"""The shard files that were read last, kept open behind one door: each is open once in a process, whoever reads it.
+"""The shard files that were read last, kept open in one place: each is open only once in a process, whoever reads it.
 
-HDF5 2.2.0 crashes when texts of any length, as earlier versions stored them, are read from a file that was opened
-twice, once its first handle is closed: both share what belongs to that handle. A process that was forked has the
-handles of its parent, so none is open during a fork.
+HDF5 2.2.0 crashes when texts of variable length, as earlier versions stored them, are read from a file that was opened
+twice and whose first handle has been closed: both handles share what belongs to the first. A forked process inherits
+the handles of its parent, so none is kept open during a fork.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class _OpenFiles:
 
     def __init__(self) -> None:
         self.files: OrderedDict[FileKey, _OpenFile] = OrderedDict()
-        self.blocks = 0  # that read one of them now, all in the thread that holds ONE_AT_A_TIME
+        self.blocks = 0  # `reading` blocks under way, all in the thread that holds ONE_AT_A_TIME
 
     @contextmanager
     def reading(self, path: Path, reader: int) -> Iterator[netCDF4.Dataset]:
@@ -81,14 +81,14 @@ class _OpenFiles:
         return [held.path for held in tuple(self.files.values()) if reader in held.readers]
 
     def leave(self, reader: int) -> None:
-        """Close the files that nobody else reads."""
+        """Close the files that no other reader has open."""
         for key, held in tuple(self.files.items()):
             held.readers.discard(reader)
             if not held.readers:
                 self._close(key)
 
     def before_fork(self) -> None:
-        """Close all files that are not read at this moment, and let nobody open one."""
+        """Close all files, unless one is being read, and let nobody open any."""
         ONE_AT_A_TIME.acquire()
         while self.files and not self.blocks:
             self._close(next(iter(self.files)))

@@ -1,4 +1,4 @@
-"""Reading a shard: whatever a damaged file makes the libraries raise becomes one message that says how to mend it."""
+"""Reading a shard: whatever the libraries raise for a damaged file becomes one message that says how to repair it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def unencodable(path: Path) -> BadInput:
 
 @contextmanager
 def reading(folder: Path, shard: str) -> Iterator[None]:
-    """Whatever goes wrong inside while `shard` (its name in the corpus `folder`) is read is BadInput that names it."""
+    """Turn whatever goes wrong in the block while `shard` (its name in the corpus `folder`) is read into BadInput."""
     try:
         yield
     except UnicodeEncodeError:

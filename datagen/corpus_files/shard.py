@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +32,7 @@ class Failure:
 
 @dataclass(frozen=True)
 class Sidecar:
-    """What is known of a finished shard without opening it; its being there is what makes the shard count.
+    """What is known of a finished shard without opening it; a shard counts only once its sidecar is there.
 
     `sha256` is of the file's bytes, `content` of its decoded arrays; `seconds` is what making it took.
     `labels` holds a list per column of the labels' flat table, in the order of `records`; None stands for NaN.
@@ -42,13 +42,13 @@ class Sidecar:
 
     shard: int
     identity: Identity
-    records: tuple[int, ...]
-    failed: tuple[Failure, ...]
-    bytes: int
-    sha256: str
-    content: str
-    seconds: float
-    labels: dict[str, list[Any]]
+    records: tuple[int, ...] = ()
+    failed: tuple[Failure, ...] = ()
+    bytes: int = 0
+    sha256: str = ""
+    content: str = ""
+    seconds: float = 0.0
+    labels: dict[str, list[Any]] = field(default_factory=dict)
     refused: dict[str, Refused] = field(default_factory=dict)
 
     @property
@@ -72,46 +72,25 @@ def sidecar_path(folder: Path, shard: int) -> Path:
     return shard_path(folder, shard).with_suffix(".json")
 
 
-def write_shard(
-    folder: Path,
-    shard: int,
-    identity: Identity,
-    dataset: xarray.Dataset | None,
-    failed: tuple[Failure, ...],
-    compression: str,
-    seconds: float,
-    refused: dict[str, Refused] | None = None,
-) -> Sidecar:
-    """Write `dataset` (None: every record failed) whole or not at all, then its sidecar; OSError on a full disk."""
-    if dataset is None:
-        sidecar = Sidecar(
-            shard=shard,
-            identity=identity,
-            records=(),
-            failed=failed,
-            bytes=0,
-            sha256="",
-            content="",
-            seconds=seconds,
-            labels={},
-            refused=refused or {},
-        )
-    else:
+def write_shard(folder: Path, sidecar: Sidecar, dataset: xarray.Dataset | None, compression: str) -> Sidecar:
+    """Write the file of a shard whole or not at all, then its sidecar; returns that with what it says of the file.
+
+    `sidecar` says what is known before the file is: number, identity, failures, cost and redraws. `dataset` holds the
+    records, None if every one failed; then there is no file. Raises OSError on a full disk.
+    """
+    if dataset is not None:
         content = memoryview(netcdf_bytes(dataset, compression))
-        sidecar = Sidecar(
-            shard=shard,
-            identity=identity,
+        sidecar = replace(
+            sidecar,
             records=tuple(int(record) for record in dataset["record"].values),
-            failed=failed,
             bytes=content.nbytes,
             sha256=hashlib.sha256(content).hexdigest(),
             content=content_hash(dataset),
-            seconds=seconds,
             labels=label_columns(dataset),
-            refused=refused or {},
         )
-        write_atomically(shard_path(folder, shard), content)
-    write_atomically(sidecar_path(folder, shard), json.dumps(sidecar, default=vars, allow_nan=False).encode())
+        write_atomically(shard_path(folder, sidecar.shard), content)
+    path = sidecar_path(folder, sidecar.shard)
+    write_atomically(path, json.dumps(sidecar, default=vars, allow_nan=False).encode())
     return sidecar
 
 
@@ -158,7 +137,7 @@ def is_whole(folder: Path, sidecar: Sidecar) -> bool:
 
 
 def finished_shards(folder: Path) -> Iterator[Sidecar]:
-    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of its size.
+    """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of the right size.
 
     Copies of a sidecar under another name do not count.
     """
@@ -170,7 +149,7 @@ def finished_shards(folder: Path) -> Iterator[Sidecar]:
 
 
 def sweep_unfinished(folder: Path) -> None:
-    """Delete what killed writers left in the corpus `folder`: temporary files, and files of shards without sidecar.
+    """Delete what killed writers left in the corpus `folder`: temporary files, and shard files without a sidecar.
 
     Call it with the folder locked and no writer at work in it.
     """

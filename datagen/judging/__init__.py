@@ -1,6 +1,6 @@
-"""What classifiers and size estimators are judged alike by.
+"""What the benchmark of classifiers and that of size estimators share.
 
-- `known`: what of a record's labels they may be told; `stated_speed`: how wrong the speed may be
+- `known`: which labels of a record they may be told; `stated_speed`: how wrong the speed among these may be
 - `truth`: what a record really is, for training and scoring
 - `splits`: the split that is asked for
 - `user_code`: estimators that users bring

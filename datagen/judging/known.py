@@ -1,4 +1,4 @@
-"""What the labels of a record say that who judges it may know: rate, geometry, speed. Nothing of its health."""
+"""What a classifier or estimator may know from the labels of a record: geometry and speed, nothing of its health."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ NO_ROTATION = "speed not above 0"
 
 
 def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
-    """Kinematics of the record with these labels: from its geometry, or from its orders; None if it says neither, or no
-    speed."""
+    """Kinematics of the record with these labels, from its geometry or its orders; None if the labels state neither, or
+    no speed."""
     speed = _number(labels, "speed_rpm") / RPM_PER_HZ
     if not speed > 0.0:
         return None
@@ -33,7 +33,7 @@ def what_is_missing(labels: Mapping[str, Any]) -> str:
 
 
 def is_nominal(labels: Mapping[str, Any]) -> bool:
-    """Whether the speed is what stands on a plate or was set, and not what the shaft did."""
+    """Whether the speed is nominal: what a plate says or was set, and not what the shaft did."""
     return labels.get("speed_basis") == "nominal"
 
 
@@ -46,7 +46,8 @@ def _kinematics_at(labels: Mapping[str, Any], speed: float) -> Kinematics | None
 
 
 def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinematics | None:
-    """The two ball pass orders add up to the number of balls, so either of them and that number give all."""
+    """Kinematics from the orders: BPFO and BPFI add up to the number of balls, so either and that number give the
+    rest."""
     outer, inner, spin, cage = (_number(labels, name) for name in ("bpfo", "bpfi", "bsf", "ftf"))
     if not math.isfinite(balls):
         balls = _ball_count(outer, inner, cage)

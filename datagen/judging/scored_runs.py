@@ -20,8 +20,10 @@ def log_path(folder: Path) -> Path:
 
 
 def write_line(folder: Path, said: dict[str, Any]) -> None:
-    """Append a line to the log of a corpus: what is `said`, when, and by which versions; raises BadInput if that is
-    impossible: a run that leaves no trace is not made."""
+    """Append a line to the log of a corpus: what is `said`, when, and by which versions.
+
+    Raises BadInput if it cannot be written: no run may score recordings without leaving a trace.
+    """
     line = {"time": datetime.now(UTC).isoformat(timespec="seconds"), **said, "versions": program_versions()}
     try:
         with log_path(folder).open("a", encoding="utf-8") as file:
@@ -31,6 +33,6 @@ def write_line(folder: Path, said: dict[str, Any]) -> None:
 
 
 def no_log(folder: Path, reason: str = "") -> BadInput:
-    """What is said where the log of a corpus cannot be written, as in a folder for reading only."""
+    """The error if the log of a corpus cannot be written, as in a read-only folder."""
     problem = f"runs on recordings are logged here, and it cannot be written{reason}"
     return BadInput(problem, str(log_path(folder)), allowed="a corpus that can be written to, such as a copy of it")

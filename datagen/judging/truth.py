@@ -1,4 +1,4 @@
-"""What the labels of a record say that it is: for training and scoring only, never for who judges it."""
+"""What a record is according to its labels: for training and scoring only, never told to a classifier or estimator."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def true_class(labels: Mapping[str, Any]) -> str:
 
 
 def true_location(labels: Mapping[str, Any]) -> str:
-    """none, outer or inner; "unknown" for everything else (a ball's fault too), which is predicted and not scored."""
+    """none, outer or inner; "unknown" for everything else (a faulty ball too), which is predicted but not scored."""
     said = str(labels["location"])
     return said if said in LOCATIONS else UNKNOWN
 

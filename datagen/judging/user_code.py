@@ -15,7 +15,8 @@ FIELD = "--estimator"
 
 
 def load_user_code(name: str, allowed: str) -> Any:
-    """What "module:name" is, looked for in the working folder too; a class is made without arguments.
+    """The object called "module:name", also looked for in the working folder; a class is instantiated without
+    arguments.
 
     Raises BadInput, which says what is `allowed`, whatever goes wrong on the way.
     """
@@ -31,7 +32,7 @@ def load_user_code(name: str, allowed: str) -> Any:
 
 @contextmanager
 def user_code(name: str, problem: str, allowed: str = "") -> Iterator[None]:
-    """Turns any exception of the user's code `name` into BadInput with its line; the user's code may raise anything."""
+    """Turn any exception that the user's code `name` raises in the block into BadInput that says where it happened."""
     try:
         yield
     except BadInput:

@@ -1,10 +1,13 @@
-"""What a recipe may say of frequencies: below half its lowest sampling rate, bands that hold a line, one rate."""
+"""Which frequencies a recipe may state: below half its lowest sampling rate, in bands that hold a line of the spectrum.
+
+A recording in the background must fit too: sampled at the rate of the records, and as long as they are.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
@@ -20,7 +23,17 @@ if TYPE_CHECKING:
     from datagen.recipes.recipe import Recipe
 
 RESONATOR = ("resonator_mass_kg", "outer_mass_kg", "resonator_stiffness_n_per_m", "resonator_frequency_hz")
+# Where a setting is, the setting, and what it is the frequency of.
 Frequency = tuple[Location, Distribution, str]
+
+
+class Refusal(NamedTuple):
+    """A setting that does not fit the sampling: where it is, what is wrong with its `value`, and what is allowed."""
+
+    location: Location
+    problem: str
+    value: object
+    allowed: str
 
 
 def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
@@ -29,40 +42,53 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
 
     `text` is what was read from `path`, for the line of the setting.
     """
-    nyquist = recipe.signal.rate_hz.lowest / 2.0
-
-    def refuse(location: Location, problem: str, value: object, allowed: str) -> BadInput:
+    refusal = next(_refusals(recipe), None)
+    if refusal is not None:
+        location, problem, value, allowed = refusal
         line = line_of(text, location)
-        return BadInput(problem, f"{path}, line {line}" if line else str(path), dotted(location), value, allowed)
+        raise BadInput(problem, f"{path}, line {line}" if line else str(path), dotted(location), value, allowed)
 
-    def require_below(place: Location, frequencies: Iterable[Frequency]) -> None:
-        for location, setting, name in frequencies:
-            highest = setting.highest
-            if highest >= nyquist:
-                problem = f"the {name} must lie below half the sampling rate of {2.0 * nyquist:.12g} Hz"
-                raise refuse((*place, *location), problem, highest, f"below {nyquist:.12g}")
 
+def _refusals(recipe: Recipe) -> Iterator[Refusal]:
+    nyquist = recipe.signal.rate_hz.lowest / 2.0
     if recipe.signal.envelope_band_hz is None:
-        require_below((), _resonators(recipe))
-        for index, rig, frequency in _catalogue_resonances(recipe):
-            if frequency >= nyquist:
-                limit = f"half the sampling rate of {2.0 * nyquist:.12g} Hz"
-                problem = f"its resonance at {frequency:.0f} Hz must lie below {limit}"
-                allowed = f"signal.rate_hz above {2.0 * frequency:.0f}, or a signal.envelope_band_hz of your own"
-                raise refuse(("part", index, "machine", "rig"), problem, rig, allowed)
+        yield from _too_high((), _resonators(recipe), nyquist)
+        yield from _rigs_too_high(recipe, nyquist)
     for place, chain, background in _tables(recipe):
-        require_below(place, (*_of_chain(chain), *_of_background(background)))
-        band = background.snr_band_hz
-        if band is not None and band[1] > nyquist:
-            problem = f"the band is not below half the sampling rate of {2.0 * nyquist:.12g} Hz"
-            raise refuse((*place, "background", "snr_band_hz"), problem, band, f"0 <= low < high <= {nyquist:.12g}")
-        narrow = None if band is None else recipe.signal.too_narrow(band)
-        if narrow is not None:
-            raise refuse((*place, "background", "snr_band_hz"), narrow[0], band, narrow[1])
-        misfit = _misfit(recipe, background)
-        if misfit is not None:
-            field, problem, value, allowed = misfit
-            raise refuse((*place, "background", "recording", field), problem, value, allowed)
+        yield from _too_high(place, (*_of_chain(chain), *_of_background(background)), nyquist)
+        yield from _unfit_band(recipe, background, (*place, "background", "snr_band_hz"), nyquist)
+        yield from _unfit_recording(recipe, background, (*place, "background", "recording"))
+
+
+def _too_high(place: Location, frequencies: Iterable[Frequency], nyquist: float) -> Iterator[Refusal]:
+    """The settings, by their location below `place`, that may reach half the sampling rate, `nyquist` (Hz)."""
+    for location, setting, name in frequencies:
+        if setting.highest >= nyquist:
+            problem = f"the {name} must lie below half the sampling rate of {2.0 * nyquist:.12g} Hz"
+            yield Refusal((*place, *location), problem, setting.highest, f"below {nyquist:.12g}")
+
+
+def _rigs_too_high(recipe: Recipe, nyquist: float) -> Iterator[Refusal]:
+    for index, rig, frequency in _catalogue_resonances(recipe):
+        if frequency >= nyquist:
+            limit = f"half the sampling rate of {2.0 * nyquist:.12g} Hz"
+            problem = f"its resonance at {frequency:.0f} Hz must lie below {limit}"
+            allowed = f"signal.rate_hz above {2.0 * frequency:.0f}, or a signal.envelope_band_hz of your own"
+            yield Refusal(("part", index, "machine", "rig"), problem, rig, allowed)
+
+
+def _unfit_band(recipe: Recipe, background: BackgroundSettings, place: Location, nyquist: float) -> Iterator[Refusal]:
+    """What is wrong with the band of the signal-to-noise ratio, which is stated at `place`."""
+    band = background.snr_band_hz
+    if band is None:
+        return
+    if band[1] > nyquist:
+        problem = f"the band is not below half the sampling rate of {2.0 * nyquist:.12g} Hz"
+        yield Refusal(place, problem, band, f"0 <= low < high <= {nyquist:.12g}")
+    narrow = recipe.signal.too_narrow(band)
+    if narrow is not None:
+        problem, allowed = narrow
+        yield Refusal(place, problem, band, allowed)
 
 
 def _tables(recipe: Recipe) -> Iterator[tuple[Location, ChainSettings, BackgroundSettings]]:
@@ -111,21 +137,20 @@ def _of_background(background: BackgroundSettings) -> Iterator[Frequency]:
         yield ("background", "impulses", "frequency_hz"), background.impulses.frequency_hz, "resonance"
 
 
-def _misfit(recipe: Recipe, background: BackgroundSettings) -> tuple[str, str, object, str] | None:
-    """Field, problem, value and what is allowed of a recording that the records cannot take stretches of."""
-    recording, rate, duration = background.recording, recipe.signal.rate_hz, recipe.signal.duration_s
+def _unfit_recording(recipe: Recipe, background: BackgroundSettings, place: Location) -> Iterator[Refusal]:
+    """Why the records cannot take stretches of the recording whose table is at `place`."""
+    recording, rate, longest = background.recording, recipe.signal.rate_hz, recipe.signal.duration_s.highest
     if recording is None:
-        return None
+        return
     if not isinstance(rate, Fixed):
         problem = f"the records' rate is drawn, and {recording.file} is not resampled"
-        return "rate_hz", problem, recording.rate_hz, f"signal.rate_hz = {recording.rate_hz:.12g}"
-    if rate.value != recording.rate_hz:
+        allowed = f"signal.rate_hz = {recording.rate_hz:.12g}"
+        yield Refusal((*place, "rate_hz"), problem, recording.rate_hz, allowed)
+    elif rate.value != recording.rate_hz:
         stated = ", ".join(f"{value:.12g}" for value in rate.stated())
         problem = f"{recording.file} is not sampled at the records' rate, and recordings are not resampled"
-        return "rate_hz", problem, recording.rate_hz, f"{stated} (signal.rate_hz)"
-    longest = duration.highest
-    if recording.samples < round(longest * recording.rate_hz):
+        yield Refusal((*place, "rate_hz"), problem, recording.rate_hz, f"{stated} (signal.rate_hz)")
+    elif recording.samples < round(longest * recording.rate_hz):
         seconds = recording.samples / recording.rate_hz
         problem = f"{recording.file} is {seconds:g} s long, a record {longest:g} s, and recordings are not repeated"
-        return "file", problem, None, f"a recording of {longest:g} s or more"
-    return None
+        yield Refusal((*place, "file"), problem, None, f"a recording of {longest:g} s or more")

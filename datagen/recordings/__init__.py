@@ -3,7 +3,7 @@
 - `spec_files`: where a SPEC is found; `spec`: the whole; `settings`: what it says of a recording; `values`: its numbers
 - `listing`: which records it asks for, with `file_names` and `label_table`
 - `source`: one opened file; `recorded`: its records; `doubts`: what is odd about them;
-  `unchanged`: files that must not change meanwhile
+  `unchanged`: files that must not change during an import
 - `sample_times`: the sampling rate; `shaft_speed`: the speed, with the `pulse_times` and `pulses` of a tach
 - `description`: labels; `dataset`: the records as a shard holds them
 - `importing`: the whole import, from an `import_plan` to a folder that appears whole (`staging`)

@@ -24,7 +24,8 @@ ATTRIBUTES = {
 
 
 def imported_dataset(indices: Sequence[int], records: Sequence[Recorded], attributes: dict[str, str]) -> xarray.Dataset:
-    """One dataset of records that share their `key`; unknown channels are left out."""
+    """One dataset of `records` that share their `key`, with these global `indices`; unknown labels are left out, and
+    `attributes` are added to the global ones."""
     first = records[0]
     columns: dict[str, Any] = {
         "acceleration": np.stack([record.acceleration for record in records]),

@@ -28,7 +28,8 @@ WHOLE_WITHIN, CAGE_WITHIN = 0.05, 0.01
 
 
 def recording_labels(source: Source) -> dict[str, Any]:
-    """Every label of the schema that follows from the SPEC's settings, counts and truth values only where known."""
+    """The labels that the SPEC's settings give or imply, the other texts "unknown" and the other numbers NaN; counts
+    and truth values are left out if unknown. Raises BadInput for settings that contradict each other."""
     bearing = stated_bearing(source)
     known = {label.name: _unknown(label) for label in LABELS if label.dtype in ("str", "float64")}
     known |= UNSOLVED | _words(source) | _bearing_labels(source, bearing) | _defect_labels(source, bearing)
@@ -52,7 +53,8 @@ def _words(source: Source) -> dict[str, Any]:
 
 
 def stated_bearing(source: Source) -> Bearing | None:
-    """The bearing whose geometry the SPEC states or names, None if it does neither; raises BadInput."""
+    """The bearing whose geometry the SPEC states, or which it names; None if it does neither. Raises BadInput if there
+    is no such bearing."""
     said = source.setting("bearing")
     try:
         if isinstance(said, BearingNumbers):
@@ -64,8 +66,7 @@ def stated_bearing(source: Source) -> Bearing | None:
 
 
 def contact_numbers(source: Source) -> dict[str, float]:
-    """Hertz factor K (N/mⁿ) and exponent n of the bearing, as the SPEC states them or the catalogue has them; empty if
-    neither does."""
+    """Hertz factor K (N/mⁿ) and exponent n of the bearing from the SPEC or the catalogue; empty if neither has them."""
     said, bearing = source.setting("bearing"), stated_bearing(source)
     if bearing is None or (isinstance(said, BearingNumbers) and said.load_deflection_n_per_m_to_n is None):
         return {}
@@ -73,7 +74,7 @@ def contact_numbers(source: Source) -> dict[str, float]:
 
 
 def geometry(numbers: BearingNumbers) -> Bearing:
-    """A bearing of this geometry; without a stated K its contact stiffness means nothing. Raises InvalidParameter."""
+    """A bearing of this geometry; if K is not stated, its contact stiffness is meaningless. Raises InvalidParameter."""
     return Bearing(
         name=numbers.name,
         balls=numbers.balls,
@@ -98,7 +99,7 @@ def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
 
 
 def _check_orders(source: Source, stated: dict[str, float]) -> None:
-    """Refuse orders that no bearing has, such as frequencies in Hz: of any, BPFO and BPFI make the number of balls, and
+    """Refuse orders that no bearing has, such as frequencies in Hz: BPFO and BPFI add up to the number of balls, and
     BPFO is that number times the order of the cage."""
     outer, inner = stated.get("bpfo", 0.0), stated.get("bpfi", math.inf)
     balls = outer + inner
@@ -116,7 +117,7 @@ def _check_orders(source: Source, stated: dict[str, float]) -> None:
 
 
 def _check_cage(source: Source, stated: dict[str, float]) -> None:
-    """Refuse an order of the cage with which no whole number of balls gives the BPFO that is stated."""
+    """Refuse an order of the cage that, times a whole number of balls, does not give the BPFO that is stated."""
     if not {"bpfo", "ftf"} <= stated.keys():
         return
     outer, cage = stated["bpfo"], stated["ftf"]
@@ -155,7 +156,7 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
 
 
 def _sizes(source: Source, bearing: Bearing | None, location: str) -> dict[str, float]:
-    """Extent in every unit that follows from the one stated, and depth; only what is known."""
+    """The extent in every unit that follows from the one stated, and the depth; only what is known."""
     length, arc, depth = source.number("extent_mm"), source.number("extent_deg"), source.number("depth_um")
     radius = bearing.raceway_radius(location) if bearing and location in RACES else math.nan
     angle = math.radians(arc) if arc is not None else math.nan if length is None else length * 1e-3 / radius

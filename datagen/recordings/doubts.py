@@ -1,4 +1,4 @@
-"""What is odd about a record that is brought in all the same: levels and speeds that few machines have, few turns."""
+"""What is odd about a record that is imported all the same: levels and speeds that few machines have, few turns."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from datagen.recordings.source import Source
 LOUDEST_RMS = 100.0 * UNITS["g"]
 # Largest mean over the RMS around it that is not doubted.
 LARGEST_OFFSET = 10.0
-# Share of the samples that may follow another at the largest or smallest value of a signal, and the number of different
-# values below which that is no wonder.
+# Share of the samples at the largest or smallest value of a signal that may follow another such sample, and the number
+# of different values below which many of them are no surprise.
 MOST_AT_LIMIT = 1e-3
 FEWEST_VALUES = 16
-# Turns of the shaft below which a speed is doubted: a spectrum then hardly parts the orders of a bearing.
+# Turns of the shaft below which a speed is doubted: a spectrum then hardly separates the orders of a bearing.
 FEWEST_TURNS = 10.0
 # Speed, rpm, below which a stated one may be meant in Hz: few shafts turn faster than 300 times a second.
 SLOWEST_RPM = 300.0
@@ -35,8 +35,8 @@ FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at f
 
 
 def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: Iterable[str]) -> dict[str, str]:
-    """What is odd about the level of samples (T, axes), m/s², and by which figures; axes that are `dead` are not
-    looked at."""
+    """What is odd about the level of the `acceleration` (T, axes), m/s², each doubt with its figures; axes that are
+    `dead` are not looked at."""
     signals = {axis: signal for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
     loud, offset, clipped = [], [], []
     for axis, signal in signals.items():
@@ -53,7 +53,8 @@ def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: I
 
 
 def _share_cut_off(signal: NDArray[np.float32]) -> float:
-    """Share of a signal (T,) that follows another sample at its largest or smallest value; 0 of one with few values."""
+    """Share of the samples of a `signal` (T,) that are at its largest or smallest value and follow another such sample;
+    0 for a signal of few different values."""
     limits = (signal == signal.max(), signal == signal.min())
     count = sum(int(np.count_nonzero(at[1:] & at[:-1])) for at in limits)
     if count <= MOST_AT_LIMIT * signal.size or np.unique(signal).size < FEWEST_VALUES:
@@ -71,14 +72,15 @@ def _g(acceleration: float) -> str:
 
 
 def scale_doubts(source: Source) -> dict[str, str]:
-    """Whether the samples are shares of a full scale that nobody stated."""
+    """Says so if the samples are shares of a full scale that nobody stated; empty if not."""
     if source.setting("scale") is not None or not (isinstance(source.arrays, WaveArrays) and source.arrays.shares):
         return {}
     return {FULL_SCALE.format(unit=source.setting("unit")): ""}
 
 
 def speed_doubts(rpm: float, settings: Container[str]) -> dict[str, str]:
-    """Whether a shaft turns faster than machines do, and the figure; `settings` are those that the SPEC has."""
+    """Says so, with the figure, if the shaft turns faster than machines do at that `rpm`; empty if not. `settings` are
+    the names of those that the SPEC has."""
     if not rpm > FASTEST_RPM:
         return {}
     hint = ", as if `speed_hz` were in rpm" if "speed_hz" in settings else ""
@@ -86,15 +88,18 @@ def speed_doubts(rpm: float, settings: Container[str]) -> dict[str, str]:
 
 
 def standing_doubt(course: NDArray[np.float64] | None) -> dict[str, str]:
-    """Whether the speed (N,) told along a recording is 0 in places, and in how many."""
+    """Says so if the speed recorded along with the vibration, `course` (N,), is 0 in places, and in how many; empty if
+    not."""
     if course is None or course.all():
         return {}
     return {STANDING: f"{course.size - np.count_nonzero(course)} of {course.size} places"}
 
 
 def turns_doubt(turns: float, labels: Mapping[str, Any], settings: Container[str]) -> str:
-    """A sentence on the `turns` of the shaft in the shortest record, of which these are the labels and the SPEC's
-    settings; empty if they are enough."""
+    """A sentence on how few `turns` the shaft makes in the shortest record; empty if they are enough.
+
+    `labels` are those of that record, `settings` the names of those that the SPEC has.
+    """
     if not turns < FEWEST_TURNS:
         return ""
     stated = "nominal_speed_rpm" if labels["speed_basis"] == "nominal" else "speed_rpm"

@@ -1,4 +1,4 @@
-"""Files by their names, of which there may be thousands, each to be found for a line of a table."""
+"""Finding files by name: there may be thousands, and each line of a label table names one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DIGITS = re.compile("([0-9]+)")
 
 
 class FileNames:
-    """Files and their names from the root; `fitting` finds those that a name or a pattern means."""
+    """Files and their names relative to the root; `fitting` finds those that a name or a pattern means."""
 
     def __init__(self, names: Mapping[Path, str]) -> None:
         self.names = names
@@ -24,8 +24,8 @@ class FileNames:
                 self.known.setdefault(spelling, []).append(path)
 
     def fitting(self, name: str) -> list[Path]:
-        """The files that are called `name`, or if there are none fit it as a pattern, by their own name or from the
-        root; in order."""
+        """The files that are called `name`, or, if there are none, those that match it as a pattern, by their bare name
+        or by that from the root; in order."""
         called = self.known.get(_plain(name), [])
         if called or not any(sign in name for sign in WILD):
             return called
@@ -33,24 +33,24 @@ class FileNames:
 
 
 def fits(path: Path, name: str, pattern: str) -> bool:
-    """True if a file, called `name` from the root, is called like a pattern or fits it, by that name or by its own."""
+    """True if a file equals or matches the `pattern`, by its `name` from the root or by its bare name."""
     pattern, names = _plain(pattern), (_plain(name), _plain(path.name))
     return pattern in names or any(fnmatch(one, pattern) for one in names)
 
 
 def hidden(path: Path, pattern: str) -> bool:
-    """True if a file's name begins with a point and the pattern's does not: some systems leave such files anywhere."""
+    """True if a file's name begins with a dot and the pattern's does not: some systems leave such files anywhere."""
     return path.name.startswith(".") and not PurePath(pattern).name.startswith(".")
 
 
 def by_number(path: PurePath) -> tuple[list[list[str | int]], PurePath]:
-    """The key by which paths are sorted as people number them, 2.csv before 10.csv; 01.csv comes before 1.csv."""
+    """A key that sorts paths as people number them, 2.csv before 10.csv; 01.csv comes before 1.csv."""
     parts = (DIGITS.split(part) for part in path.parts)
     return [[int(text) if place % 2 else text for place, text in enumerate(texts)] for texts in parts], path
 
 
 def spellings(name: str) -> set[str]:
-    """The ways in which systems write a name that looks the same: letters with their accents as one sign or as two."""
+    """The Unicode spellings of a name that look the same: accented letters as one code point or as two."""
     return {normalize("NFC", name), normalize("NFD", name)}
 
 

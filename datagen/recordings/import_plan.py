@@ -1,4 +1,4 @@
-"""Which records an import will write, and into which shards; each has been read and checked against all before it."""
+"""Which records an import will write, and into which shards; each has been read, and checked against all before it."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ SHARD_BYTES = 64e6
 
 @dataclass(frozen=True)
 class PlannedRecord:
-    """A record whose samples have been checked and dropped again: `piece` of `request`, with its index.
+    """A record whose samples have been checked and are no longer in memory: `piece` of `request`, with its `index`.
 
-    `content` is the hash by which its samples are known again.
+    `content` is the hash by which its samples are recognised when they are read again.
     """
 
     index: int
@@ -56,7 +56,7 @@ class ImportPlan:
                 )
 
     def _doubt(self, record: Recorded, request: Request) -> None:
-        """Keep what is odd about a record."""
+        """Remember what is odd about a record."""
         name = record.labels["recording"]
         if record.dead:
             self.dead.append(f"{name} ({', '.join(record.dead)})")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from datagen.corpus_files.format import IMPORTED, Identity, data_hash, format_hash
 from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, write_manifest
-from datagen.corpus_files.shard import finished_shards, write_shard
+from datagen.corpus_files.shard import Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.files.places import require_folder
 from datagen.progress import Say, Throttle, ignore
@@ -35,9 +35,12 @@ SECONDS_BETWEEN_STEPS = 2.0
 
 @dataclass(frozen=True)
 class Imported:
-    """How an import ended: `absent` are listed files that were not there, `skipped` recordings left out as repeats,
-    `dead` those with axes without a signal, as if the sensor were not connected; `doubts` are those that are odd in
-    another way, by which, and `few_turns` a sentence on the shortest record if the shaft hardly turns in it."""
+    """How an import ended.
+
+    `absent` are listed files that were not there, `skipped` recordings left out as repeats, and `dead` those with axes
+    without a signal, as if the sensor were not connected. `doubts` names the recordings that are odd in another way, by
+    what is odd; `few_turns` is a sentence on the shortest record if the shaft hardly turns in it.
+    """
 
     folder: str
     records: int
@@ -63,7 +66,7 @@ def import_recordings(spec: Spec, folder: str | Path, root: str | Path | None = 
 
 
 def _seldom(step: Say) -> Say:
-    """`step` for whoever calls it oftener than a person can read."""
+    """`step`, passed on no more often than a person can read."""
     reports = Throttle(SECONDS_BETWEEN_STEPS, time.monotonic() + SECONDS_BETWEEN_STEPS)
     return lambda sentence: step(sentence) if reports.due(time.monotonic()) else None
 
@@ -108,21 +111,13 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
             dataset = _dataset(planned, manifest)
             seconds = round(time.perf_counter() - start, 3)
             with writing(folder):
-                write_shard(
-                    folder=staging,
-                    shard=number,
-                    identity=manifest.identity,
-                    dataset=dataset,
-                    failed=(),
-                    compression="zlib",
-                    seconds=seconds,
-                )
+                write_shard(staging, Sidecar(number, manifest.identity, seconds=seconds), dataset, "zlib")
         with writing(folder):
             write_index(staging, finished_shards(staging))
             manifest = manifest.with_shards(staging, finished_shards(staging))
             write_manifest(staging, manifest)
         for path in {*(request.path for request in listing.requests), *listing.tables}:
-            require_unchanged(path)  # so that what was read is what the hashes in the manifest are of
+            require_unchanged(path)  # so that the hashes in the manifest are those of what was read
     return manifest
 
 

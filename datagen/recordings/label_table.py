@@ -22,7 +22,7 @@ SETTINGS = tuple(name for name in RecordingSettings.model_fields if name not in 
 
 @dataclass(frozen=True)
 class TableRow:
-    """One line of a label table: the names of its file that may be meant, in order, and what it says."""
+    """One line of a label table: the possible names of its file, in order of preference, and what it says."""
 
     place: str
     files: tuple[str, ...]
@@ -32,8 +32,8 @@ class TableRow:
 def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow]:
     """The rows of the table at `path`; raises BadInput naming the file, the line and the column.
 
-    An empty cell says nothing. A cell of the column `file` may hold several names with | between: the first that
-    exists is meant. Folders in it may be parted as on Windows.
+    An empty cell says nothing. A cell of the column `file` may hold several names separated by |, of which the first
+    that exists is meant. Folders in it may be separated by backslashes, as on Windows.
     """
     try:
         rows = read_csv_rows(path)

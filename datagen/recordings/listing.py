@@ -95,7 +95,7 @@ class _Finder:
             self._is_absent(row, recording)
 
     def _rows_of(self, paths: list[Path], rows: list[TableRow]) -> tuple[dict[Path, list[TableRow]], list[TableRow]]:
-        """The rows that say something of each file, in order, and those that say nothing of any."""
+        """The rows about each file, in order, and the rows that are about none."""
         names = FileNames({path: self._name(path) for path in paths})
         said: dict[Path, list[TableRow]] = {}
         idle = []
@@ -146,7 +146,7 @@ class _Finder:
         return sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)}, key=by_number)
 
     def _present(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
-        """The paths without links whose files are not there, as of a set that was not fetched whole."""
+        """The paths without dangling links, such as those of a data set that was fetched only in part."""
         dead = list(filter(_leads_nowhere, paths))
         if dead and recording.absent_files == "refuse":
             raise BadInput(
@@ -176,7 +176,8 @@ class _Finder:
         return fits(path, self._name(path), pattern)
 
     def _listed(self, row: TableRow, recording: Recording) -> Path | None:
-        """The file that a row means: at that place below the root, or anywhere below it if its name is the only one."""
+        """The file that a row means: the one at that place below the root, or else the only one of that name anywhere
+        below it; None if it is absent and may be."""
         for name in row.files:
             if (self.root / name).is_file():
                 return self.root / name

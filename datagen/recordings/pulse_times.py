@@ -1,4 +1,4 @@
-"""When the pulses of a tach rise, told by the channel that holds them or by a list of their times."""
+"""When the pulses of a tach rise, from the channel that holds them or from a list of their times."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ LASTS_WITHIN = 0.1
 
 
 def pulse_times(source: Source, tach: Tach, rate: float, size: int) -> Array | None:
-    """When the pulses (N,) rise, s; None where there are none to be found and a nominal speed is known.
+    """When the pulses (N,) rise, s; None if there are none and a nominal speed is known instead.
 
-    Raises BadInput if they cannot be timed by the vibration of `size` samples at `rate`, Hz.
+    Raises BadInput if they do not fit the vibration of `size` samples at `rate`, Hz.
     """
     dispensable = source.or_none("nominal_speed_rpm") is not None
     if dispensable and not source.variable(tach.variable, "tach.variable"):
@@ -52,8 +52,8 @@ def _risen(source: Source, tach: Tach, rate: float, size: int) -> Array:
 
 
 def _require_as_long(source: Source, rate: float, size: int, duration: float) -> None:
-    """Raises BadInput if `size` samples of a tach at its own `rate` (Hz) do not last about the vibration's `duration`,
-    s: mostly that rate is wrong, and so would be the speed."""
+    """Raise BadInput if `size` samples of a tach at its own `rate` (Hz) do not last about as long as the vibration,
+    `duration` (s): usually that rate is wrong, and the speed would be too."""
     lasts = size / rate
     if abs(lasts - duration) > LASTS_WITHIN * duration:
         raise BadInput(

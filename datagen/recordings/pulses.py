@@ -1,4 +1,4 @@
-"""Pulses of a tach: where they rise, and what a shaft that cannot jump says of those that are lost or double."""
+"""Pulses of a tach: where they rise, and which are missing or double, as the speed of a shaft cannot jump."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from physics.arrays import Array
 HYSTERESIS = 0.1
 # Intervals whose median is the usual one.
 NEIGHBOURS = 9
-# An interval this near to two or more usual ones lacks pulses, two that are this near to one have a pulse too many: the
-# speed changes by no more than a tenth from turn to turn.
+# An interval this near to two or more usual ones lacks pulses; two intervals that are together this near to one usual
+# one have a pulse too many: the speed changes by no more than a tenth from turn to turn.
 NEAR_WHOLE = 0.2
-# Usual intervals from which one lacks pulses in any case, as no shaft slows down so much from one pulse to the next.
+# An interval of so many usual ones lacks pulses in any case, as no shaft slows down so much from one pulse to the next.
 LONG = 3.0
-# Wrong pulses that come oftener than this belong to the wheel, as its missing tooth does.
+# Wrong pulses that are more frequent than this (a turn) belong to the wheel, as a missing tooth does.
 MOST_A_TURN = 0.5
-# Share of the gaps that are as far apart as those of a wheel with one missing tooth, or a few side by side.
+# Share of the gaps that must be a turn apart, as those of a wheel with one missing tooth, or a few side by side.
 REGULAR = 0.9
-# Share of the pulses that may be lost or double; of a signal with more of them one cannot say that it is a tach's.
+# Share of the pulses that may be missing or double; a signal with more of them may not be a tach's.
 MOST_MENDED = 0.1
 
 
 def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) -> NDArray[np.float64]:
     """Places (N,), in samples, at which `pulses` (T,) rise through the threshold, by linear interpolation.
 
-    Without a threshold it is half-way between the extremes. A pulse counts only if the signal was a tenth of its range
-    below the threshold since the pulse before, so that noise on an edge is not counted.
+    If no threshold is given, it is half-way between the extremes. A pulse counts only if the signal has been a tenth of
+    its range below the threshold since the previous pulse, so that noise on an edge is not counted.
     """
     low, high = float(pulses.min()), float(pulses.max())
     level = (low + high) / 2.0 if threshold is None else threshold

@@ -34,10 +34,11 @@ Key = tuple[float, int, tuple[str, ...], tuple[str, ...], bool]
 
 @dataclass(frozen=True)
 class Recorded:
-    """One record before it has an index: `acceleration` (T, axes) m/s², `labels` as far as they are known.
+    """One record before it has an index: `acceleration` (T, axes) m/s² at `rate` (Hz), `labels` as far as known.
 
-    `content` is equal for equal samples at an equal rate; `shaft_angle` (T,), rad, is told where the speed changes.
-    `dead` are the axes without a signal, as if the sensor were not connected; `doubts` what else is odd, with figures.
+    `content` is a hash, the same for the same samples at the same rate; `shaft_angle` (T,), rad, is given if the speed
+    changes, else None. `dead` are the axes without a signal, as if the sensor were not connected; `doubts` says what
+    else is odd, with figures.
     """
 
     acceleration: NDArray[np.float32]
@@ -59,7 +60,7 @@ class Recorded:
 
     @property
     def turns(self) -> float:
-        """Turns of the shaft in it; infinite where the speed is not known or 0."""
+        """Turns of the shaft in it; infinite if the speed is unknown or 0."""
         turns = float(self.labels["speed_rpm"]) / 60.0 * float(self.labels["duration_s"])
         return turns if turns > 0.0 else math.inf
 
@@ -141,7 +142,8 @@ def _samples(source: Source, axes: tuple[str, ...]) -> NDArray[np.float64]:
 
 
 def _filled(source: Source, axes: tuple[str, ...]) -> int:
-    """How many samples of all axes were missing and are filled; others are refused where they are read."""
+    """How many missing samples of all axes are filled; 0 unless that is asked for, as they are then refused when
+    read."""
     if source.setting("missing_samples") != FILL:
         return 0
     return sum(source.missing(getattr(source.request.channel, axis), axis).size for axis in axes)
@@ -171,7 +173,8 @@ def _accelerations(counts: NDArray[np.float64], factor: float, source: Source) -
 
 
 def _band(source: Source, rate: float, samples: int, signal: NDArray[np.float64] | None) -> tuple[float, float]:
-    """Band of the envelope of the y axis, whose `signal` (T,) is cut into pieces of so many `samples` or more."""
+    """Band (Hz) of the envelope of the y axis, whose `signal` (T,) is cut into pieces of at least `samples`; NaN
+    without one."""
     if signal is None:
         return math.nan, math.nan
     stated = source.setting("envelope_band_hz")
@@ -191,7 +194,7 @@ def _band(source: Source, rate: float, samples: int, signal: NDArray[np.float64]
 
 
 def _part(source: Source, rate: float, size: int) -> tuple[int, int]:
-    """The first sample that is taken of `size` and the one after the last."""
+    """The first of the `size` samples that is taken, and the one after the last."""
     start_s, stop_s = source.setting("from_s"), source.setting("to_s")
     start = 0 if start_s is None else round(start_s * rate)
     stop = size if stop_s is None else round(stop_s * rate)

@@ -1,4 +1,4 @@
-"""The sampling rate of a file that holds the times of its samples instead."""
+"""The sampling rate of a file that holds the times of its samples instead of a rate."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 
-# Times are often written with few decimals; as a share of their span, they may lie this far off a straight line.
+# How far times, which are often written with few decimals, may lie off a straight line, as a share of their span.
 ROUNDING = 1e-3
 DIGITS = 9
 
 
 def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
-    """Sampling rate, Hz, of samples at evenly spaced `times` (T,), s, or with the one step between them.
+    """Sampling rate, Hz, of samples at evenly spaced `times` (T,), s; a single number is the step between them.
 
-    Of the rates that written times allow it is the one with the fewest digits, as each file of a set is rounded
-    differently and all have one rate. Raises BadInput naming file and variable if they do not rise evenly.
+    Of the rates that the rounded times allow it is the one with the fewest digits: the files of a data set are rounded
+    differently but have the same rate. Raises BadInput naming file and variable if the times do not rise evenly.
     """
     beside = 0.0
     if times.size == 1:

@@ -1,6 +1,6 @@
-"""The speed of the shaft in a recording: stated, measured beside the vibration, from a tach, or nominal.
+"""The speed of the shaft in a recording: stated, measured along with the vibration, from a tach, or nominal.
 
-Where a tach or a channel of the speed shows that it changes, the angle that the shaft has turned is told too.
+If a tach or a speed channel shows that it changes, the angle that the shaft has turned is given too.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from labels.schema import UNKNOWN
 
 RPM_PER = {"speed_rpm": 1.0, "speed_hz": 60.0}
 FEWEST_PULSES = 3
-# A shaft that stays this near (turns) to one that turns evenly is steady. The fourth harmonic of balls that pass five
-# times a turn then strays by two periods at most, and its line is hardly wider.
+# A shaft that stays this near (turns) to one that turns evenly is steady. If balls pass five times a turn, the fourth
+# harmonic of that then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1
-# Share of the mean speed at which a shaft that stands is taken to creep: the angle stored of it must grow.
+# Share of the mean speed at which a shaft that stands still is taken to creep, since its stored angle must grow.
 CREEP = 1e-6
 # Share by which a tach's mean speed may be off the nominal one: more than the slip of a motor, less than a factor.
 NOMINAL_WITHIN = 0.2
@@ -39,9 +39,11 @@ TURNING = (
 
 @dataclass(frozen=True)
 class ShaftSpeed:
-    """Mean speed in a piece of a recording (rpm, NaN if unknown), its `basis`, a value of the label `speed_basis`, the
-    `angle` (T,), rad, turned since its start if it is known to change, and how many pulses of the whole recording's
-    tach were `mended`."""
+    """The speed in a piece of a recording: its mean (`rpm`, NaN if unknown) and its `basis`, as label `speed_basis`.
+
+    `angle` (T,), rad, is what the shaft has turned since the start of the piece, None unless the speed is known to
+    change; `mended` says how many pulses of the whole recording's tach were repaired.
+    """
 
     rpm: float
     basis: str
@@ -52,10 +54,10 @@ class ShaftSpeed:
 def shaft_speeds(
     source: Source, rate: float, size: int, part: tuple[int, int], pieces: list[tuple[int, int]]
 ) -> Iterator[ShaftSpeed]:
-    """The speed in each of the pieces of a part of `size` samples; both are a first sample and the one after the last.
+    """The speed in each of the `pieces` of the `part` that is taken of a vibration of `size` samples at `rate`, Hz.
 
-    `rate` is the vibration's, Hz. The nominal speed, if stated, stands for a tach that the file lacks or that shows no
-    pulse; BadInput if a tach disagrees with it.
+    The part and each piece are given by their first sample and the one after the last. The nominal speed, if stated,
+    stands in for a tach that the file lacks or that shows no pulse; raises BadInput if a tach disagrees with it.
     """
     tach = source.setting("tach")
     times = None if tach is None else pulse_times(source, tach, rate, size)
@@ -72,8 +74,8 @@ def shaft_speeds(
 
 
 def _irregular(source: Source, tach: Tach, times: NDArray[np.float64], whole: int, wrong: int) -> BadInput:
-    """Why pulses at the `times` (N,) tell no speed if `wrong` of the `whole` are missing or double: mostly these are
-    missing where a shaft stands."""
+    """The error for pulses at the `times` (N,), s, of which so many (`wrong` of `whole`) are missing or double that
+    they give no speed; usually they are missing where the shaft stands still."""
     intervals = np.diff(times)
     longest = int(np.argmax(intervals))
     lost = intervals[longest] / float(np.median(intervals)) - 1.0
@@ -87,8 +89,8 @@ def _irregular(source: Source, tach: Tach, times: NDArray[np.float64], whole: in
 
 
 def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> None:
-    """Raises BadInput if the mean speed over the pulses at the `times` (N,) from `start` to `stop`, s, is not about the
-    nominal one, where this is known."""
+    """Raise BadInput if the mean speed over the pulses at the `times` (N,) from `start` to `stop`, s, is far from the
+    nominal one, if that is known."""
     nominal = source.or_none("nominal_speed_rpm")
     if nominal is None:
         return
@@ -168,14 +170,15 @@ def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArr
 
 
 def told_course(source: Source, span: Span = WHOLE) -> NDArray[np.float64] | None:
-    """The speeds (N,), rpm, that a channel tells along a span of the recording, 0 where the shaft stands; None without
-    one."""
+    """The speeds (N,), rpm, that a channel holds along a span of the recording, 0 where the shaft stands still; None
+    without such a channel."""
     courses = ((source.course(name, span), factor) for name, factor in RPM_PER.items())
     return next((factor * course for course, factor in courses if course is not None), None)
 
 
 def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> float:
-    """Mean speed, rpm, over the pulses at `times` from `start` to `stop`, s; raises BadInput if they are under 3."""
+    """Mean speed, rpm, over the pulses at `times` (N,) from `start` to `stop`, s; raises BadInput if there are fewer
+    than 3."""
     inside = times[(times >= start) & (times < stop)]
     if inside.size < FEWEST_PULSES:
         raise BadInput(

@@ -23,8 +23,8 @@ Layers = dict[str, Array]
 def background_layers(scenario: Scenario, signal: Array) -> Layers:
     """The layers (T, 2) that the record has, m/s², by name; scaled alike if a signal-to-noise ratio is asked for.
 
-    `signal` (T, 2) is what the sensor gives without them. A layer of which the record has nothing, as tones that all
-    lie above half its rate or knocks of which none fell into it, is absent.
+    `signal` (T, 2), m/s², is what the sensor gives without them. A layer that leaves nothing in this record is absent,
+    such as tones that all lie above half its rate, or knocks of which none fell into it.
     """
     found = {name: draw(scenario) for name, draw in LAYER_OF.items()}
     layers = {name: layer for name, layer in found.items() if layer is not None and layer.any()}
@@ -39,7 +39,7 @@ def noise_along_y(layers: Layers, samples: int) -> Array:
 
 def _scale(scenario: Scenario, signal: Array, layers: Layers) -> float:
     target = scenario.noise_target
-    # Where there is nothing to compare with, noise keeps the machine's own level.
+    # Without a signal to compare with, the noise keeps the machine's own level.
     if target is None or not layers:
         return 1.0
     band = None if target.whole else scenario.noise_band

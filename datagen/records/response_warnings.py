@@ -1,4 +1,4 @@
-"""What the reader of a record must know of the response it was simulated as, its background and its recorder."""
+"""What a reader must know about the simulated response of a record, its background and its recorder, in sentences."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ from physics.rms import rms
 from physics.sensor.recorder import Recorder
 from physics.trace import Trace
 
-# Inputs that agree to 1e-4 leave responses within half a per cent up to so many times.
+# Amplification of errors above which a reader is warned: up to it, inputs that agree to 1e-4 give responses that agree
+# to half a per cent.
 SENSITIVE = 50.0
-# Share of samples beyond the range of a recorder up to which peaks alone are cut off.
+# Share of samples beyond the range of a recorder above which more than single peaks are cut off.
 FEW_CLIPPED = 0.01
 
 
@@ -30,7 +31,7 @@ def response_warnings(scenario: Scenario, trace: Trace) -> list[str]:
 
 
 def _silence(trace: Trace) -> str:
-    """That a response is too small to mean anything; empty if it is not."""
+    """Says that a response is too small to mean anything; empty if it is not."""
     if not trace.silent:
         return ""
     size = rms(trace.acceleration)
@@ -38,7 +39,8 @@ def _silence(trace: Trace) -> str:
 
 
 def unset_ratio(scenario: Scenario, labels: Mapping[str, Any]) -> str:
-    """That a background was not scaled to the ratio asked for, as its `labels` show; empty if it was, or has none."""
+    """Says that a background was not scaled to the ratio asked for, as the `labels` show; empty if it was, or if there
+    is none."""
     target = scenario.noise_target
     if target is None or not labels["background_layers"]:
         return ""
@@ -52,8 +54,8 @@ def unset_ratio(scenario: Scenario, labels: Mapping[str, Any]) -> str:
 
 
 def lost_in_steps(recorder: Recorder | None, measured: Array, recorded: NDArray[np.float32]) -> str:
-    """That nothing is left of what was `measured` (T, 2) along an axis in what was `recorded` (T, 2), m/s²; empty if
-    something is."""
+    """Says along which axes nothing of what was `measured` (T, 2) is left in what was `recorded` (T, 2), m/s²; empty if
+    there are none."""
     if recorder is None:
         return ""
     lost = [axis for k, axis in enumerate(AXES) if measured[:, k].any() and not recorded[:, k].any()]
@@ -66,14 +68,14 @@ def lost_in_steps(recorder: Recorder | None, measured: Array, recorded: NDArray[
 
 
 def cut_off(recorder: Recorder | None, clipped: float) -> str:
-    """That the share `clipped` of the samples lies beyond the range of the `recorder`; empty if few do."""
+    """Says that the share `clipped` of the samples lies beyond the range of the `recorder`; empty if few do."""
     if recorder is None or clipped <= FEW_CLIPPED:
         return ""
     return f"{clipped:.2g} of the samples are cut off at the recorder's range of {recorder.full_scale:.3g} m/s²"
 
 
 def _chaos(trace: Trace) -> str:
-    """What a chaotic response means for its reader; empty if it is not."""
+    """Says what a chaotic response means for its reader; empty if it is not chaotic."""
     if not trace.chaotic:
         return ""
     return (
@@ -83,7 +85,7 @@ def _chaos(trace: Trace) -> str:
 
 
 def _sensitive(trace: Trace) -> str:
-    """What it means for the reader that the response multiplies errors; empty if it does so little, or is chaotic."""
+    """Says what it means that the response multiplies errors; empty if it hardly does, or is chaotic."""
     if trace.silent or trace.chaotic or not trace.sensitivity > SENSITIVE:
         return ""
     return (
@@ -93,7 +95,7 @@ def _sensitive(trace: Trace) -> str:
 
 
 def _missed(scenario: Scenario, trace: Trace) -> str:
-    """That the response may be less exact than was asked for; empty if it is not, or chaotic or silent."""
+    """Says that the response may be less accurate than was asked for; empty if it is not, or is chaotic or silent."""
     accuracy, least = allowed_error(scenario)
     if trace.silent or trace.chaotic or not trace.error_estimate > accuracy:
         return ""
@@ -105,7 +107,7 @@ def _missed(scenario: Scenario, trace: Trace) -> str:
 
 
 def _unlocated(trace: Trace) -> str:
-    """What changes of contact that were not located mean for the reader; empty if there are none."""
+    """Says what changes of contact that could not be located mean for the reader; empty if there are none."""
     if trace.unlocated_changes == 0:
         return ""
     return (

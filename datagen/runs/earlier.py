@@ -1,4 +1,4 @@
-"""What earlier runs left in a folder: as its manifest says, or, where it is lost, as the sidecars of its shards say."""
+"""What earlier runs left in a folder: what its manifest says, or the sidecars of its shards if the manifest is lost."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ BEGINNING = (LOCK, SHARDS)
 
 @dataclass(frozen=True)
 class Earlier:
-    """The spans [start, stop) of records that earlier runs were asked for, none in a new folder.
+    """The spans [start, stop) of records that earlier runs were `asked` for; none in a new folder.
 
-    `lost` is a sentence if the manifest was lost or damaged. Then the spans are those of the records that are settled
-    in finished shards: what else was asked for is not known.
+    `lost` is a sentence if the manifest was lost or damaged. Then the spans cover only the records that are settled in
+    finished shards: what else was asked for is not known.
     """
 
     asked: tuple[Span, ...] = ()
@@ -36,9 +36,9 @@ class Earlier:
 
 
 def earlier_runs(folder: Path, identity: Identity) -> Earlier:
-    """What earlier runs left in `folder`; BadInput if it is neither empty nor a corpus of the same `identity`.
+    """What earlier runs left in `folder`; raises BadInput unless it is empty or holds a corpus of the same `identity`.
 
-    A manifest that is there and cannot be opened is refused, as is one that is damaged where no shard is finished.
+    Also refused are a manifest that cannot be opened, and a damaged one if no shard is finished.
     """
     require_folder(folder)
     try:

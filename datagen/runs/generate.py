@@ -36,8 +36,8 @@ def generate(
 ) -> Summary:
     """Make the recipe's records (all, the first `limit`, or those listed) in `folder`, keeping what is finished there.
 
-    The arrays depend on the recipe alone, not on `engine`, order or interruptions. A manifest that was lost or damaged
-    is written anew from the sidecars of the finished shards. Raises BadInput before anything is written.
+    The arrays depend on the recipe alone, not on `engine`, the order or interruptions. A lost or damaged manifest is
+    written again from the sidecars of the finished shards. Raises BadInput before anything is written; a
     KeyboardInterrupt leaves a usable corpus of the shards finished so far. Processes that make records, this one if it
     is the only worker, keep the memory of freed arrays (physics.freed_memory).
     """
@@ -47,10 +47,11 @@ def generate(
     identity = corpus_identity(recipe)
     earlier = earlier_runs(folder, identity).asked
     require_memory(recipe)
-    # First of all, as to draw a scenario takes some of the kernels: compiled here by two processes, or mended.
+    # Before any scenario is drawn, which takes some of the kernels: here two processes compile them, or a damaged cache
+    # is mended.
     compile_kernels(listener.say)
     require_possible_rates(recipe, asked)
-    # As far as any run was asked to go: a shard that lacks a record is made again with all that it held.
+    # The plan reaches as far as any run was asked for: a shard that lacks a record is made again with all that it held.
     stop = _last((*earlier, *asked))
     planned = plan_shards(recipe, stop, listener.say)
     require_room(recipe, planned, folder)
@@ -76,7 +77,7 @@ def corpus_identity(recipe: Recipe) -> Identity:
 
 
 def _last(spans: Iterable[Span]) -> int:
-    """Where the last of the spans of records stops."""
+    """Where the last of the spans of records stops; 0 without any."""
     return max((stop for _, stop in spans), default=0)
 
 

@@ -1,4 +1,4 @@
-"""Which record goes into which shard: a function of the recipe alone, so that a run can stop and go on anywhere."""
+"""Which record goes into which shard: a function of the recipe alone, so that a run can stop and resume anywhere."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from labels.schema import LAYERS
 from labels.variables import AXES, SIGNALS
 from physics.words import STIFFNESS_COMPONENTS
 
-# What a shard takes beside its signals: labels, tables, scenarios and the library's blocks.
+# Bytes that a shard takes besides its signals: labels, tables, scenarios and the library's blocks.
 SHARD_BYTES = 250_000.0
-# A plan that takes longer says in between how far it has got.
+# s; a plan that takes longer reports how far it has got.
 SECONDS_BETWEEN_REPORTS = 10.0
 
 
@@ -35,8 +35,8 @@ SECONDS_BETWEEN_REPORTS = 10.0
 class PlannedShard:
     """A shard of the whole corpus: its number, its records and the optional signals that they all store.
 
-    `record_bytes` is about what the signals of one record need on the disk, `raw_bytes` what they take in memory,
-    `record_seconds` its length.
+    `record_bytes` is about what the signals of one record take on the disk, `raw_bytes` about what they take in memory,
+    and `record_seconds` the length of a record, s.
     """
 
     number: int
@@ -51,9 +51,9 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
     """The shards that hold records 0 … `stop` − 1 of the recipe, the last ones perhaps not yet full.
 
     Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
-    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. `say` is called with how far
-    it has got where that takes long, and at the end with a sentence on impossible draws where they are many and on
-    rates that are too low. Raises BadInput if a record can hardly be drawn.
+    is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. `say` is told the progress of
+    a plan that takes long and, at the end, of impossible draws if they were many and of sampling rates that are too
+    low. Raises BadInput if a record can hardly be drawn.
     """
     shards: list[PlannedShard] = []
     records: list[list[int]] = []  # of each shard
@@ -85,7 +85,8 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
 
 
 def stored_signals(recipe: Recipe, scenario: Scenario, forces_kept: set[tuple[str, str]]) -> tuple[str, ...]:
-    """Names of the optional signals stored of a record; `forces_kept` collects the kinds whose first has been met."""
+    """Names of the optional signals stored for a record; `forces_kept` collects the (rig, condition) pairs met so far,
+    as a recipe may ask for the contact forces of the first record of each."""
     kind = (scenario.rig, scenario.condition)
     first = kind not in forces_kept
     forces_kept.add(kind)
@@ -94,7 +95,7 @@ def stored_signals(recipe: Recipe, scenario: Scenario, forces_kept: set[tuple[st
 
 
 def signals_of_every_record(recipe: Recipe) -> tuple[str, ...]:
-    """Names of the optional signals that the recipe asks of every record."""
+    """Names of the optional signals that the recipe asks for in every record."""
     store = recipe.store
     asked = {
         "acceleration_clean": store.clean,
@@ -108,7 +109,7 @@ def signals_of_every_record(recipe: Recipe) -> tuple[str, ...]:
 
 
 def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) -> float:
-    """About what the signals of one record need on the disk."""
+    """About how many bytes the signals of one record need on the disk; with `compression` "none", in memory too."""
     bearing = scenario.scene.rig.bearing
     sizes = {
         "record": 1,
@@ -130,12 +131,12 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
 
 
 def needed_bytes(shards: Sequence[PlannedShard]) -> float:
-    """About what the shards need on the disk."""
+    """About how many bytes the shards need on the disk."""
     return sum(SHARD_BYTES + len(shard.records) * shard.record_bytes for shard in shards)
 
 
 def longest_first(shards: Iterable[PlannedShard]) -> list[PlannedShard]:
-    """The shards in the order in which several workers end together: those with the longest records in sum first."""
+    """The shards in the order that lets several workers finish together: most seconds of signal first."""
     return sorted(shards, key=lambda shard: len(shard.records) * shard.record_seconds, reverse=True)
 
 

@@ -1,4 +1,4 @@
-"""Sampling rates that are too low for what rings in a rig, and the sentence that tells which records lack for it."""
+"""Sampling rates that are too low for what rings in a rig, and how many records cannot be made because of that."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How often a plan had to draw again, and the sentence that tells it where that was often."""
+"""How often a plan had to draw again, and the sentence that says so if it was often."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from datagen.recipes.recipe import Recipe
 from datagen.scenarios.redraw import Redraw, Refused, add_refused, count_refused
 from datagen.scenarios.scenario import Scenario
 
-# Of the records planned. Fewer that were drawn again hardly change what the recipe says of sizes and places.
+# Share of the planned records. If fewer were drawn again, the sizes and places are still nearly those of the recipe.
 OFTEN = 0.1
 
 

@@ -1,4 +1,5 @@
-"""What records need of rate, memory and disk: what can never be made is refused before any worker starts."""
+"""The sampling rate, memory and disk space that records need: what can never be made is refused before any worker
+starts."""
 
 from __future__ import annotations
 
@@ -28,7 +29,7 @@ CONTAINER_LIMIT = Path("/sys/fs/cgroup/memory.max")
 
 
 def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
-    """Raise BadInput if the sampling rate is far too low for every record asked for of a part."""
+    """Raise BadInput if, in any part, the sampling rate is too low for all of the first records asked for."""
     for part, records in zip(recipe.part, _first_of_parts(recipe, asked), strict=True):
         refusal = None
         for record in records:
@@ -45,7 +46,7 @@ def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
 
 
 def _first_of_parts(recipe: Recipe, asked: Sequence[Span]) -> list[list[int]]:
-    """Of each part, the first records asked for, at most MOST_LOOKED_AT."""
+    """For each part the first records asked for, at most MOST_LOOKED_AT."""
     found: list[list[int]] = [[] for _ in recipe.part]
     lacking = len(found)
     for record in chain.from_iterable(range(*span) for span in asked):
@@ -91,7 +92,7 @@ def require_room(recipe: Recipe, planned: Iterable[PlannedShard], folder: Path) 
 def require_shard_memory(recipe: Recipe, planned: Iterable[PlannedShard]) -> None:
     """Raise BadInput if a shard, or one of its records, does not fit into memory.
 
-    Of all shards of one size one is looked at, and of its records the first: to draw all again takes too long.
+    Only one shard of each size is looked at, and only its first record: drawing all of them again would take too long.
     """
     memory = memory_bytes()
     for shard in _one_of_each_size(planned):

@@ -62,7 +62,10 @@ class Summary:
 
 
 class Run:
-    """The records `wanted` of all `asked` for so far, made in `folder`; call make, then finish whatever happened."""
+    """One run that makes the `wanted` records in `folder`; `asked` are those of all runs so far, this one included.
+
+    Call `make`, then, whatever happened, `finish`.
+    """
 
     def __init__(
         self,
@@ -122,8 +125,8 @@ class Run:
     def finish(self) -> None:
         """Rebuild manifest, index and the list of failures from the finished shards; call it once workers are gone.
 
-        What a worker that was stopped on the way has left is deleted: a shard that its sidecar does not vouch for
-        would be read by whoever opens all files of the folder.
+        What interrupted workers left behind is deleted: a shard without its sidecar would be read by anyone who opens
+        all files of the folder.
         """
         sweep_unfinished(self.folder)
         self._rescan()
@@ -155,14 +158,15 @@ class Run:
         return (sidecar for sidecar in finished_shards(self.folder) if sidecar.identity == self.manifest.identity)
 
     def _by_first_record(self) -> Iterator[Sidecar]:
-        """The sidecars again, with their labels: by number they would not be so where records were picked out."""
+        """The sidecars again, with their labels, by first record: where records were picked out, shard numbers do not
+        follow the order of the records."""
         for known in sorted(self.finished.values(), key=lambda sidecar: min(sidecar.settled)):
             sidecar = read_sidecar(sidecar_path(self.folder, known.shard))
             if sidecar is not None:
                 yield sidecar
 
     def _rescan(self) -> None:
-        """Learn from the disk, and from nothing else, what is finished (labels are not kept in memory)."""
+        """Find out what is finished, from the disk alone (labels are not kept in memory)."""
         self.finished = {sidecar.shard: replace(sidecar, labels={}) for sidecar in self._own_sidecars()}
         self.manifest = self.manifest.with_shards(self.folder, self.finished.values())
 
@@ -195,7 +199,7 @@ class Run:
         )
 
     def _make_persistently(self, todo: list[PlannedShard]) -> None:
-        """Make the shards together; when workers keep dying, those under way one by one, to find the cause."""
+        """Make the shards together; if workers keep dying, make those under way one by one, to find the culprit."""
         losses = 0
         while todo:
             started: set[int] = set()
@@ -256,7 +260,8 @@ class Run:
         )
 
     def _failures(self) -> list[Failure]:
-        """What could not be made: an earlier file of a shard that was to hold more may hold some of its records."""
+        """The records that could not be made, by index. Of a shard that failed an earlier file may hold some records,
+        which then are not among them."""
         lost = [
             Failure(record, reason)
             for shard, reason in self.errors.values()

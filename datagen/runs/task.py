@@ -1,4 +1,4 @@
-"""What one worker does: make the records of one shard, write them, and give back one small row."""
+"""What one worker does: make the records of one shard, write them, and return one small row."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity, to_dataset
-from datagen.corpus_files.shard import Failure, write_shard
+from datagen.corpus_files.shard import Failure, Sidecar, write_shard
 from datagen.files.atomic import NO_SPACE
 from datagen.progress import Say
 from datagen.recipes.recipe import Recipe
@@ -24,14 +24,14 @@ from physics.outcome import SimulationFailed
 
 @dataclass(frozen=True)
 class ShardRow:
-    """How the making of a `shard` (its number) ended: `error` is a traceback if it could not be made, else ""."""
+    """How making a `shard` (its number) ended: `error` is a traceback if it failed, else ""."""
 
     shard: int
     error: str = ""
 
 
 def compile_kernels(say: Say) -> None:
-    """Compile every kernel, so that workers find them in the cache, or find that it holds them undamaged."""
+    """Make sure that the cache holds every kernel undamaged, compiling what it lacks, before workers start."""
     from physics.warming import is_warm, warm_up
 
     if is_warm():
@@ -43,7 +43,7 @@ def compile_kernels(say: Say) -> None:
 
 @cache
 def load_kernels() -> None:
-    """Load every kernel into this process; those that the cache of this machine lacks, or has damaged, are compiled."""
+    """Load every kernel into this process; those missing from the cache of this machine, or damaged, are compiled."""
     from physics.warming import warm_up
 
     warm_up()
@@ -78,15 +78,12 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
             failed.append(Failure(index, str(problem)))
     title = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
     dataset = to_dataset(records, title) if records else None
-    seconds = time.perf_counter() - began
-    write_shard(
-        folder=folder,
+    sidecar = Sidecar(
         shard=planned.number,
         identity=identity,
-        dataset=dataset,
         failed=tuple(failed),
-        compression=recipe.store.compression,
-        seconds=round(seconds, 3),
+        seconds=round(time.perf_counter() - began, 3),
         refused=count_refused(redraws),
     )
+    write_shard(folder, sidecar, dataset, recipe.store.compression)
     return ShardRow(planned.number)

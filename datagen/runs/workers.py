@@ -19,9 +19,10 @@ SCHEDULER_PATIENCE = 5.0  # s
 
 @dataclass(frozen=True)
 class Engine:
-    """Who does the work; what is None follows the caller's `joblib.parallel_config`, or is loky on every processor.
+    """Who does the work: how many `workers`, on which `backend`, and the address of a running Dask `scheduler`.
 
-    `scheduler` is the address of a running Dask scheduler.
+    What is None follows the caller's `joblib.parallel_config`, or else is loky with a worker per processor. Raises
+    BadInput for values that are not allowed, or a scheduler without the Dask backend.
     """
 
     workers: int | None = None
@@ -37,7 +38,7 @@ class Engine:
             raise BadInput("a scheduler needs --backend dask", field="--scheduler", value=self.scheduler)
 
     def for_tasks(self, count: int) -> Engine:
-        """The same with no more workers than there are tasks: a single task is done by this process, without waiting
+        """The same with no more workers than there are tasks; this process does a single task itself, without waiting
         for another to start."""
         return replace(self, workers=min(self.workers or _workers_unless_told(), max(count, 1)))
 
@@ -47,7 +48,7 @@ class WorkerLost(RuntimeError):
 
 
 def _workers_unless_told() -> int:
-    """As many as the caller's `joblib.parallel_config` asks for, or one on every processor."""
+    """As many as the caller's `joblib.parallel_config` asks for, or one per processor."""
     from joblib import cpu_count, effective_n_jobs
     from joblib.parallel import get_active_backend
 
@@ -69,7 +70,7 @@ def engaged(engine: Engine) -> Iterator[None]:
     elif engine.backend is None and type(callers).__name__ != "LokyBackend":
         yield
     else:
-        # One worker works in this process, where threads that wait for each other would cost more than they bring.
+        # A single worker is this process, whose threads would cost more by waiting for each other than they gain.
         with threadpool_limits(limits=1), processes(engine.workers or _workers_unless_told()):
             yield
 
@@ -79,7 +80,7 @@ def run_tasks(
 ) -> Generator[Any]:
     """Results of `function(*task)` as they come; raises WorkerLost, and whatever `function` raises.
 
-    Close it where it is left early: what the garbage collector closes may end the workers of a later run.
+    Close the generator if you leave it early: if the garbage collector does, it may end the workers of a later run.
     `time_limit` (s) bounds one task on Dask, where a task that keeps killing its worker would otherwise never end.
     """
     from multiprocessing import TimeoutError as TaskTimeout
@@ -132,9 +133,9 @@ def _dask_client(engine: Engine) -> Any:
 
 
 def _require_scheduler(address: str) -> None:
-    """Raise BadInput unless something at `address` greets as Dask does: a client would wait for ever for silence.
+    """Raise BadInput unless a Dask scheduler answers at `address`: a client would wait for ever for an answer.
 
-    The greeting has a thread of its own, which ends in time, as the caller may be inside an event loop (Jupyter).
+    The handshake runs in a thread of its own, which always ends, as the caller may be inside an event loop (Jupyter).
     """
     from distributed.comm import connect
 

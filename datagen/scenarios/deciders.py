@@ -63,10 +63,10 @@ DECIDERS: dict[str, tuple[str, ...]] = {
 
 
 def deciders(recipe: Recipe, part: int, parameter: str, kind: Combination | None) -> list[tuple[Location, object]]:
-    """Where the recipe says something that decides the `parameter` of the part with that index, and what, as in TOML.
+    """The settings that decide the `parameter` in the part with that index: where each is, and its value as in TOML.
 
-    The likeliest to be wrong comes first. Of what is said of spalls only that which holds for the `kind` counts, if one
-    is given. Nothing is found of what the recipe leaves at its default.
+    The likeliest to be wrong comes first. If a `kind` is given, only those settings of spalls count that hold for it.
+    Settings that the recipe leaves at their default are not found.
     """
     names = DECIDERS.get(parameter)
     found = [

@@ -26,7 +26,7 @@ ROWS: dict[str, tuple[int, ...]] = {"1": (1,), "2": (2,), "both": (1, 2)}
 def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, draw: Draw) -> tuple[Spall, ...]:
     """Spalls of one record under `load` (N), which only sets the width of contact that smooths their roughness.
 
-    Raises InvalidParameter if what was drawn cannot be; the caller draws again, with the same `draw.intended`.
+    Raises InvalidParameter if what was drawn is impossible; the caller draws again, with the same `draw.intended`.
     """
     if settings is None:
         return ()

@@ -1,9 +1,9 @@
 """Space-filling designs: the numbers of a part's machines and records spread evenly over the space of its settings.
 
-A designed part replaces the number that a setting takes from its stream by that of its dimension in a point of the
-design: the point of the machine's place among the part's machines for what belongs to a machine, that of the record's
-place for what belongs to a record. The number of the stream then places the value inside the point's cell. Redraws
-(attempts from 1 on) leave the design and take the numbers of their streams as they are.
+In a designed part each setting is a dimension, and takes its number from a point of the design instead of its stream:
+settings of a machine from the point of the machine's place in the part, those of a record from that of the record's
+place. The number of the stream then places the value inside the point's cell. Redraws (attempts from 1 on) leave the
+design and take the numbers of their streams as they are.
 
 `latin_hypercube`: each dimension puts exactly one machine (record) into each of as many equal strata as there are.
 `sobol`: a scrambled Sobol sequence; any first 2^m of them put exactly one into each of 2^m strata, and pairs of
@@ -51,7 +51,8 @@ SOBOL_RESOLUTION = 2.0**-30
 
 @dataclass(frozen=True)
 class Design:
-    """The design of one part: `kind` "random", "latin_hypercube" or "sobol", of the part with this index and seed."""
+    """The design of the part with index `part` of a recipe with that `seed`; `kind` is "random", "latin_hypercube" or
+    "sobol"."""
 
     kind: str
     seed: int

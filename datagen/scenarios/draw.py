@@ -19,10 +19,10 @@ BALANCES = {"machine": "balance_machines", "record": "balance_records"}
 
 @dataclass(frozen=True)
 class Draw:
-    """The streams of machine or record (`scope`) `number` of a recipe, in its part with index `part`.
+    """The random streams of one `attempt` at the machine or record (`scope`) `number` of a recipe.
 
-    `place` is its place among the machines or records of the part. `turn` says which balanced settings were met before,
-    `intended`, which its attempts share, of what kind its spalls are to be.
+    `part` is the index of its part, `place` its place among the machines or records of that part. `turn` says which
+    balanced settings were met before; `intended`, which all attempts share, says what kind of spalls it is to have.
     """
 
     recipe: Recipe
@@ -39,7 +39,7 @@ class Draw:
         return stream(self.recipe.seed, self.scope, self.number, purpose, self.attempt, item)
 
     def picker(self, purpose: str, item: int = 0) -> Picker:
-        """A picker of values for one table, in a designed part from the point of the design."""
+        """A picker of values for one table of settings; in a designed part it starts from the point of the design."""
 
         def refine(position: int, number: float) -> float:
             dimension = dimension_of(purpose, item, position)
@@ -51,7 +51,7 @@ class Draw:
 
     @cached_property
     def turns(self) -> Turns:
-        """What gives its balanced settings their values; the same in every attempt."""
+        """Gives the balanced settings their values, the same in every attempt."""
         recipe, purpose = self.recipe, BALANCES[self.scope]
 
         def open_block(block: int, path: int) -> np.random.Generator:

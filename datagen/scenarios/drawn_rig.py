@@ -86,7 +86,8 @@ Values = dict[str, Any]
 
 
 def draw_rig(settings: MachineSettings, pick: Picker) -> tuple[Rig, bool]:
-    """A rig and whether the rows of its bearing have separate cages; InvalidParameter if there is no such machine."""
+    """A rig, and whether the rows of its bearing have separate cages; raises InvalidParameter if the machine is
+    impossible."""
     said = {name: pick.value(getattr(settings, name)) for name in STREAM}
     drawn = {name: pick.optional(getattr(settings.factors, name)) for name in FactorSettings.model_fields}
     factors = {name: 1.0 if factor is None else factor for name, factor in drawn.items()}
@@ -102,13 +103,13 @@ def _mounted(said: Values, rig: Rig) -> Bearing:
 
 
 def _numbers(base: Bearing | Rig, said: Values, numbers: tuple[tuple[str, str, float], ...]) -> Values:
-    """Every field of `base`, with the numbers that were said of it in its place, SI units."""
+    """Every field of `base`, SI units, some replaced by the `numbers` that the settings (`said`) give."""
     given = {field: said[name] / per_unit for name, field, per_unit in numbers if said[name] is not None}
     return {field.name: getattr(base, field.name) for field in fields(base)} | given
 
 
 def _altered_bearing(base: Bearing, said: Values, factors: Values) -> Bearing:
-    """`base` with what was said of it; K follows the geometry unless it was given."""
+    """`base` altered as the settings (`said`) and the `factors` ask; K follows the geometry unless it is given."""
     numbers = _numbers(base, said, (*BEARING_NUMBERS, *CONFORMITIES))
     numbers["pitch_diameter"] *= factors["pitch_diameter"]
     if said["ball_diameter_of_pitch"] is not None:
@@ -130,7 +131,7 @@ def _altered_bearing(base: Bearing, said: Values, factors: Values) -> Bearing:
 
 
 def _balls_that_fill(fill: float, numbers: Values) -> int:
-    """The share `fill` of the most balls that fit side by side on the pitch circle."""
+    """The number of balls that is the share `fill` of the most that fit side by side on the pitch circle."""
     ratio = numbers["ball_diameter"] / numbers["pitch_diameter"]
     require(ratio < 1.0, f"a ball of {ratio:.3g} pitch diameters does not fit", "ball_diameter")
     return math.floor(fill * math.pi / math.asin(ratio) * (1.0 + 1e-12))
@@ -148,7 +149,8 @@ def _load_deflection(base: Bearing, bearing: Bearing, said: Values) -> float:
 
 
 def _altered_rig(base: Rig, said: Values, factors: Values) -> Rig:
-    """`base` with what was said of it: masses, then the stiffness and damping that follow them, rated load and film."""
+    """`base` altered as the settings (`said`) and the `factors` ask: masses, then the stiffness and damping that depend
+    on them, the rated load and the film."""
     numbers = _numbers(base, said, (*RIG_NUMBERS, *RATED_NUMBERS))
     for mass in MASSES:
         numbers[mass] *= factors[mass]

@@ -15,7 +15,8 @@ CERTAIN_REACH = 5e-3
 
 
 def require_equilibrium(scene: Scene, start: float) -> None:
-    """Raise InvalidParameter if no position of the shaft carries the load at `start`, s (solved only if in doubt)."""
+    """Raise InvalidParameter if there is no position of the shaft in which the bearing carries the load at the time
+    `start` (s); the equilibrium is only solved if in doubt."""
     if farthest_rest(scene) < CERTAIN_REACH:
         return
     outcome = equilibrium(scene, np.array([start])).outcome(0)
@@ -26,8 +27,8 @@ def require_equilibrium(scene: Scene, start: float) -> None:
 def farthest_rest(scene: Scene) -> float:
     """A distance (m) within which the shaft surely comes to rest.
 
-    In whatever direction the shaft moves, a ball lies within half a spacing of it; once that ball alone carries more
-    than the whole load, over the deepest floor there is, moving on costs more energy than the load gives.
+    In whatever direction the shaft moves, a ball lies within half a spacing of it. Once that ball alone carries more
+    than the whole load, even over the deepest floor, moving on costs more energy than the load gives.
     """
     bearing, run = scene.rig.bearing, scene.operation
     load = abs(run.load) * (1.0 + run.load_fluctuation) + run.unbalance_force

@@ -8,9 +8,10 @@ from datagen.recipes.defect_settings import Combination
 class IntendedKind:
     """The `kind` (condition, race, profile) that all attempts at one record or machine share; None until one is drawn.
 
-    If every attempt drew its own, a kind that is often impossible would silently turn into others. So from the first
-    refusal on that another kind of spall might have been spared, the kind is binding. An attempt that is refused
-    whatever the kind leaves the next one free to draw another kind of spall: no shares move. It never becomes healthy.
+    If every attempt drew its own kind, one that is often impossible would silently turn into others. So once an attempt
+    is refused that might have succeeded with another kind of spall, its kind is binding for all later attempts. An
+    attempt that would be refused whatever its kind leaves the next one free to draw another kind of spall, which shifts
+    no shares; it never becomes healthy.
     """
 
     def __init__(self, kind: Combination | None = None) -> None:
@@ -18,12 +19,14 @@ class IntendedKind:
         self._is_binding = self._was_binding = kind is not None
 
     def settle(self, drawn: Combination) -> Combination:
-        """The kind of an attempt that drew this one; it is binding for the next ones, unless `release` follows."""
+        """The kind that an attempt is to have, given the one it has `drawn`; binding from now on, unless `release`
+        follows."""
         if self.kind is None or not (self._is_binding or drawn[0] == "healthy"):
             self.kind = drawn
         self._was_binding, self._is_binding = self._is_binding, True
         return self.kind
 
     def release(self) -> None:
-        """This attempt was refused whatever its kind: the kind is as binding as it was before."""
+        """Leave the kind as binding as it was before the last `settle`: that attempt would have been refused whatever
+        its kind."""
         self._is_binding = self._was_binding

@@ -32,9 +32,9 @@ from physics.sensor.chain import SensorChain
 class Machine:
     """A virtual machine: everything that all its records share.
 
-    `rate` (Hz) and `samples` say how it is recorded, `settle` (s) how long it runs before, `envelope_band` (Hz) where
-    its envelope is taken; `redraws` lists the impossible draws before this one; `turn` is its place among machines with
-    its values of balanced settings; `kind` is that of its own spalls, None if it has none.
+    `rate` (Hz) and `samples` say how it is recorded, `settle` (s) how long it runs before each record, `envelope_band`
+    (Hz) where its envelope is taken. `redraws` lists the impossible draws before this one, `turn` is its place among
+    the machines with the same values of balanced settings, and `kind` is that of its own spalls, None if it has none.
     """
 
     number: int
@@ -56,13 +56,14 @@ class Machine:
 
 
 def draw_machine(recipe: Recipe, part_index: int, number: int, place: int) -> Machine:
-    """Virtual machine `number` of the recipe, the `place`-th of the part with that index; BadInput if none can be."""
+    """Virtual machine `number` of the recipe, the `place`-th (from 0) of the part with that index; raises BadInput if
+    every attempt is impossible."""
     return _first_possible(_Wanted(recipe.hash, number, Draw(recipe, part_index, "machine", number, place)))
 
 
 @dataclass(frozen=True)
 class _Wanted:
-    """A machine of a recipe with this hash; two are equal if these are, since nothing else tells machines apart."""
+    """Key of a machine in the cache: recipe hash and number alone tell machines apart; `draw` is what draws it."""
 
     recipe_hash: str
     number: int
@@ -105,7 +106,8 @@ def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:
         turn=draw.turns.turn,
     )
     if part.defect is not None and part.defect.drawn_for == "machine":
-        # Its records draw the same again, under their own load: here it shows that they can be, and of what kind.
+        # Its records draw the same spalls again, under their own load; drawing them here shows that they are possible,
+        # and of what kind.
         draw_spalls(part.defect, rig.bearing, rig.rated_load, replace(draw, turn=machine.turn))
         machine = replace(machine, kind=draw.intended.kind)
     return machine

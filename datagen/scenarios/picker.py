@@ -17,11 +17,11 @@ Refine = Callable[[int, float], float]
 
 
 class Picker:
-    """Draws setting after setting; each takes exactly one number, whatever its distribution and even if it is absent.
+    """Draws one setting after another; each uses up exactly one number, whatever its distribution and even if absent.
 
-    So fixing a setting that was drawn moves no other, and a table may grow at its end without moving what was there.
-    `open_stream` gives the generator of the numbers, asked for when the first of them counts; `refine` turns the number
-    at a position (from 0) into that of a design; `turns` gives balanced settings their value.
+    So fixing a setting that was drawn changes no other, and a table may grow at its end without changing what was
+    there. `open_stream` gives the generator of the numbers, asked for when the first of them counts; `refine` turns the
+    number at a position (from 0) into that of a design; `turns` gives balanced settings their value.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Picker:
         return setting.quantile(self.share())
 
     def _pass_over(self) -> None:
-        """Take the next number, which does not count, with the first after it that does."""
+        """Skip the next number; it is taken from the generator only with the first after it that counts."""
         self._position += 1
         self._passed_over += 1
 

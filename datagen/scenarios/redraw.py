@@ -1,4 +1,4 @@
-"""Impossible draws: drawn again from the next attempt's streams, counted with their reason, and not for ever."""
+"""Impossible draws: repeated from the next attempt's streams, counted with their reason, and given up in the end."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_ATTEMPTS = 200
 
 @dataclass(frozen=True)
 class Redraw:
-    """A draw that no machine or record could have: `scope` "machine" or "record", its number of attempt and why.
+    """An impossible draw of a machine or record (`scope`): the number of the attempt, and why it was refused.
 
     `field` names the parameter that was refused, a short key to count by; `reason` is a sentence with its numbers.
     """
@@ -56,10 +56,10 @@ def add_refused(counted: Iterable[dict[str, Refused]]) -> dict[str, Refused]:
 
 
 def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw], kind: Combination | None = None) -> BadInput:
-    """The error of a part that can hardly be drawn: names the settings that decided the last refusal, and its reason.
+    """The error for a part that can hardly be drawn: it names the settings behind the last refusal, and the reason.
 
-    `kind` is what it was meant to be, if a kind was drawn: condition, race and profile. Where the reasons differ, or
-    what was refused, it also says how often each parameter was.
+    `what` is the record or machine, and `kind` what it was meant to be (condition, race and profile), if that was
+    drawn. If the refusals had different reasons, it also says how often each parameter was refused.
     """
     place: Location = ("part", recipe.part.index(part))
     last = redraws[-1]

@@ -1,4 +1,5 @@
-"""A scenario: one record with every number fixed. It alone remakes its record, in any company, on any machine."""
+"""A scenario: one record with every number fixed. It alone is enough to make the record again, with any others or
+none, on any machine."""
 
 from __future__ import annotations
 
@@ -34,11 +35,11 @@ class Seeds:
 class Scenario:
     """A physical scene with how it is recorded and where it belongs.
 
-    `rate` Hz; `settle` s that the machine has run, from rest, when the record begins; `envelope_band` Hz, lower and
-    upper edge; `slip_deviation` and `slip_correlation_time` (s) are the statistics that the slip was drawn from;
-    `stretch` what it takes of a recording, `noise_target` what its background is scaled to, `snr_band` Hz the band of
-    its second signal-to-noise ratio (None: the envelope's); `redraws` the impossible draws before it; `accuracy` the
-    error that its simulation may have.
+    The record is sampled at `rate` (Hz) and begins when the machine has run for `settle` (s) from rest. `envelope_band`
+    (Hz) holds the lower and the upper edge; `slip_deviation` and `slip_correlation_time` (s) are the statistics that
+    the slip was drawn from. `stretch` is what the record takes from a recording, `noise_target` what its background is
+    scaled to, and `snr_band` (Hz) the band of its second signal-to-noise ratio (None: the envelope's). `redraws` are
+    the impossible draws before it, `accuracy` the error that its simulation may have.
     """
 
     scene: Scene

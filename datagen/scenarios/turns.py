@@ -17,9 +17,9 @@ OpenBlock = Callable[[int, int], np.random.Generator]
 
 @dataclass(frozen=True)
 class Turn:
-    """How many machines or records came before with the same values of the balanced settings met so far.
+    """How many machines or records (`place`) came before with the same values of the balanced settings met so far.
 
-    `path` is a number for those values, 1 where none has been met.
+    `path` is a number that stands for those values, 1 if none has been met.
     """
 
     place: int
@@ -29,9 +29,9 @@ class Turn:
 class Turns:
     """Gives the balanced settings of one machine or record their values, one after another.
 
-    The first setting met goes by the place in the part; each further one by the place among those that have the same
-    values so far. So every block of the first is exact, and so is every block of the second within each value of the
-    first. `open_block` gives the generator that shuffles a block of a path.
+    The first setting takes its value by the place in the part, each further one by the place among those with the same
+    values so far. So the counts are exact in every block of the first, and in every block of the second within each
+    value of the first. `open_block` gives the generator that shuffles a block of a path.
     """
 
     def __init__(self, start: Turn, open_block: OpenBlock) -> None:

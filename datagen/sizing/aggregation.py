@@ -1,4 +1,4 @@
-"""What the scored records say together: figures, tables of errors, and what more is known of events and long spalls."""
+"""The scored records summed up: figures, tables of errors, scores of events, and what is known about long spalls."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from physics.arrays import Array
 
 
 def summarise(records: list[ScoredRecord], load_known: bool) -> SizeSummary:
-    """Figures, tables by dependence, and counts of records of known truth."""
+    """Figures, error tables and counts of `records` whose truth is known; `load_known` if the load was given."""
     return SizeSummary(
         records=len(records),
         scorable=sum(record.scorable for record in records),
@@ -39,7 +39,7 @@ def summarise(records: list[ScoredRecord], load_known: bool) -> SizeSummary:
 
 
 def _long(records: list[ScoredRecord]) -> LongSpalls:
-    """Spalls beyond 0.9 spacings: how far the nearest candidate is from the truth, and how often one was given."""
+    """Spalls longer than 0.9 ball spacings: how often a size was given, and how far its nearest candidate is off."""
     long = [record for record in records if record.has_events and not record.scorable]
     answered = [record for record in long if record.found]
     near = [record for record in answered if record.answer.candidates]
@@ -78,8 +78,8 @@ def _known_size(records: list[ScoredRecord]) -> KnownSizeErrors:
 
 
 def _two_surest(records: list[ScoredRecord]) -> list[ScoredRecord]:
-    """The record of least noise and most trust, and the next one: all other records of the bearing are corrected by the
-    first, and the first by the second."""
+    """The record with the least noise and the most trust, and the runner-up: the first corrects all other records of
+    the bearing, and the second corrects the first."""
 
     def sure(record: ScoredRecord) -> tuple[float, float]:
         return noise_level(record), record.answer.trust

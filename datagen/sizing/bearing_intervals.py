@@ -1,4 +1,4 @@
-"""90 % intervals of what is measured on several records a bearing: bearings are drawn anew, not records."""
+"""90 % intervals of what is measured on several records per bearing, by a bootstrap over bearings, not records."""
 
 from __future__ import annotations
 
@@ -25,11 +25,10 @@ def bearing_numbers(records: list[ScoredRecord]) -> NDArray[np.int64]:
 def interval_over_bearings(
     values: Array, bearing: NDArray[np.int64], weights: Array | None = None
 ) -> tuple[float, float]:
-    """Ends of the 90 % interval of the mean of `values` (N,); virtual bearings (N,) are drawn anew, each with all its
-    records.
+    """Ends of the 90 % interval of the mean of `values` (N,), by drawing bearings anew, each with all its records.
 
-    With `weights` (N,) that of the sum of the values over the sum of the weights. NaN for fewer than two bearings, and
-    without any weight.
+    `bearing` (N,) is the number of the bearing of each value. With `weights` (N,) it is the interval of the sum of the
+    values over the sum of the weights. NaN for fewer than two bearings, and if all weights are 0.
     """
     _, group = np.unique(bearing, return_inverse=True)
     total, count = np.bincount(group, values), np.bincount(group, weights)

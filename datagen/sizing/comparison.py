@@ -30,7 +30,8 @@ CHANGING = "; the speed of the shaft changes and only its mean is used: cut the 
 
 
 def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.0) -> ScoredRecord:
-    """The estimate of one record beside its truth; `factor` is what a known size of another record makes of it."""
+    """The estimate for one record beside its truth; the extent is multiplied by `factor`, which follows from a known
+    size of another record."""
     labels, situation = sized.labels, sized.situation
     began = time.process_time()
     estimate = estimator.estimate(sized.acceleration, sized.rate, situation)
@@ -61,7 +62,7 @@ def score_record(sized: SizedRecord, estimator: AnyEstimator, factor: float = 1.
 
 
 def _reason(estimate: SizeEstimate, sized: SizedRecord) -> str:
-    """Why a record has no estimate, and what may be behind it; empty if it has one."""
+    """Why a record has no estimate, and the likely cause; empty if it has one."""
     return estimate.reason + (CHANGING if sized.speed_changes and not estimate.found else "")
 
 
@@ -76,13 +77,13 @@ def _with_race(situation: Situation, estimate: SizeEstimate, labels: Mapping[str
 
 
 def unsized_row(unsized: UnsizedRecord) -> ScoredRecord:
-    """The row of a record that no estimator could be asked about."""
+    """The row of a record that could not be given to an estimator."""
     nothing = _answer(SizeEstimate(SizeOutcome.NO_PASSES, ""))
     return ScoredRecord(_truth(unsized.labels), replace(nothing, outcome=NOT_ASKED, reason=unsized.reason))
 
 
 def _truth(labels: Mapping[str, Any]) -> Truth:
-    """What the labels say of a record; nothing yet of its ball passes."""
+    """What the labels say about a record, without its ball passes."""
     return Truth(
         record=int(labels["record"]),
         recording=str(labels["recording"]),

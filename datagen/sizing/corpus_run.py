@@ -34,11 +34,12 @@ def score_sizes(
     sizes: Mapping[int, float] = NONE_KNOWN,
     count: Count = ignore,
 ) -> SizeScores:
-    """Scores of the corpus in `folder`, of one split (its test split if it has one and none is asked for).
+    """Scores of the corpus in `folder`, of one split (if None is asked for: its test split, or all if it has none).
 
-    A record that cannot be sized has a row that says why; BadInput if that holds of all. Known `sizes` (mm) of records
-    correct those of the other records of their machines; `count` is called with how many records are done. A run
-    on recordings of stated extents or health is logged beside them, before and after.
+    `estimator` is that of the user, None for ours; `load_known` if it is given the load and the Hertz factor. A record
+    that cannot be sized has a row that says why; raises BadInput if none can. Known `sizes` (mm by record) correct the
+    other records of their machines. `count` is called with how many records are done. A run on recordings with a stated
+    extent or state of health is logged beside them, before and after.
     """
     sizer = find_estimator(estimator)
     chosen = _split(folder, split)
@@ -71,7 +72,7 @@ def score_sizes(
 
 
 def _counted(scored: Iterator[ScoredRecord], total: int, count: Count) -> list[ScoredRecord]:
-    """All of the `total` rows, each counted as it comes."""
+    """All of the `total` rows, counting each as it comes."""
     rows = []
     for row in scored:
         rows.append(row)
@@ -80,7 +81,7 @@ def _counted(scored: Iterator[ScoredRecord], total: int, count: Count) -> list[S
 
 
 def _log_scores(folder: Path, name: str, stated: StatedSizes | None) -> None:
-    """Append to the log beside recordings when and with what the estimator of that name was scored on them, and how."""
+    """Append the scores of the estimator of that `name` to the log beside the recordings."""
     scores = None if stated is None else flat_summary(stated)
     write_line(folder, {"sizes_by": name, "scores": scores})
 

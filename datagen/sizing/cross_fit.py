@@ -14,16 +14,16 @@ ANSWERED_SHARES = (0.80, 0.85, 0.90, 0.95, 0.98)
 
 @dataclass(frozen=True)
 class CrossFit:
-    """Relative `error` (N,) of the lags of N records that ask for a size, and the `expected` one (N,); no size is given
-    where that is above `most`."""
+    """The relative `error` (N,) of the lags of N records that should be given a size, and the `expected` error (N,); no
+    size is given where that is above `most`."""
 
     error: Array
     expected: Array
     most: float
 
     def most_within(self, error: float) -> float:
-        """`most`, or the largest expected error below it up to which the sizes given have at most this mean `error`;
-        the smallest expected error if even that record's error is larger."""
+        """The limit on the expected error, at most `most`, up to which the mean error of the sizes given is at most
+        `error`; the smallest expected error if even the error of that record is larger."""
         ordered = np.argsort(self.expected, kind="stable")
         ordered = ordered[self.expected[ordered] <= self.most]
         mean = np.cumsum(self.error[ordered]) / np.arange(1, ordered.size + 1)

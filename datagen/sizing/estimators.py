@@ -34,7 +34,7 @@ class AnyEstimator(Protocol):
 
 @cache
 def default_estimator() -> SizeEstimator:
-    """The estimator as fitted to datasets/size_training, size_imperfect and size_ladder but for its test split."""
+    """Our estimator, fitted to datasets/size_training, size_imperfect and all but the test split of size_ladder."""
     with np.load(CALIBRATION_FILE) as file:
         arrays: Mapping[str, NDArray[np.generic]] = {name: file[name] for name in file.files}
     return SizeEstimator(Calibration.from_arrays(dict(arrays)))
@@ -44,8 +44,7 @@ def default_estimator() -> SizeEstimator:
 def find_estimator(name: str | None) -> AnyEstimator:
     """The estimator called "module:Class", made without arguments, or "module:function", or the default one.
 
-    It is made when a process first asks for it; after that the process gets the same one. Raises BadInput if there is
-    none of that name.
+    A process makes it when it first asks for it, and then keeps it. Raises BadInput if there is none of that name.
     """
     if name is None:
         return default_estimator()

@@ -17,9 +17,10 @@ from physics.arrays import Array
 
 Bearings = NDArray[np.str_]
 
-LARGEST_COST = 3.0  # of a lag given where there are no events
+LARGEST_COST = 3.0  # of a lag that is given although there are no events
 LARGEST_ERROR = 1.0
-GROSS, GROSS_WEIGHT = 0.5, 0.2  # where the pair was mistaken there is little to learn of how far off a right one lies
+# Errors above GROSS mean that the wrong pair was taken, from which there is little to learn about the right one.
+GROSS, GROSS_WEIGHT = 0.5, 0.2
 KEPT_SHARE = 0.06  # of the pairs that are not the events
 WRONG_BELOW = 0.05
 PAIRS = Committee(

@@ -14,9 +14,9 @@ CALLS_AT_ONCE = 4  # for each process
 def in_blocks(calls: Iterator[Any], workers: int) -> Iterator[Any]:
     """The results, in order, of the `calls` (of joblib's `delayed`), made by so many processes.
 
-    The calls are drawn here, some at a time, as drawing one reads a record: a thread of joblib's that goes on reading
-    netCDF files after an error crashes whoever opens the next one. What a call is given it may change. Raises
-    what a call or its drawing raises.
+    The calls are taken from the iterator here, a few at a time, since each reads a record: if a thread of joblib's went
+    on reading netCDF files after an error, it would crash whoever opens the next one. A call may change its arguments.
+    Raises what a call, or taking it, raises.
     """
     from joblib import Parallel
 

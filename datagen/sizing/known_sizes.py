@@ -1,4 +1,4 @@
-"""Records whose spall was measured, and what they say of the other records of their machine."""
+"""Records whose spall was measured, and how they correct the other records of their machine."""
 
 from __future__ import annotations
 
@@ -25,10 +25,11 @@ ALLOWED = "RECORD=MM, the index of a record and the length of its spall in mm, a
 
 @dataclass(frozen=True)
 class KnownSize:
-    """The spall of `record` on `machine` is `known_mm` long and was estimated as `estimated_mm`; so the sizes of
-    `corrected` other records there were multiplied by `factor`, which all known sizes of a machine share.
+    """The spall of `record` on `machine` is `known_mm` long and was estimated as `estimated_mm`.
 
-    `arc_error_without`, `arc_error_with`: mean |error| / true of these, where the truth is known; else NaN.
+    So the sizes of `corrected` other records of that machine were multiplied by `factor`, which all known sizes of a
+    machine share. `arc_error_without` and `arc_error_with` are the mean |error| / true of those records without and
+    with it, NaN if the truth is unknown.
     """
 
     record: int
@@ -42,7 +43,7 @@ class KnownSize:
 
 
 def parse_known_sizes(texts: Iterable[str]) -> dict[int, float]:
-    """Lengths (mm) by record from texts like "3=1.5"; BadInput if one is no such text or a record has two."""
+    """Lengths (mm) by record from texts like "3=1.5"; raises BadInput for any other text and for a record with two."""
     sizes: dict[int, float] = {}
     for text in texts:
         index, _, length = text.partition("=")
@@ -59,14 +60,15 @@ def parse_known_sizes(texts: Iterable[str]) -> dict[int, float]:
 
 
 def machine_of(bearing_id: str, rig: str) -> str:
-    """The name by which records of one machine are known: the virtual bearing's, else the rig's; empty without both."""
+    """What the records of one machine have in common: the name of the bearing, or else of the rig; empty if neither is
+    known."""
     return next((name for name in (bearing_id, rig) if name not in ("", UNKNOWN)), "")
 
 
 def known_sizes(folder: Path, sizes: Mapping[int, float], estimator: AnyEstimator, load_known: bool) -> list[KnownSize]:
-    """What each record with a known size (mm) says of its machine.
+    """What each record with a known size (mm) says about its machine.
 
-    BadInput if one is not in the corpus, gets no estimate, or is of a machine that nobody knows.
+    Raises BadInput if one is not in the corpus, gets no estimate, or is of an unknown machine.
     """
     _check(folder, sizes)
     records = sized_records(folder, load_known=load_known, only=sizes)
@@ -100,7 +102,7 @@ def _known_size(folder: Path, sized: SizedRecord, known_mm: float, estimator: An
 
 
 def shared_factors(known: list[KnownSize]) -> list[KnownSize]:
-    """The same with one factor a machine: the geometric mean of what its known sizes say."""
+    """The same with one factor per machine: the geometric mean of those of its known sizes."""
     logarithms: dict[str, list[float]] = {}
     for size in known:
         logarithms.setdefault(size.machine, []).append(math.log(size.factor))
@@ -108,7 +110,7 @@ def shared_factors(known: list[KnownSize]) -> list[KnownSize]:
 
 
 def factor_for(known: list[KnownSize], record: int, machine: str) -> float:
-    """What known sizes multiply the size of a record by: 1 if it has one itself, or no other of its machine has."""
+    """The factor on the size of a record: 1 if its own size is known, or that of no other record of its machine is."""
     if any(size.record == record for size in known):
         return 1.0
     return next((size.factor for size in known if size.machine == machine), 1.0)

@@ -21,7 +21,7 @@ def noise_level(record: ScoredRecord) -> float:
 
 
 def noise_levels(records: Iterable[ScoredRecord]) -> list[float]:
-    """The levels of noise to tell of, quietest first: those of the size ladder, and others that records have."""
+    """The levels of noise to report, quietest first: those of the size ladder, and others that records have."""
     return sorted({*NOISE_LEVELS, *map(noise_level, records)}, reverse=True)
 
 

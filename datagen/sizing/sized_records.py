@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SizedRecord:
-    """One record: `acceleration` (T, axes), the clean one or None, its labels, what may be known of the machine, truth.
+    """One record: `acceleration` and the `clean` one (T, axes) in m/s², labels, and what may be known of the machine.
 
-    `truth` is None for recordings whose ball passes are unknown; `speed_changes` where they say how unevenly the shaft
-    turned.
+    `clean` is None if it was not stored, `truth` None for recordings whose ball passes are unknown. `speed_changes` is
+    True for recordings that say how unevenly the shaft turned.
     """
 
     record: int
@@ -61,8 +61,8 @@ def sized_records(
 ) -> Iterator[SizedRecord]:
     """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
 
-    The stated shaft speed of simulated records is wrong by up to ±2 %, so that no estimator may lean on it; that of
-    recordings is as wrong as it is, but looked for in the signal where it is nominal.
+    The stated shaft speed of simulated records is wrong by up to ±2 %, so that no estimator may rely on it. That of
+    recordings is used as it is, or refined from the signal if it is only nominal.
     """
     table = _rows(folder, splits)
     able = [not reason_against(labels) for labels in table.to_dict("records")]
@@ -86,7 +86,7 @@ def unsized_records(folder: Path, splits: tuple[str, ...] | None) -> list[Unsize
 
 
 def count_records(folder: Path, splits: tuple[str, ...] | None) -> int:
-    """How many records there are to be sized or not."""
+    """How many records there are, whether they can be sized or not."""
     return len(_rows(folder, splits))
 
 

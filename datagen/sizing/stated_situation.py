@@ -16,7 +16,7 @@ from physics.angular_speed import RPM
 from physics.arrays import Array
 from physics.checks import InvalidParameter
 
-# Of the errors of the speeds that are stated.
+# Seed of the errors of the stated speeds.
 SPEED_SEED = 0
 NEEDED = {
     "balls": "number of balls",
@@ -47,8 +47,8 @@ def wrong_speed(record: int) -> float:
 
 
 def speed_found(labels: Mapping[str, Any], acceleration: Array) -> float:
-    """The shaft's speed over the one stated: 1 unless that is nominal, and then what harmonics of the shaft and ball
-    passes in the `acceleration` (T, axes) say, as the classifiers find it."""
+    """The shaft's speed over the stated one: 1 unless that is nominal, and then as the classifiers find it, from the
+    harmonics of the shaft and of ball passes in the `acceleration` (T, axes)."""
     known, signal = known_kinematics(labels), live_axis(acceleration)
     if known is None or signal is None or not is_nominal(labels):
         return 1.0
@@ -61,7 +61,8 @@ def speed_found(labels: Mapping[str, Any], acceleration: Array) -> float:
 def situation_of(
     labels: Mapping[str, Any], contact: tuple[float, float] | None = None, speed_factor: float = 1.0
 ) -> Situation:
-    """What an estimator is given: geometry, speed times `speed_factor`, and with `contact` (K, n) load; never the race.
+    """What an estimator is given: geometry, speed times `speed_factor` and, with `contact` (K, n), the load; never the
+    race.
 
     Raises InvalidParameter.
     """

@@ -1,4 +1,4 @@
-"""What a shard holds of one record, and which of its ball passes show where the events of the spall are."""
+"""What a shard holds of one record, and where, by its ball passes, the events of the spall are."""
 
 from __future__ import annotations
 
@@ -71,6 +71,6 @@ def stored_record(file: Any, position: int, record: int) -> StoredRecord:
 
 
 def nominal_period(labels: Mapping[str, Any]) -> float:
-    """Time between two ball passes without slip, s; of the outer race if there is no spall."""
+    """Time between two ball passes over the spall without slip, s; over the outer race if there is no spall."""
     order = {"outer": "bpfo", "inner": "bpfi"}.get(str(labels["location"]), "bpfo")
     return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))

@@ -40,7 +40,7 @@ LINES_QUANTILE = 0.98
 
 
 def clearness(table: Array) -> Array:
-    """How clear (N,) each row of the feature table is: 0 like noise, 1 clear, with the logarithm between."""
+    """How clear (N,) each row of the feature table (N, F) is: 0 like noise, 1 clear, with the logarithm between."""
     kurtosis = np.maximum(np.asarray(table)[:, FEATURE_NAMES.index(CLEARNESS)], SMALLEST)
     return np.clip(np.log(kurtosis / NOISE_LIKE) / np.log(CLEAR / NOISE_LIKE), 0.0, 1.0)
 
@@ -62,8 +62,8 @@ class Alarm:
     height_several: float = 1.0
 
     def at(self, table: Array, several: Flags | None = None) -> Array:
-        """Probability (N,) of a spall at which each row of the feature table is called; those marked `several` (N,) are
-        of records of several axes, none if None."""
+        """Probability (N,) of a spall above which each row of the feature table (N, F) is called faulty; `several` (N,)
+        marks rows of records with several axes, none if None."""
         clear = clearness(table)
         low, high = logit(np.array([self.in_noise, self.in_clear]))
         more = 0.0 if several is None else self.several * several

@@ -30,11 +30,11 @@ class Blend(ClassifierMixin, BaseEstimator):
         return self
 
     def predict_proba(self, X: Array) -> Array:
-        """Probabilities (N, 2) of the two classes."""
+        """Probabilities (N, 2) of the two classes for rows (N, F)."""
         level = np.mean([logit(part.predict_proba(X)[:, 1]) for part in self.fitted_], axis=0)
         second = probability_of(level)
         return np.column_stack([1.0 - second, second])
 
     def predict(self, X: Array) -> NDArray[Any]:
-        """The likelier class (N,)."""
+        """The likelier class (N,) of rows (N, F)."""
         return np.asarray(self.classes_[self.predict_proba(X).argmax(axis=1)])

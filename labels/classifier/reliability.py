@@ -9,7 +9,8 @@ from physics.arrays import Array
 
 
 def equal_priors(positive: NDArray[np.bool_]) -> Array:
-    """Weights (N,) with which positives and negatives weigh the same; they sum to N if there are both."""
+    """Weights (N,) that give the `positive` (N,) records the same total weight as the others; they sum to N if there
+    are both."""
     positive = np.asarray(positive, dtype=bool)
     count = max(int(positive.sum()), 1), max(int((~positive).sum()), 1)
     return np.asarray(0.5 * positive.size / np.where(positive, *count))
@@ -18,10 +19,11 @@ def equal_priors(positive: NDArray[np.bool_]) -> Array:
 def reliability(
     positive: NDArray[np.bool_], probability: Array, weights: Array | None = None, bins: int = 10
 ) -> dict[str, list[float]]:
-    """Of records by predicted probability in equal bins: the mean `predicted`, the share `observed`, their number
-    `records` and their `weight`; empty bins are left out.
+    """The reliability diagram of predicted probabilities (N,) in so many equal `bins`, a list with a value per bin.
 
-    `weights` (N,) are those of the records, 1 if None. Probabilities under equal priors need those of `equal_priors`.
+    `predicted` is the mean probability of the bin's records, `observed` the share of them that are `positive` (N,),
+    `records` their number and `weight` their total weight; empty bins are left out. `weights` (N,) are those of the
+    records, 1 if None. Probabilities under equal priors need those of `equal_priors`.
     """
     positive, probability = np.asarray(positive, dtype=bool), np.asarray(probability)
     weights = np.ones(probability.size) if weights is None else np.asarray(weights)
@@ -38,7 +40,8 @@ def reliability(
 def calibration_error(
     positive: NDArray[np.bool_], probability: Array, weights: Array | None = None, bins: int = 10
 ) -> float:
-    """Mean distance between predicted probability and observed share over the bins of `reliability`, by weight."""
+    """Expected calibration error: the weighted mean, over the bins of `reliability`, of how far the predicted
+    probability is from the observed share of `positive` (N,) records; NaN without records."""
     curve = reliability(positive, probability, weights, bins)
     weight = np.array(curve["weight"])
     if weight.size == 0:

@@ -29,9 +29,10 @@ Score = Callable[..., float]
 
 
 def balanced_accuracy(truth: Names, said: Names, classes: Sequence[str] | None = None) -> float:
-    """Mean over the classes (those in `truth` if not given) of the share of their records that is called by its name.
+    """Mean over the classes (those in `truth` if not given) of the share of each one's records that are called right.
 
-    Classes without a record do not count; NaN if none has one.
+    `truth` and `said` (N,) are the true class of each record and the one it was given. Classes without a record do not
+    count; NaN if none has one.
     """
     truth, said = np.asarray(truth), np.asarray(said)
     names = np.unique(truth) if classes is None else classes
@@ -40,13 +41,14 @@ def balanced_accuracy(truth: Names, said: Names, classes: Sequence[str] | None =
 
 
 def accuracy(truth: Names, said: Names) -> float:
-    """Share of records called by their name; NaN without records."""
+    """Share of records whose class in `said` (N,) is the one in `truth` (N,); NaN without records."""
     truth = np.asarray(truth)
     return float(np.mean(truth == np.asarray(said))) if truth.size else float("nan")
 
 
 def area_under_roc(positive: NDArray[np.bool_], score: Array) -> float:
-    """Probability that a positive record scores above a negative one, ties counting half; NaN without both."""
+    """Probability that a `positive` (N,) record has a higher `score` (N,) than a negative one, ties counting half; NaN
+    unless there are both."""
     positive, score = np.asarray(positive, dtype=bool), np.asarray(score, dtype=np.float64)
     count, other = int(positive.sum()), int((~positive).sum())
     if count == 0 or other == 0:
@@ -64,10 +66,11 @@ def bootstrap(
     draws: int = DRAWS,
     limits: tuple[float, float] = (0.0, 1.0),
 ) -> Interval:
-    """`score` of the columns (N,) of records and its 95 % interval over records drawn anew, within each of `strata`.
+    """`score` of the columns (N,) of records, with its 95 % interval from a bootstrap over records.
 
-    Rows of one of `groups` (N,) are drawn together and belong to the stratum of their first. Where every draw gives the
-    same, the interval is what the number of groups allows within the `limits` of the score.
+    Records are drawn anew within each stratum of `strata` (N,). Rows of one group of `groups` (N,) are drawn together
+    and belong to the stratum of the first of them. If every draw gives the same score, the interval is what the number
+    of groups allows within the `limits` of the score. Its ends are NaN without records, and if no draw gives a score.
     """
     columns = tuple(np.asarray(column) for column in columns)
     if columns[0].size == 0:
@@ -90,7 +93,11 @@ def paired_difference(
     groups: Names | None = None,
     draws: int = DRAWS,
 ) -> Interval:
-    """`score`(truth, said) minus `score`(truth, rival), with the interval over records drawn anew for both at once."""
+    """`score`(truth, said) minus `score`(truth, rival), with its interval from a bootstrap that draws the same records
+    for both.
+
+    `said` and `rival` (N,) are two answers to the same `truth` (N,); `strata` and `groups` (N,) as in `bootstrap`.
+    """
 
     def difference(truth: Names, said: Names, rival: Names) -> float:
         return score(truth, said) - score(truth, rival)
@@ -104,10 +111,11 @@ def area_interval(
     rival: Array | None = None,
     groups: Names | None = None,
 ) -> Interval:
-    """Area under the ROC of a score (N,), or by how much it exceeds that of a `rival`, drawn anew within either side.
+    """Area under the ROC of a score (N,), or by how much it exceeds that of a `rival` score (N,), with its interval.
 
-    Without an interval (NaN) where a side has fewer than five `groups`. Where every draw gives the same, positives and
-    negatives unlike those seen may each take as much as they can.
+    The bootstrap draws `positive` (N,) and negative records separately. The ends of the interval are NaN if either side
+    has fewer than five `groups` (N,). If every draw gives the same area, the interval allows for positives and
+    negatives unlike those seen.
     """
     positive = np.asarray(positive, dtype=bool)
     value = area_under_roc(positive, score) - (0.0 if rival is None else area_under_roc(positive, rival))
@@ -187,7 +195,7 @@ def _interval(value: float, drawn: Array) -> Interval:
 
 
 def confusion(truth: Names, said: Names, rows: Sequence[str], columns: Sequence[str]) -> NDArray[np.int64]:
-    """Number of records (R, C) whose truth is each of `rows` and that are called each of `columns`."""
+    """Number of records (R, C) whose class in `truth` (N,) is each of `rows` and in `said` (N,) each of `columns`."""
     truth, said = np.asarray(truth), np.asarray(said)
     counts = [[int(np.sum((truth == row) & (said == column))) for column in columns] for row in rows]
     return np.array(counts, dtype=np.int64)
@@ -204,8 +212,12 @@ def _starts(quantity: Array, bins: int) -> Array:
 def accuracy_against(
     quantity: Array, right: NDArray[np.bool_], bins: int = 5, groups: Names | None = None
 ) -> list[dict[str, float]]:
-    """Accuracy with its interval in bins of equally many records of a `quantity` (N,), NaN left out; rows of one of
-    `groups` (N,) are drawn together. Bins of values that are nearly the same are one."""
+    """Accuracy, the share of `right` (N,) answers, with its interval in bins of a `quantity` (N,), NaN left out.
+
+    The bins hold equally many records; bins whose values are nearly the same are merged. Each row gives the median `at`
+    of the quantity, the number of `records`, and the `accuracy` with the ends `low` and `high` of its interval. Rows of
+    one group of `groups` (N,) are drawn together.
+    """
     quantity, right = np.asarray(quantity, dtype=np.float64), np.asarray(right, dtype=bool)
     known = np.isfinite(quantity)
     quantity, right = quantity[known], right[known]

@@ -54,10 +54,10 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
         return self
 
     def predict_proba(self, X: Array) -> Array:
-        """Probabilities (N, 2) of the two classes."""
+        """Probabilities (N, 2) of the two classes for rows (N, F)."""
         second = probability_of(np.asarray(X) @ self.coef_ + self.intercept_)
         return np.column_stack([1.0 - second, second])
 
     def predict(self, X: Array) -> NDArray[Any]:
-        """The likelier class (N,)."""
+        """The likelier class (N,) of rows (N, F)."""
         return np.asarray(self.classes_[self.predict_proba(X).argmax(axis=1)])

@@ -64,7 +64,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         """Learn from rows (N, F) of the feature table and their CLASSES (N,); `groups` (N,) are virtual bearings.
 
         `records` (N,) are the records that the rows are of, each its own if None, and `axes` (N,) their axes, one for
-        all if None; `noisy` (N,) marks rows of a record to which noise was added.
+        all if None; `noisy` (N,) marks rows of a record to which noise was added. ValueError if an answer to one of the
+        questions comes from fewer than two bearings, or from noisy rows alone.
         """
         X, y = np.asarray(X, dtype=np.float64), np.asarray(y)
         groups = np.arange(len(y)) if groups is None else np.asarray(groups)
@@ -95,7 +96,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         return self
 
     def predict_proba(self, X: Array) -> Array:
-        """Probabilities (N, 5) of CLASSES; they sum to 1 in each row."""
+        """Probabilities (N, 5) of CLASSES for rows (N, F) of the feature table; they sum to 1 in each row."""
         X = np.asarray(X, dtype=np.float64)
         spall, inner = self.spall_.probability(_spall_columns(X)), self.race_.probability(_race_columns(X))
         long = np.full(len(X), float(self.always_extended_)) if self.length_ is None else self.length_.probability(X)
@@ -103,8 +104,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         return np.column_stack([1.0 - spall, *(spall * part for part in parts)])
 
     def predict(self, X: Array) -> NDArray[np.str_]:
-        """The likeliest class (N,) of the rows whose probability of a spall, or whose lines, pass the alarm; "healthy"
-        for others."""
+        """The class (N,) of rows (N, F) of the feature table: the likeliest spall where the probability of a spall, or
+        the height of a race's lines, passes the alarm, else "healthy"."""
         probability = self.predict_proba(X)
         by_lines = self.alarm_.by_lines_alone(strengths(X))
         return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | by_lines)

@@ -31,10 +31,11 @@ class Stage:
         groups: NDArray[Any],
         noisy: NDArray[np.bool_] | None = None,
     ) -> Stage:
-        """Learn the probability that `answer` (N,) is True from rows (N, F); rows of one group stay on one side.
+        """Learn the probability that `answer` (N,) is True from rows (N, F); no group of `groups` (N,) is both learned
+        from and held out.
 
-        Rows marked `noisy` (N,) are learned from and not calibrated on. ValueError if an answer is given by fewer than
-        two groups, or by noisy rows alone.
+        Rows marked `noisy` (N,) are learned from but not calibrated on. ValueError if an answer comes from fewer than
+        two groups, or from noisy rows alone.
         """
         from sklearn.base import clone
         from sklearn.linear_model import LogisticRegression
@@ -55,7 +56,8 @@ class Stage:
         return self
 
     def probability(self, table: Array) -> Array:
-        """Calibrated probability (N,) that the answer is True, if both answers were equally likely beforehand."""
+        """Calibrated probability (N,) that the answer to rows (N, F) is True, if both answers are equally likely
+        beforehand."""
         return self._calibrated(self.estimator.predict_proba(table)[:, 1])
 
     def _held_out(self, table: Array, answer: NDArray[np.bool_], groups: NDArray[Any], folds: int, seed: int) -> Array:

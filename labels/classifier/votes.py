@@ -60,7 +60,7 @@ def vote_shares(level: Array, owner: NDArray[np.int64], axis: NDArray[np.int64])
 
 
 def of_several_axes(owner: NDArray[np.int64], axis: NDArray[np.int64], records: NDArray[np.int64]) -> Flags:
-    """Which of `records` (R,) have rows (N,) of more than one `axis` (N,)."""
+    """Which (R,) of `records` (R,) own rows of more than one axis; `owner` and `axis` (N,) are those of each row."""
     axes = np.unique(np.stack([owner, axis]), axis=1)[0]
     return np.isin(records, axes[1:][axes[1:] == axes[:-1]])
 

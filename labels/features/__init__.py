@@ -4,7 +4,7 @@
   by `mending`
 - `conditioning`: a signal's spectrum, raw and flattened; `envelopes`: envelope spectra of a tree of bands
 - `turning`: all of that over the angle turned, for speeds that change
-- `combs`: lines of another shaft's knocks, taken out
+- `combs`: lines of another shaft's knocks, taken out; `foreign_combs` and `race_combs` find them
 - `lines`: spectra read between their components; `known_lines`: those of shaft and mains, left out
 - `families`: evidence of lines with harmonics and sidebands; `kinematics`: where a bearing has them
 - `speed`: the shaft's speed refined; `analysis`: all of these of one record, computed once

@@ -8,13 +8,15 @@ from functools import cached_property
 import numpy as np
 
 from labels.band_tree import COMMON_BANDWIDTH
-from labels.features.combs import MOST_COMBS, foreign_combs, race_combs, without_combs
+from labels.features.combs import without_combs
 from labels.features.conditioning import Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, find_family
+from labels.features.foreign_combs import MOST_COMBS, foreign_combs
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.known_lines import mains_components, shaft_components, without_shaft
 from labels.features.lines import Lines, lines_in
+from labels.features.race_combs import race_combs
 from labels.features.speed import Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
 from physics.arrays import Array

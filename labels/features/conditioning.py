@@ -91,7 +91,8 @@ def sound_signal(signal: Array, rate: float) -> Array:
 
 
 def local_mean_power(power: Array, block: int) -> Array:
-    """Mean power (…, F) of the noise under lines, from medians over half-overlapping blocks, log-linear between them.
+    """Mean power (…, F) of the noise under the lines of spectra of that `power` (…, F), log-linear between the medians
+    of half-overlapping blocks of `block` components.
 
     The median of an exponential distribution is ln 2 times its mean.
     """
@@ -106,7 +107,8 @@ def local_mean_power(power: Array, block: int) -> Array:
 
 
 def over_floor(power: Array, block: int) -> Array:
-    """Power (B, F) over its local mean, from blocks of that many components; 0 in component 0, which is no line."""
+    """Power (B, F) of spectra over its local mean, taken from blocks of `block` components; 0 at 0 Hz, which is no
+    line."""
     floor = local_mean_power(power[:, 1:], block)
     excess = np.zeros_like(power)
     excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)

@@ -28,13 +28,14 @@ HANN_BINS = 1.5
 
 
 def evidence(ratio: Array, components: Array | float) -> Array:
-    """Log likelihood ratio, nats, of a mean excess `ratio` over that many `components`; 0 where it is not above 1."""
+    """Log likelihood ratio, nats, of a mean excess `ratio` (any shape) over that many `components`; 0 where the ratio
+    is 1 or less."""
     safe = np.maximum(ratio, 1.0)
     return np.asarray(components * (safe - 1.0 - np.log(safe)))
 
 
 def harmonic_evidence(lines: Lines, fundamentals: Array, shaft_hz: float, width: float, harmonics: int) -> Array:
-    """Evidence (H, B, N) of each harmonic of N `fundamentals` (Hz) at one of WIDTHS."""
+    """Evidence (H, B, N), nats, of harmonics 1 to H of the `fundamentals` (N,), Hz, in B bands, at one of WIDTHS."""
     order = np.arange(1.0, harmonics + 1.0)
     half = np.maximum(0.5 * order * width * shaft_hz, 0.75 * lines.step)
     components = np.maximum(2.0 * half / lines.step / HANN_BINS, 1.0)
@@ -42,7 +43,7 @@ def harmonic_evidence(lines: Lines, fundamentals: Array, shaft_hz: float, width:
 
 
 def tempered(nats: Array) -> Array:
-    """Evidence of single lines, those far above KNEE by their logarithm."""
+    """Evidence of single lines (any shape), nats, of which what exceeds KNEE counts by its logarithm."""
     return np.asarray(KNEE * np.log1p(nats / KNEE))
 
 
@@ -98,7 +99,8 @@ def _stronger(old: Family, new: Family) -> Family:
 
 
 def sideband_evidence(lines: Lines, fundamental: Array, spacing: float, shaft_hz: float) -> Array:
-    """Evidence (B,) of the first sidebands, `spacing` (Hz) apart from the first harmonics of one fundamental a band."""
+    """Evidence (B,), nats, of the sidebands `spacing` (Hz) beside the first harmonics of each band's own `fundamental`
+    (B,), Hz."""
     half = max(0.02 * shaft_hz, 0.75 * lines.step)
     components = max(2.0 * half / lines.step / HANN_BINS, 1.0)
     places = [k * fundamental + sign * spacing for k in range(1, SIDEBAND_CARRIERS + 1) for sign in (-1.0, 1.0)]

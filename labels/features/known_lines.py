@@ -24,12 +24,13 @@ WIDEST_MARGIN = 0.12
 
 
 def without_shaft(excess: Array, step: float, shaft_hz: float) -> Array:
-    """The spectra (B, F) with components near multiples of the shaft speed set to the floor, 1."""
+    """The spectra (B, F) over their floor, components `step` (Hz) apart, with those near multiples of the shaft speed
+    set to the floor, 1."""
     return np.where(shaft_components(excess.shape[-1], step, shaft_hz), 1.0, excess)
 
 
 def shaft_components(count: int, step: float, shaft_hz: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, count as the shaft's.
+    """Which (F,) of `count` components, `step` (Hz) apart from 0, count as the shaft's.
 
     None in a record of so few turns that the margin would cover a large part of the axis.
     """
@@ -45,13 +46,14 @@ def multiple_margin(step: float, shaft_hz: float) -> float:
 
 
 def near_multiples(count: int, step: float, rate: float, margin: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, lie within `margin` (Hz) of a multiple of `rate` (Hz)."""
+    """Which (F,) of `count` components, `step` (Hz) apart from 0, lie within `margin` (Hz) of a multiple of `rate`
+    (Hz)."""
     order = np.arange(count) * step / rate
     return np.asarray((np.abs(order - np.round(order)) * rate <= margin) & (order > 0.5))
 
 
 def mains_components(count: int, step: float) -> NDArray[np.bool_]:
-    """Which of `count` components, `step` (Hz) apart from 0, count as mains of 50 or 60 Hz: none if too far apart.
+    """Which (F,) of `count` components, `step` (Hz) apart from 0, count as mains of 50 or 60 Hz: none if too far apart.
 
     Motors and their supplies modulate at twice the mains frequency, often near a ball-pass frequency.
     """

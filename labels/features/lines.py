@@ -56,6 +56,6 @@ def _place(component: float, size: int) -> tuple[int, float]:
 
 
 def lines_in(excess: Array, step: float) -> Lines:
-    """Lines of spectra over their floor (B, F)."""
+    """Lines of spectra over their floor, `excess` (B, F), whose components lie `step` (Hz) apart."""
     zero = np.zeros((*excess.shape[:-1], 1))
     return Lines(np.concatenate([zero, np.cumsum(excess, axis=-1)], axis=-1), step)

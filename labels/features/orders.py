@@ -55,8 +55,8 @@ def measure(analysis: Analysis) -> dict[str, float]:
 
 
 def velocity_power(analysis: Analysis) -> Array:
-    """Power of the vibration as velocity at each component of its spectrum, up to what the shares need; 0 where sensors
-    drift."""
+    """Power (F,) of the vibration as velocity at each component of its spectrum, up to a constant factor and as far as
+    the shares need it; 0 where sensors drift."""
     # Shares are taken of what lies below these orders at most.
     highest = (VELOCITY_HARMONICS + 1.0) * max(analysis.given.bpfo, analysis.given.bpfi)
     count = int(max(highest, VIBRATION_ORDERS + 1.0) * analysis.given.shaft_hz / analysis.record.step) + 2
@@ -86,7 +86,8 @@ def _cepstrum(analysis: Analysis) -> Array:
 
 
 def rahmonics(analysis: Analysis, cepstrum: Array, frequency: float) -> float:
-    """ln(1 + mean of the largest values near the rahmonics over the scatter around them)."""
+    """Height of the `cepstrum` (Q,) at one and two periods of a `frequency` (Hz): ln(1 + mean of the largest values
+    near these rahmonics over the scatter around them)."""
     rate = analysis.record.step * cepstrum.size
     heights = []
     for k in range(1, RAHMONICS + 1):

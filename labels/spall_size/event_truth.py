@@ -30,10 +30,11 @@ class EventTruth:
 
 
 def event_truth(release: Array, regain: Array, fall: Array, rise: Array, latest: Array) -> EventTruth:
-    """Events of the passes (N,): first release and last regain, else first fall and last rise; NaN: there is none.
+    """The events of N passes from their times (N,), s, NaN where there is none: the first release and last regain of
+    contact, or else the first fall and last rise of the load.
 
-    A ball that carries no load behind the spall may hang free until it comes round to the load zone: a regain after
-    `latest` is no event of the spall, and its pass has none.
+    A ball that carries no load behind the spall may hang free until it comes round to the load zone, so a regain after
+    `latest` is no event of the spall, and that pass has none.
     """
     kept = ~np.isfinite(release)
     first, last = np.where(kept, fall, release), np.where(kept, rise, np.where(regain <= latest, regain, np.nan))

@@ -56,5 +56,5 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
 
 
 def predictability(signal: Array) -> float:
-    """Log of how much more low-passed than white the signal is: variance over that of its differences."""
+    """Log of the variance of a `signal` (T,) over that of its differences: the smoother the signal, the larger."""
     return math.log(float(np.var(signal)) / max(float(np.var(np.diff(signal))), 1e-300))

@@ -51,7 +51,7 @@ def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> Lea
 
 
 def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:
-    """Which `pairs` of different lags lead by `score` (P,), the best first."""
+    """Indices (L,) of the `pairs` of different lags that lead by `score` (P,), the best first."""
     lag, chosen = np.log(pairs.lag), list[int]()
     for pair in np.argsort(-score, kind="stable"):
         if np.all(np.abs(lag[pair] - lag[chosen]) > DISTINCT):

@@ -23,9 +23,10 @@ MARKED = 0.5
 
 
 def envelope_lag(signal: Array, rate: float, longest: float) -> float:
-    """Lag (s) of the first marked peak of the squared envelope's autocorrelation below `longest` (s); NaN if none.
+    """Lag (s) of the first marked peak of the autocorrelation of the squared envelope of a `signal` (T,) at `rate`
+    (Hz); NaN if there is none below `longest` (s).
 
-    Of the peaks that reach half the highest one's prominence, the first.
+    A peak is marked if it reaches half the prominence of the highest.
     """
     envelope = np.abs(hilbert(signal - np.mean(signal))) ** 2
     envelope -= envelope.mean()

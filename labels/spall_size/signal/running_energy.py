@@ -25,7 +25,7 @@ class RunningEnergy:
         self.grid = np.arange(self.running.shape[1])
 
     def level(self, start: Array, stop: Array) -> Array:
-        """Log mean energy (4, P), a row a Channel, between the offsets `start` and `stop` (P,)."""
+        """Log mean energy (4, P), a row per Channel, between the offsets `start` (P,) and `stop` (P,)."""
         shift = np.where(start < self.first, self.period, 0.0) - np.where(stop > self.last, self.period, 0.0)
         left, right = start + shift - self.first, stop + shift - self.first + 1.0
         width = np.maximum(right - left, LEAST_WIDTH)

@@ -18,7 +18,7 @@ from datagen.benchmark.impulse_signal import Ingredients
 from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
 from datagen.benchmark.reading_policy import Reading
-from datagen.benchmark.record_rows import RecordRows, equal_pieces, record_rows
+from datagen.benchmark.record_rows import RecordFacts, RecordRows, equal_pieces, record_rows
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import (
@@ -259,7 +259,7 @@ def test_how_many_records_are_read_is_told(workers, tiny_corpus, monkeypatch):
     monkeypatch.setattr("datagen.benchmark.corpus_rows.RECORDS_A_TASK", 5)
     counts = []
     found = read_rows(tiny_corpus, np.arange(14), Reading(), workers, lambda *pair: counts.append(pair))
-    assert sorted({*found.rows.record.tolist(), *found.rejected}) == list(range(14))
+    assert sorted(found.facts) == list(range(14))
     assert found.rows.axis.tolist() == [0, 1] * (len(found.rows) // 2)
     assert counts == [(0, 14), (5, 14), (10, 14), (14, 14)]
 
@@ -339,7 +339,7 @@ def test_long_records_are_cut_into_equal_windows_that_lose_nothing():
 def test_a_record_without_a_speed_is_rejected_with_its_reason(tiny_corpus):
     labels = Corpus(tiny_corpus).labels.iloc[0].copy()
     labels["speed_rpm"] = np.nan
-    assert record_rows(np.zeros((100, 2)), labels, Reading()) == RecordRows([], UNKNOWN_SPEED)
+    assert record_rows(np.zeros((100, 2)), labels, Reading()) == RecordRows([], RecordFacts(UNKNOWN_SPEED))
 
 
 def test_noise_is_added_at_the_level_asked_and_another_in_each_draw(tiny_corpus):
@@ -422,14 +422,18 @@ def test_the_race_is_scored_of_every_fault_whether_it_raised_the_alarm_or_not():
     )
     rule = replace(said, name="rule")
     truth = np.array(["outer", "outer", "inner", "outer", "none"])
-    nothing, blank = np.zeros(5, dtype=np.int64), np.full(5, "")
     labels = pandas.DataFrame({"record": range(5), "bearing_id": list("abcde")}).assign(
         snr_db=np.nan, speed_rpm=100.0, extent_mm=np.nan, extent_spacing=np.nan
     )
     tested = Judged(
-        Path("corpus"), labels, truth, np.full(5, "unknown"), blank, nothing, nothing, nothing, blank,
-        np.full(5, np.nan), (rule,), True,
-    )  # fmt: skip
+        folder=Path("corpus"),
+        labels=labels,
+        truth=truth,
+        classes=np.full(5, "unknown"),
+        facts=(RecordFacts(),) * 5,
+        verdicts=(rule,),
+        imported=True,
+    )
     scores = summarise(tested).models["rule"]
     assert scores.race_accuracy.value == 0.25  # right: the first of four faults; healthy records do not count
     assert scores.faults_balanced_accuracy.value == 0.0

@@ -69,7 +69,7 @@ def test_it_holds_the_very_rows_that_classify_judges(recordings):
     rows = table[table["reason"] == ""]
     assert np.array_equal(rows[NAMES].to_numpy(), judged.rows.table)
     assert rows["record"].tolist() == judged.rows.record.tolist()
-    assert dict(zip(table["record"], table["reason"], strict=False)) == {r: judged.rejected.get(r, "") for r in records}
+    assert dict(zip(table["record"], table["reason"], strict=False)) == {r: judged.facts[r].reason for r in records}
 
 
 @pytest.mark.usefixtures("short_records_are_judged")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.options import Learning
 from datagen.benchmark.rows import Rows, joined
 from datagen.benchmark.training import ROWS_TO_TRY, TrainingSet
 from datagen.benchmark.verdicts import vote
@@ -44,20 +45,20 @@ def test_axes_of_held_out_records_are_told_apart(monkeypatch):
         return vote(model, rows, records)
 
     monkeypatch.setattr("datagen.benchmark.learning.vote", said)
-    learning_curve(made_up(20), "logistic")
+    learning_curve(made_up(20), Learning("logistic"))
     assert heard
     assert all(axis.tolist() == [0, 1] * (axis.size // 2) for axis in heard)
 
 
 def test_points_are_of_different_shares_and_records_without_noise():
-    points = learning_curve(made_up(60), "logistic")["logistic"]
+    points = learning_curve(made_up(60), Learning("logistic"))["logistic"]
     assert [point["bearings"] for point in points] == [10, 11, 22, 45]
     # A shift of four standard deviations is hardly ever missed, and never seen in the noisy third of the rows.
     assert points[-1]["value"] > 0.8
 
 
 def test_few_bearings_leave_one_point_and_a_wide_interval():
-    (point,) = learning_curve(made_up(12), "logistic")["logistic"]
+    (point,) = learning_curve(made_up(12), Learning("logistic"))["logistic"]
     assert point["bearings"] == 9
     assert point["high"] - point["low"] > 0.2  # three bearings
 
@@ -65,7 +66,7 @@ def test_few_bearings_leave_one_point_and_a_wide_interval():
 def test_shares_that_cannot_be_learned_from_are_left_out():
     few = made_up(60)
     healthy = ~np.isin(few.bearings, ["b58", "b59"])
-    assert learning_curve(replace(few, classes=np.where(healthy, "healthy", few.classes)), "logistic") == {}
+    assert learning_curve(replace(few, classes=np.where(healthy, "healthy", few.classes)), Learning("logistic")) == {}
 
 
 def test_more_records_of_the_same_bearings_make_no_interval_narrower():
@@ -76,7 +77,7 @@ def test_more_records_of_the_same_bearings_make_no_interval_narrower():
         np.tile(one.classes, len(copies)),
         np.tile(one.bearings, len(copies)),
     )
-    once, often = (learning_curve(training, "logistic")["logistic"][-1] for training in (one, more))
+    once, often = (learning_curve(training, Learning("logistic"))["logistic"][-1] for training in (one, more))
     # Half as wide if records were drawn; what is learned from four copies differs a little.
     assert often["high"] - often["low"] > 0.8 * (once["high"] - once["low"]) > 0.04
 
@@ -100,7 +101,7 @@ def test_rows_in_noise_are_learned_from_and_not_judged():
     whole.rows.table[:, noise] = whole.rows.noisy
     Listens.learned.clear()
     Listens.asked.clear()
-    learning_curve(whole, "all", estimator=Listens())
+    learning_curve(whole, Learning(), estimator=Listens())
     assert [table[:, noise].mean() for table in Listens.learned] == pytest.approx([1 / 3] * 4)
     judged = [table for table in Listens.asked if len(table) > ROWS_TO_TRY]
     assert [len(table) for table in judged] == [15 * 2 * 2] * 4  # a quarter of the bearings

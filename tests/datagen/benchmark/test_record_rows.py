@@ -10,7 +10,7 @@ import pytest
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import TOO_SHORT
 from datagen.benchmark.reading_policy import Reading
-from datagen.benchmark.record_rows import RecordRows, record_rows, signal_rows
+from datagen.benchmark.record_rows import RecordFacts, RecordRows, record_rows, signal_rows
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -38,7 +38,7 @@ def shaking(size):
 @pytest.mark.parametrize("size", [16, 63, 1199])
 @pytest.mark.parametrize("reading", [Reading(), Reading(copies_db=(-18.0, 12.0)), Reading(noise_db=-10.0)])
 def test_a_record_of_few_samples_is_rejected_with_its_reason(size, reading):
-    assert record_rows(shaking(size), labels(), reading) == RecordRows([], TOO_SHORT)
+    assert record_rows(shaking(size), labels(), reading) == RecordRows([], RecordFacts(TOO_SHORT))
 
 
 @pytest.mark.parametrize("size", [64, 65, 97, 200, 499])
@@ -53,8 +53,10 @@ def test_a_window_without_signal_leaves_the_vote_to_the_others():
     signal = shaking(3000)
     signal[1000:2000] = signal[1000]
     found = record_rows(signal, labels(), Reading(window=1000 / RATE))
-    assert (len(found.rows), found.reason) == (2, "")
-    assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows([], DEAD)
+    assert (len(found.rows), found.facts.reason) == (2, "")
+    assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows(
+        [], RecordFacts(DEAD)
+    )
 
 
 @pytest.mark.parametrize(
@@ -67,7 +69,7 @@ def test_a_window_without_signal_leaves_the_vote_to_the_others():
 )
 def test_a_race_whose_ball_passes_fall_on_the_mains_is_told(speed_rpm, hidden):
     found = record_rows(shaking(int(4 * RATE)), labels(speed_rpm=speed_rpm), Reading())
-    assert found.in_mains == hidden
+    assert found.facts.in_mains == hidden
 
 
 def test_over_the_angle_of_a_changing_shaft_nothing_falls_on_the_mains():
@@ -75,7 +77,7 @@ def test_over_the_angle_of_a_changing_shaft_nothing_falls_on_the_mains():
     turning = Turning(2.0 * np.pi * (45.0 * time + 1.3 * time**2))
     found = record_rows(shaking(time.size), labels(speed_rpm=3010.0), Reading(), turning)
     assert found.rows
-    assert found.in_mains == ()
+    assert found.facts.in_mains == ()
 
 
 def test_rows_tell_the_axis_that_they_are_of():
@@ -101,7 +103,7 @@ def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatc
 def test_a_record_that_begins_in_silence_is_heard():
     signal = np.concatenate([np.zeros((5000, 1)), shaking(7000)])
     found = record_rows(signal, labels(), Reading())
-    assert (len(found.rows), found.reason) == (1, "")
+    assert (len(found.rows), found.facts.reason) == (1, "")
 
 
 def test_glitches_are_counted_and_make_no_record_impulsive():
@@ -109,7 +111,7 @@ def test_glitches_are_counted_and_make_no_record_impulsive():
     glitched = np.column_stack([signal[:, 0], signal[:, 0]])
     glitched[[5000, 15_000], 0], glitched[20_000, 1] = 20.0, -30.0
     clean, found = (record_rows(each, labels(), Reading()) for each in (signal, glitched))
-    assert (clean.glitches, found.glitches) == (0, 3)
+    assert (clean.facts.glitches, found.facts.glitches) == (0, 3)
     column = FEATURE_NAMES.index("kurtosis")
     for row in found.rows:
         # Two glitches of 20 deviations among 24 000 samples would raise it by 1.7, lines over them hardly move it.
@@ -120,7 +122,7 @@ def test_jumps_are_counted_and_change_no_feature_much():
     signal = shaking(24_000)[:, :1]
     jumped = signal + 8.0 * (np.arange(24_000) >= 10_000)[:, None]
     clean, found = (record_rows(each, labels(), Reading()) for each in (signal, jumped))
-    assert (clean.jumps, found.jumps) == (0, 1)
+    assert (clean.facts.jumps, found.facts.jumps) == (0, 1)
     assert found.rows[0].values == pytest.approx(clean.rows[0].values, abs=0.2)
 
 
@@ -131,7 +133,7 @@ def test_a_shock_is_counted_and_hides_no_modulation():
     since = np.maximum(time - 0.75, 0.0)
     shocked = signal + 300.0 * signal.std() * np.exp(-400.0 * since) * np.sin(2.0 * np.pi * 2500.0 * since)
     clean, found = (record_rows(each[:, None], labels(), Reading()) for each in (signal, shocked))
-    assert (clean.shocks, found.shocks) == (0, 1)
+    assert (clean.facts.shocks, found.facts.shocks) == (0, 1)
     column = FEATURE_NAMES.index("outer_strength")
     assert found.rows[0].values[column] == pytest.approx(clean.rows[0].values[column], abs=0.2)
 
@@ -213,12 +215,12 @@ def test_the_windows_of_corpora_have_the_lowest_rate_of_all(monkeypatch):
 def test_what_comes_oftener_than_once_a_turn_is_no_glitch(glitches, drawn_over):
     signal = shaking(24_000)  # two seconds, 60 turns
     signal[150 + 290 * np.arange(glitches)] = 30.0
-    assert record_rows(signal, labels(), Reading()).glitches == drawn_over
+    assert record_rows(signal, labels(), Reading()).facts.glitches == drawn_over
 
 
 def test_the_speed_that_was_found_is_told_and_not_the_nominal_one():
     time = np.arange(48_000) / RATE
     signal = shaking(48_000)[:, 0] + sum(np.sin(2.0 * np.pi * 29.1 * k * time) for k in (1, 2, 3))
     found = record_rows(signal[:, None], labels(speed_basis="nominal"), Reading(copies_db=(-18.0, 12.0)))
-    assert found.found_rpm == pytest.approx(60.0 * 29.1, rel=1e-3)
-    assert math.isnan(RecordRows([], "too short").found_rpm)
+    assert found.facts.found_rpm == pytest.approx(60.0 * 29.1, rel=1e-3)
+    assert record_rows(shaking(16), labels(), Reading()).facts.found_rpm is None

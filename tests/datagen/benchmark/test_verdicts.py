@@ -10,6 +10,7 @@ from scipy.stats import binomtest
 
 from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.predictions import ModelAnswer, Prediction, prediction_table, record_predictions
+from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.results import CorpusResults
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
@@ -92,9 +93,9 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
 
 def test_pooled_draws_keep_what_each_draw_says_of_every_record():
     one = judged(["none", "outer"], np.array([[0.9, 0.1, 0, 0, 0], [0.2, 0.8, 0, 0, 0]]))
-    other = replace(one, in_mains=np.array(["inner", "outer"]), glitches=np.array([3, 0]))
+    other = replace(one, facts=(RecordFacts(in_mains=("inner",), glitches=3), RecordFacts(in_mains=("outer",))))
     pooled, draws = pooled_draws([one, other]), (one, other)
-    for name in ("truth", "classes", "reasons", "jumps", "glitches", "shocks", "in_mains"):
+    for name in ("truth", "classes", "facts"):
         assert list(getattr(pooled, name)) == [value for draw in draws for value in getattr(draw, name)], name
     for said, of_draws in zip(pooled.verdicts, zip(*(draw.verdicts for draw in draws), strict=True), strict=True):
         assert said.name == of_draws[0].name
@@ -143,12 +144,11 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     labels, rows = corpus(["outer", "none", "inner"])
     rows = CorpusRows(
         rows.rows[:2],
-        rejected={2: "too short"},
-        jumps={2: 1},
-        glitches={1: 4},
-        shocks={1: 2},
-        in_mains={0: ("outer",)},
-        found_rpm={0: 1798.51234},
+        {
+            0: RecordFacts(in_mains=("outer",), found_rpm=1798.51234),
+            1: RecordFacts(glitches=4, shocks=2),
+            2: RecordFacts("too short", jumps=1),
+        },
     )
     models = [Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)]
     tested = judge(Path("made-up"), labels, rows, RULE, models, 0.0, True)
@@ -182,7 +182,7 @@ def with_unjudged_records():
     labels, rows = corpus(kinds.tolist())
     table = np.zeros((18, len(FEATURE_NAMES)))
     table[6:12, FEATURE_NAMES.index("outer_strength")] = table[12:, FEATURE_NAMES.index("inner_strength")] = 2.0
-    rejected = dict.fromkeys(np.flatnonzero(~looked_at).tolist(), "too short")
+    rejected = dict.fromkeys(np.flatnonzero(~looked_at).tolist(), RecordFacts("too short"))
     rows = CorpusRows(rows_of(table, np.flatnonzero(looked_at)), rejected)
     healthy, outer, inner = [0.8, 0.1, 0.1, 0.0, 0.0], [0.2, 0.8, 0.0, 0.0, 0.0], [0.2, 0.0, 0.8, 0.0, 0.0]
     models = [Model("said", Said([healthy] * 6 + [outer] * 6 + [inner] * 6), 0.5)]
@@ -217,7 +217,7 @@ def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_
 
 def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     labels, rows = corpus(["none", "outer", "inner"])
-    rows = CorpusRows(rows.rows[:0], dict.fromkeys(range(3), "too short"))
+    rows = CorpusRows(rows.rows[:0], dict.fromkeys(range(3), RecordFacts("too short")))
     tested = judge(Path("made-up"), labels, rows, RULE, [Model("said", Said([]), 0.5)], 0.0, True)
     said = summarise(tested).models["said"]
     assert said.race_accuracy.value == 0.0

@@ -13,12 +13,13 @@ import pytest
 
 from datagen.corpus_files.format import Identity, to_dataset
 from datagen.corpus_files.index import LABEL_COLUMNS, index_path, read_index, write_index
-from datagen.corpus_files.shard import Failure, finished_shards, write_shard
+from datagen.corpus_files.shard import Failure, Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.records.record import Record
 from labels.schema import LABELS
 
 Maker = Callable[..., Record]
+IDENTITY = Identity("r", "m", "f", "p")
 
 
 @pytest.fixture
@@ -26,7 +27,7 @@ def folder(tmp_path: Path, make_plain_record: Maker) -> Path:
     (tmp_path / "shards").mkdir()
     for shard, indices in enumerate([(0, 3, 6), (1, 2, 8), (4, 5), (7,)]):
         records = [make_plain_record(index, healthy=index == 3) for index in indices]
-        write_shard(tmp_path, shard, Identity("r", "m", "f", "p"), to_dataset(records, {}), (), "zlib", 1.0)
+        write_shard(tmp_path, Sidecar(shard, IDENTITY), to_dataset(records, {}), "zlib")
     assert write_index(tmp_path, finished_shards(tmp_path)) == 9
     return tmp_path
 
@@ -46,7 +47,7 @@ def test_rows_keep_the_order_of_the_records_where_the_first_ones_of_a_shard_fail
     lost = {0: (Failure(0, "lost"),), 1: (Failure(1, "lost"), Failure(3, "lost")), 2: ()}
     for shard, indices in enumerate([(6, 9), (8,), (2, 4)]):
         dataset = to_dataset([make_plain_record(index) for index in indices], {})
-        write_shard(tmp_path, shard, Identity("r", "m", "f", "p"), dataset, lost[shard], "zlib", 1.0)
+        write_shard(tmp_path, Sidecar(shard, IDENTITY, failed=lost[shard]), dataset, "zlib")
     write_index(tmp_path, finished_shards(tmp_path))
     assert list(pandas.read_csv(index_path(tmp_path))["record"]) == [2, 4, 6, 8, 9]
 
@@ -76,7 +77,7 @@ def test_every_digit_of_a_number_survives_the_index(tmp_path: Path, make_plain_r
     for record in records:
         record.labels["extent_mm"] = float(np.exp(generator.normal(0.0, 20.0)))
     (tmp_path / "shards").mkdir()
-    write_shard(tmp_path, 0, Identity("r", "m", "f", "p"), to_dataset(records, {}), (), "zlib", 1.0)
+    write_shard(tmp_path, Sidecar(0, IDENTITY), to_dataset(records, {}), "zlib")
     write_index(tmp_path, finished_shards(tmp_path))
     assert list(read_index(tmp_path)["extent_mm"]) == [record.labels["extent_mm"] for record in records]
 

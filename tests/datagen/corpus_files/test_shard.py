@@ -28,7 +28,7 @@ Maker = Callable[..., Record]
 def write(folder: Path, records: list[Record], shard: int = 0, failed: tuple[Failure, ...] = ()) -> Sidecar:
     (folder / "shards").mkdir(exist_ok=True)
     dataset = to_dataset(records, {}) if records else None
-    return write_shard(folder, shard, IDENTITY, dataset, failed, "zlib", 1.5)
+    return write_shard(folder, Sidecar(shard, IDENTITY, failed=failed, seconds=1.5), dataset, "zlib")
 
 
 def test_a_sidecar_reads_back_as_it_was_written_and_vouches_for_its_file(

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
-from labels.features.combs import foreign_combs, race_combs, without_combs
+from labels.features.combs import without_combs
 from labels.features.families import find_family
+from labels.features.foreign_combs import foreign_combs
 from labels.features.kinematics import bearing_kinematics
+from labels.features.race_combs import race_combs
 
 STEP, SHAFT, COUNT = 0.1, 30.0, 8000
 BEARING = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, SHAFT)

@@ -32,10 +32,10 @@ class DepthPath:
     Between neighbouring `breaks` (P + 1,) the path is smooth: `cells` (P,) equal cells, each a cubic in the position
     within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
 
-    `deepest` (rad): the arc at which the drop is largest, the middle of all if there are several; `largest_depth` (m):
-    the drop there; `bridged`: the ball rests on both edges before it reaches the floor; `rough`: it goes up and down
-    all along. `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 … mean cells; zero where there
-    is none.
+    `deepest` (rad): the arc at which the drop is largest, the middle of a flat floor, of several the widest or else the
+    first; `largest_depth` (m): the drop there; `bridged`: the ball rests on both edges before it reaches the floor;
+    `rough`: it goes up and down all along. `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 …
+    mean cells; zero where there is none.
     """
 
     breaks: Array
@@ -179,17 +179,24 @@ def hermite_path(
 
 
 def _deepest(nodes: Array, values: Array, left: Array, width: Array, cubics: Array) -> tuple[float, float]:
-    """Arc (rad) and size (m) of the largest drop: of the `values` (M,) at `nodes` (M,), or inside one of the `cubics`
-    (N, 4) over cells from `left` (N,), `width` (N,) wide."""
+    """Arc (rad) and size (m) of the largest drop, the middle of a floor as deep.
+
+    Of the `values` (M,) at `nodes` (M,), or inside one of the `cubics` (N, 4) over cells from `left` (N,), `width` (N,)
+    wide.
+    """
     cube, square, linear = cubics[:, 0], cubics[:, 1], cubics[:, 2]
     turning = np.flatnonzero((linear > 0.0) & (3.0 * cube + 2.0 * square + linear < 0.0))
     c3, c2, c1 = cube[turning], square[turning], linear[turning]
     x = c1 / (np.sqrt(c2**2 - 3.0 * c3 * c1) - c2)
     inside = ((c3 * x + c2) * x + c1) * x + cubics[turning, 3]
     largest = max(float(values.max()), float(inside.max(initial=-math.inf)))
-    near = largest - min(LEVEL, 1e-3 * largest)
-    floor = np.concatenate([nodes[values >= near], (left[turning] + x * width[turning])[inside >= near]])
-    return float(0.5 * (floor.min() + floor.max())), largest
+    arcs = np.concatenate([nodes, left[turning] + x * width[turning]])
+    order = np.argsort(arcs, kind="stable")
+    deep = np.concatenate([values, inside])[order] >= largest - min(LEVEL, 1e-3 * largest)
+    turns = np.flatnonzero(np.diff(deep, prepend=False, append=False))
+    begin, end = arcs[order[turns[0::2]]], arcs[order[turns[1::2] - 1]]
+    widest = int(np.argmax(end - begin))
+    return float(0.5 * (begin[widest] + end[widest])), largest
 
 
 def _relief(path: DepthPath) -> Array:

@@ -14,6 +14,8 @@ ROUNDING = 1e-15
 # How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
 # ends says that the ball touches.
 HALVINGS, CUTS = 3, 3
+# To the last digit of an angle.
+AWAY_HALVINGS = 60
 # Share of its radius by which a ball may touch beside its centre.
 FARTHEST = 1.0 - 1e-12
 
@@ -74,6 +76,16 @@ class Ball(NamedTuple):
         _, lever, hanging = self._lever(depth, away)
         sinking = np.cos(away) - self.turn * np.sin(away) * lever / hanging
         return steepness * sinking - self.slope(depth, away)
+
+    def away_on(self, depth: Array, steepness: Array) -> Array:
+        """How far ahead (N,), rad, it touches a surface at `depth` (N,), m, that is so steep (N,), m/rad, there."""
+        least = np.full(depth.shape, -math.asin(min(1.0, self.ball_radius / self.race_radius)))
+        most = -least
+        for _ in range(AWAY_HALVINGS):
+            middle = 0.5 * (least + most)
+            ahead = self.gain(depth, steepness, middle) < 0.0
+            least, most = np.where(ahead, middle, least), np.where(ahead, most, middle)
+        return 0.5 * (least + most)
 
     def on(self, surface: Surface, place: Array, arc: Array) -> Held:
         """The ball at the arcs (N,), rad, that touches the surface at the places (N,), rad."""

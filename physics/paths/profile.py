@@ -189,7 +189,11 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     first, last = (lips[0], lips[-1]) if measured else (-spall.extent / 2.0, spall.extent / 2.0)
     step = max(ROLLED_STEP / race_radius, (last - first) / MOST_STEPS)
     rolled = roll(surface, (first, last), spall.race, race_radius, ball_radius, step, lips)
-    path, smooth = rolled.path, smooth_branches(rolled, None if measured or rough else floor_ends(spall))
+    rough = rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS
+    path = rolled.path
+    smooth = smooth_branches(
+        rolled, None if measured or rough else floor_ends(spall), lips if measured and not rough else None
+    )
     width = CELL_STEPS * (path.arc[-1] - path.arc[0]) / (path.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
     cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)
@@ -201,7 +205,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         bridged=not reaches_floor(spall, path.arc, surface(path.arc) - path.drop),
         # One lip is enough for a free ball to touch it within a step.
         bumps=rough or measured,
-        rough=rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS,
+        rough=rough,
     )
 
 

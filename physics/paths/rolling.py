@@ -33,6 +33,8 @@ BLOCKED = 4
 HIGHER = 1e-11
 # How often cells are halved in which the contact leaps, as it does in hollows as well.
 HOLLOW_HALVINGS = 6
+# A contact so near to a lip (steps) is on it.
+ON_LIP = 1e-3
 # What is left of a height (m) when a ball is held between points of a surface.
 ROUNDED = 1e-13
 # Bumps beside such bumps are looked for again; in 480 records of `corpus` four rounds found the last.
@@ -131,18 +133,50 @@ def roll(
     return Rolled(path, ball, inside, points, depth)
 
 
-def smooth_branches(rolled: Rolled, joints: Array | None = None) -> Branches:
+def smooth_branches(rolled: Rolled, joints: Array | None = None, lips: Array | None = None) -> Branches:
     """The smooth branches of the path, those of bumps that hold the ball over less than a step among them.
 
     Of a surface without bumps the `joints` (J,), rad, are to be given: places without slope at which it begins or
     ceases to bend. Where the ball rolls over them the path's curvature jumps, which no cubic over both sides follows,
-    so branches end there as well.
+    so branches end there as well. So they do where the ball begins and ceases to hang on one of the `lips` (L,), rad,
+    of a surface that is straight between them, which may be given instead.
     """
-    if joints is None:
-        return branches(_with_narrow_bumps(rolled, rolled.path))
-    path, edges = _with_joints(_with_narrow_bumps(rolled, _with_hollows(rolled)), rolled, joints)
+    edges = np.zeros(0)
+    if joints is not None:
+        path, edges = _with_joints(_with_narrow_bumps(rolled, _with_hollows(rolled)), rolled, joints)
+    else:
+        path = _with_narrow_bumps(rolled, rolled.path)
+    if lips is not None:
+        path, edges = _with_lip_ends(path, rolled, lips)
     found = branches(path)
-    return found._replace(edges=np.unique(np.concatenate([found.edges, edges])))
+    edges = np.unique(np.concatenate([found.edges, edges]))
+    apart = np.diff(edges, prepend=-math.inf) > NEAREST * rolled.pace
+    apart[-1] = True
+    return found._replace(edges=edges[apart])
+
+
+def _with_lip_ends(path: RolledPath, rolled: Rolled, lips: Array) -> tuple[RolledPath, Array]:
+    """The path with a node wherever the ball begins or ceases to hang on one of the `lips` (L,), rad, as it begins or
+    ceases to touch the straight surface beside it; and the arcs (E,), rad, of these nodes."""
+    depth = rolled.surface(lips)
+    steepness = np.diff(depth) / np.diff(lips)
+    # The face behind each lip but the last, and that before each but the first.
+    lip = np.concatenate([np.arange(lips.size - 1), np.arange(1, lips.size)])
+    arc = lips[lip] - rolled.ball.away_on(depth[lip], np.tile(steepness, 2))
+    order = np.argsort(arc)
+    order = order[(arc[order] > path.arc[0]) & (arc[order] < path.arc[-1])]
+    lip, arc = lip[order], arc[order]
+    cells = np.searchsorted(path.arc, arc, side="right") - 1
+    own = (lips[lip] - path.arc[0]) / rolled.pace
+    beside = np.minimum(np.abs(path.contact[cells] - own), np.abs(path.contact[cells + 1] - own))
+    held = beside < ON_LIP
+    cells, arc, lip = cells[held], arc[held], lip[held]
+    share = (arc - path.arc[cells]) / (path.arc[cells + 1] - path.arc[cells])
+    new = (share > NEAREST) & (share < 1.0 - NEAREST)
+    edges = np.where(new, arc, path.arc[cells + np.rint(share).astype(np.int64)])
+    place, depth = lips[lip[new]], depth[lip[new]]
+    hung = Held(place, depth, rolled.ball.drop(depth, place - arc[new]))
+    return _with_nodes(path, rolled, cells[new], arc[new], hung), edges
 
 
 def _with_hollows(rolled: Rolled) -> RolledPath:

@@ -161,6 +161,20 @@ def test_the_knots_reach_two_steps_beyond_both_ends():
     assert path.knot_times[-1] >= 1.0 + 2 * path.knot_step * (1 - 1e-9)
 
 
+def test_a_path_that_goes_on_keeps_what_it_was_and_the_speed_of_its_last_knot():
+    path = drawn_path(3, start_angle=0.4)
+    longer, last = path.going_on(5 * BALL_PASS), path.knot_times[-1]
+    within = np.linspace(0.0, last, 500)
+    np.testing.assert_allclose(longer.angle(within), path.angle(within), rtol=1e-14)
+    beyond = last + np.linspace(0.0, 4 * BALL_PASS, 50)
+    speed = SPEED * (1.0 + path.knot_values[-1])
+    np.testing.assert_allclose(longer.angle(beyond), path.angle(last) + speed * (beyond - last), rtol=1e-13)
+    np.testing.assert_allclose(longer.crossing_times(longer.angle(beyond[:25])), beyond[:25], rtol=1e-12)
+    even = CagePath(SPEED, 1.0, 0.4).going_on(0.5)
+    assert even.duration == 1.5
+    assert even.angle(np.array([1.5])) == pytest.approx(0.4 + 1.5 * SPEED)
+
+
 @pytest.mark.parametrize("correlation", [0.1, math.exp(-0.25), 0.95])
 def test_the_knot_scale_makes_up_for_the_spline(correlation):
     rng = np.random.default_rng(1)

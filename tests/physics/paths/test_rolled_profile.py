@@ -236,3 +236,22 @@ def test_the_deepest_place_of_a_flat_floor_is_its_middle(gearbox, race, depth, e
     assert path.deepest == pytest.approx(0.5 * (reached[0] + reached[-1]), abs=2e-5)  # the arc of 0.5 um
     assert reached[-1] - reached[0] > 0.02
     assert path.largest_depth == pytest.approx(depth, abs=1e-12)
+
+
+@RACES
+def test_the_path_of_a_table_has_a_break_where_the_ball_begins_to_hang_on_a_lip(gearbox, race):
+    angle, depth = np.array([-0.02, -0.01, -0.005, 0.006, 0.011, 0.02]), np.array([0.0, 0.0, 25e-6, 25e-6, 0.0, 0.0])
+    path = build_path(table(race, angle, depth, 0.04), gearbox.bearing)
+    lip = -0.01 if race == "outer" else -0.011
+    assert np.abs(path.breaks - lip).min() < 1e-12
+    away = np.linspace(0.0, 4e-4, 1001)  # two cells: a parabola begins there, and no cubic may bridge its beginning
+    exact = hanging(race, gearbox.bearing.raceway_radius(race), gearbox.bearing.ball_radius, away)
+    np.testing.assert_allclose(path.depth(lip + away), exact, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(path.depth(lip - away), 0.0, rtol=0, atol=1e-14)
+
+
+@RACES
+def test_the_deepest_place_of_two_pits_is_in_one_of_them(gearbox, race):
+    angle, depth = [-0.03, -0.02, -0.01, 0.01, 0.02, 0.03], [0.0, 3e-6, 0.0, 0.0, 3e-6, 0.0]
+    path = build_path(table(race, angle, depth, 0.06), gearbox.bearing)
+    assert path.depth(np.array([path.deepest])) == pytest.approx(path.largest_depth, rel=1e-9)

@@ -84,15 +84,15 @@ class ImpulseSettings(Table):
     per_second: Annotated[Distribution, Between(0.0, MOST_PER_SECOND)]
     """Knocks a second on average."""
     amplitude_m_s2: Acceleration
-    """Median height of a knock, m/s²."""
+    """Median height of a knock, m/s²: what it would rise to if it did not decay, the sum over its resonances."""
     spread: Annotated[Distribution, Between(0.0, 5.0)] = Fixed(0.5)
     """Standard deviation of the natural logarithm of the height."""
     resonances: Annotated[Distribution, Whole(1, 20)] = Fixed(2)
     """Number of resonances."""
     frequency_hz: Frequency
-    """Natural frequency of each, Hz, below half the sampling rate."""
+    """Frequency at which each rings, Hz, below half the sampling rate."""
     damping: Annotated[Distribution, Between(0.0, 0.7, above=True)] = Uniform(0.01, 0.05)
-    """Damping of each, as a share of the critical."""
+    """Damping of each: it decays as exp(−2π · damping · frequency · time)."""
 
 
 class BackgroundSettings(Table):

@@ -23,7 +23,7 @@ MOST_PER_SECOND = 10_000.0
 
 @dataclass(frozen=True)
 class Resonance:
-    """A resonance of the machine: `frequency` (Hz) at which it rings and `damping` (share of critical).
+    """A resonance of the machine: `frequency` (Hz) at which it rings and `damping`, nearly its share of the critical.
 
     InvalidParameter unless the frequency is above 0 and the damping above 0, 0.7 at most.
     """

@@ -191,9 +191,12 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     rolled = roll(surface, (first, last), spall.race, race_radius, ball_radius, step, lips)
     rough = rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS
     path = rolled.path
-    smooth = smooth_branches(
-        rolled, None if measured or rough else floor_ends(spall), lips if measured and not rough else None
-    )
+    if rough:
+        smooth = smooth_branches(rolled)
+    elif measured:
+        smooth = smooth_branches(rolled, lips=(lips, surface(lips)))
+    else:
+        smooth = smooth_branches(rolled, joints=floor_ends(spall))
     width = CELL_STEPS * (path.arc[-1] - path.arc[0]) / (path.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
     cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)

@@ -133,13 +133,13 @@ def roll(
     return Rolled(path, ball, inside, points, depth)
 
 
-def smooth_branches(rolled: Rolled, joints: Array | None = None, lips: Array | None = None) -> Branches:
+def smooth_branches(rolled: Rolled, joints: Array | None = None, lips: tuple[Array, Array] | None = None) -> Branches:
     """The smooth branches of the path, those of bumps that hold the ball over less than a step among them.
 
     Of a surface without bumps the `joints` (J,), rad, are to be given: places without slope at which it begins or
     ceases to bend. Where the ball rolls over them the path's curvature jumps, which no cubic over both sides follows,
-    so branches end there as well. So they do where the ball begins and ceases to hang on one of the `lips` (L,), rad,
-    of a surface that is straight between them, which may be given instead.
+    so branches end there as well. So they do where the ball begins and ceases to hang on one of the `lips` of a surface
+    that is straight between them, which may be given instead: their arcs (L,), rad, and depths (L,), m.
     """
     edges = np.zeros(0)
     if joints is not None:
@@ -147,7 +147,7 @@ def smooth_branches(rolled: Rolled, joints: Array | None = None, lips: Array | N
     else:
         path = _with_narrow_bumps(rolled, rolled.path)
     if lips is not None:
-        path, edges = _with_lip_ends(path, rolled, lips)
+        path, edges = _with_lip_ends(path, rolled, *lips)
     found = branches(path)
     edges = np.unique(np.concatenate([found.edges, edges]))
     apart = np.diff(edges, prepend=-math.inf) > NEAREST * rolled.pace
@@ -155,21 +155,24 @@ def smooth_branches(rolled: Rolled, joints: Array | None = None, lips: Array | N
     return found._replace(edges=edges[apart])
 
 
-def _with_lip_ends(path: RolledPath, rolled: Rolled, lips: Array) -> tuple[RolledPath, Array]:
-    """The path with a node wherever the ball begins or ceases to hang on one of the `lips` (L,), rad, as it begins or
-    ceases to touch the straight surface beside it; and the arcs (E,), rad, of these nodes."""
-    depth = rolled.surface(lips)
+def _with_lip_ends(path: RolledPath, rolled: Rolled, lips: Array, depth: Array) -> tuple[RolledPath, Array]:
+    """The path with a node wherever the ball begins or ceases to hang on one of the `lips` (L,), rad, at `depth` (L,),
+    m, as it begins or ceases to touch the straight surface beside it; and the arcs (E,), rad, of these nodes."""
     steepness = np.diff(depth) / np.diff(lips)
     # The face behind each lip but the last, and that before each but the first.
     lip = np.concatenate([np.arange(lips.size - 1), np.arange(1, lips.size)])
     arc = lips[lip] - rolled.ball.away_on(depth[lip], np.tile(steepness, 2))
+    # At a wall down from the race the ball hangs on the race's own edge, and leaps from there.
+    at_wall = np.isin(lip, (0, lips.size - 1)) & (depth[lip] > 0.0)
     order = np.argsort(arc)
-    order = order[(arc[order] > path.arc[0]) & (arc[order] < path.arc[-1])]
+    order = order[(arc[order] > path.arc[0]) & (arc[order] < path.arc[-1]) & ~at_wall[order]]
     lip, arc = lip[order], arc[order]
     cells = np.searchsorted(path.arc, arc, side="right") - 1
     own = (lips[lip] - path.arc[0]) / rolled.pace
     beside = np.minimum(np.abs(path.contact[cells] - own), np.abs(path.contact[cells + 1] - own))
-    held = beside < ON_LIP
+    # Where the contact leaps, the ball may have left the lip for another one before it came to the face.
+    leaps = np.abs(path.contact[cells + 1] - path.contact[cells]) > LEAP
+    held = (beside < ON_LIP) & ~leaps
     cells, arc, lip = cells[held], arc[held], lip[held]
     share = (arc - path.arc[cells]) / (path.arc[cells + 1] - path.arc[cells])
     new = (share > NEAREST) & (share < 1.0 - NEAREST)

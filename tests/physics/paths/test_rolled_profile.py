@@ -255,3 +255,22 @@ def test_the_deepest_place_of_two_pits_is_in_one_of_them(gearbox, race):
     angle, depth = [-0.03, -0.02, -0.01, 0.01, 0.02, 0.03], [0.0, 3e-6, 0.0, 0.0, 3e-6, 0.0]
     path = build_path(table(race, angle, depth, 0.06), gearbox.bearing)
     assert path.depth(np.array([path.deepest])) == pytest.approx(path.largest_depth, rel=1e-9)
+
+
+@RACES
+def test_a_ball_over_a_table_rests_on_what_lifts_it_most_of_all_its_points(gearbox, race):
+    """Walls at both ends, one of them proud, and faces that the ball rolls over: every point of it tried."""
+    angle = np.array([-0.034, -0.02, -0.008, 0.004, 0.02, 0.034])
+    spall = table(race, angle, np.array([2e-6, 0.5e-6, 6e-6, 4e-6, 1e-6, -1.4e-6]), 0.068)
+    path, radius, ball = build_path(spall, gearbox.bearing), gearbox.bearing.raceway_radius(race), 3.56e-3
+    turn = -1.0 if race == "outer" else 1.0
+    knots, depth = np.sort(-turn * angle), np.array(spall.table_depth)[:: int(-turn)]
+    beyond = [np.nextafter(knots[0], -1.0), np.nextafter(knots[-1], 1.0)]
+    place = np.sort(np.concatenate([np.linspace(-0.1, 0.1, 2_000_001), knots, beyond]))
+    surface = np.interp(place, knots, depth, left=0.0, right=0.0)
+    for arc in np.linspace(-0.036, 0.036, 37):
+        below = np.abs(place - arc) < 0.02
+        level = radius - turn * surface[below]
+        lever = level * np.sin(place[below] - arc)
+        drop = turn * (radius - level * np.cos(place[below] - arc)) + ball - np.sqrt(ball**2 - lever**2)
+        assert float(path.depth(np.array([arc]))[0]) == pytest.approx(drop.min(), abs=2e-11)

@@ -74,7 +74,8 @@ class Trace:
     `state` (T, 12): displacements (xi, yi, xo, yo, xr, yr) in m, then velocities in m/s, or None if not asked for;
     `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for;
     `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring
-    along x and y, at `outer_rate` (Hz), a whole multiple of `rate`, or None if not asked for.
+    along x and y, at `outer_rate` (Hz), a whole multiple of `rate`, or None if not asked for. Where the multiple is
+    above 1 they go on behind the last sample, for as long as the low-pass to `rate` looks ahead, 24 samples of it.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS, of fixed steps by how far a
     response at half the step is apart; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.

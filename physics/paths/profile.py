@@ -13,7 +13,8 @@ from physics.bearing import Bearing
 from physics.imperfections import Waviness
 from physics.paths.corners import Branches
 from physics.paths.depth_path import Curve, DepthPath, hermite_path
-from physics.paths.rolling import deep_gap_drop, hanging_reach, roll, smooth_branches
+from physics.paths.path_nodes import bumpy_branches, gap_branches, table_branches
+from physics.paths.rolling import deep_gap_drop, hanging_reach, roll
 from physics.paths.spall_surface import (
     floor_ends,
     gap_surface,
@@ -192,11 +193,11 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     rough = rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS
     path = rolled.path
     if rough:
-        smooth = smooth_branches(rolled)
+        smooth = bumpy_branches(rolled)
     elif measured:
-        smooth = smooth_branches(rolled, lips=(lips, surface(lips)))
+        smooth = table_branches(rolled, lips, surface(lips))
     else:
-        smooth = smooth_branches(rolled, joints=floor_ends(spall))
+        smooth = gap_branches(rolled, floor_ends(spall))
     width = CELL_STEPS * (path.arc[-1] - path.arc[0]) / (path.arc.size - 1)
     # Rounding must not make a cell of what is left of a whole number of them.
     cells = np.maximum(1, np.ceil(np.diff(smooth.edges) / width - 1e-6)).astype(np.int64)

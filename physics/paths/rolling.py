@@ -10,13 +10,12 @@ import numpy as np
 
 from physics._jit import njit, njit_inline, njit_lean
 from physics.arrays import Array, Index
-from physics.paths.corners import LEAP, NEAREST, Branches, RolledPath, branches, corners_of
+from physics.paths.corners import LEAP, RolledPath
 from physics.paths.held_ball import (
     ROUNDING,
     Ball,
     Held,
     Surface,
-    between_points,
     hold_as_neighbours,
     hold_between_points,
     hold_on_lips,
@@ -29,16 +28,6 @@ FEWEST_STEPS = 512
 POINTS_A_STEP = 4
 # Points of the surface that are passed over together, for each one of the path's.
 BLOCKED = 4
-# A bump between both that meet in a corner holds the ball if it does so by more than this (m) higher than they.
-HIGHER = 1e-11
-# How often cells are halved in which the contact leaps, as it does in hollows as well.
-HOLLOW_HALVINGS = 6
-# A contact so near to a lip (steps) is on it.
-ON_LIP = 1e-3
-# What is left of a height (m) when a ball is held between points of a surface.
-ROUNDED = 1e-13
-# Bumps beside such bumps are looked for again; in 480 records of `corpus` four rounds found the last.
-MOST_ROUNDS = 32
 
 
 class Rolled(NamedTuple):
@@ -133,125 +122,6 @@ def roll(
     return Rolled(path, ball, inside, points, depth)
 
 
-def smooth_branches(rolled: Rolled, joints: Array | None = None, lips: tuple[Array, Array] | None = None) -> Branches:
-    """The smooth branches of the path, those of bumps that hold the ball over less than a step among them.
-
-    Of a surface without bumps the `joints` (J,), rad, are to be given: places without slope at which it begins or
-    ceases to bend. Where the ball rolls over them the path's curvature jumps, which no cubic over both sides follows,
-    so branches end there as well. So they do where the ball begins and ceases to hang on one of the `lips` of a surface
-    that is straight between them, which may be given instead: their arcs (L,), rad, and depths (L,), m.
-    """
-    edges = np.zeros(0)
-    if joints is not None:
-        path, edges = _with_joints(_with_narrow_bumps(rolled, _with_hollows(rolled)), rolled, joints)
-    else:
-        path = _with_narrow_bumps(rolled, rolled.path)
-    if lips is not None:
-        path, edges = _with_lip_ends(path, rolled, *lips)
-    found = branches(path)
-    edges = np.unique(np.concatenate([found.edges, edges]))
-    apart = np.diff(edges, prepend=-math.inf) > NEAREST * rolled.pace
-    apart[-1] = True
-    return found._replace(edges=edges[apart])
-
-
-def _with_lip_ends(path: RolledPath, rolled: Rolled, lips: Array, depth: Array) -> tuple[RolledPath, Array]:
-    """The path with a node wherever the ball begins or ceases to hang on one of the `lips` (L,), rad, at `depth` (L,),
-    m, as it begins or ceases to touch the straight surface beside it; and the arcs (E,), rad, of these nodes."""
-    steepness = np.diff(depth) / np.diff(lips)
-    # The face behind each lip but the last, and that before each but the first.
-    lip = np.concatenate([np.arange(lips.size - 1), np.arange(1, lips.size)])
-    arc = lips[lip] - rolled.ball.away_on(depth[lip], np.tile(steepness, 2))
-    # At a wall down from the race the ball hangs on the race's own edge, and leaps from there.
-    at_wall = np.isin(lip, (0, lips.size - 1)) & (depth[lip] > 0.0)
-    order = np.argsort(arc)
-    order = order[(arc[order] > path.arc[0]) & (arc[order] < path.arc[-1]) & ~at_wall[order]]
-    lip, arc = lip[order], arc[order]
-    cells = np.searchsorted(path.arc, arc, side="right") - 1
-    own = (lips[lip] - path.arc[0]) / rolled.pace
-    beside = np.minimum(np.abs(path.contact[cells] - own), np.abs(path.contact[cells + 1] - own))
-    # Where the contact leaps, the ball may have left the lip for another one before it came to the face.
-    leaps = np.abs(path.contact[cells + 1] - path.contact[cells]) > LEAP
-    held = (beside < ON_LIP) & ~leaps
-    cells, arc, lip = cells[held], arc[held], lip[held]
-    share = (arc - path.arc[cells]) / (path.arc[cells + 1] - path.arc[cells])
-    new = (share > NEAREST) & (share < 1.0 - NEAREST)
-    edges = np.where(new, arc, path.arc[cells + np.rint(share).astype(np.int64)])
-    place, depth = lips[lip[new]], depth[lip[new]]
-    hung = Held(place, depth, rolled.ball.drop(depth, place - arc[new]))
-    return _with_nodes(path, rolled, cells[new], arc[new], hung), edges
-
-
-def _with_hollows(rolled: Rolled) -> RolledPath:
-    """The path with more nodes where the place of contact runs ahead of the ball, in hollows nearly as bent as it is.
-
-    Halved again and again, their cells tell this from a leap to another place, which remains one.
-    """
-    path = rolled.path
-    for _ in range(HOLLOW_HALVINGS):
-        cells = np.flatnonzero(np.abs(np.diff(path.contact)) > LEAP)
-        arc = 0.5 * (path.arc[cells] + path.arc[cells + 1])
-        path = _with_nodes(path, rolled, cells, arc, _held_between(path, rolled, cells, arc))
-    return path
-
-
-def _with_joints(path: RolledPath, rolled: Rolled, joints: Array) -> tuple[RolledPath, Array]:
-    """The path with a node at each of the `joints` (J,), rad, that the ball touches when it is above it; and the arcs
-    (E,), rad, of these nodes."""
-    joints = joints[(joints > path.arc[0]) & (joints < path.arc[-1])]
-    cells = np.searchsorted(path.arc, joints, side="right") - 1
-    floor = rolled.surface(joints)
-    touched = _held_between(path, rolled, cells, joints).drop > floor - ROUNDED
-    cells, joints, floor = cells[touched], joints[touched], floor[touched]
-    share = (joints - path.arc[cells]) / (path.arc[cells + 1] - path.arc[cells])
-    new = (share > NEAREST) & (share < 1.0 - NEAREST)
-    edges = np.where(new, joints, path.arc[cells + np.rint(share).astype(np.int64)])
-    held = Held(joints[new], floor[new], floor[new])
-    path = _with_nodes(path, rolled, cells[new], joints[new], held)
-    return path, edges
-
-
-def _with_narrow_bumps(rolled: Rolled, path: RolledPath) -> RolledPath:
-    """The `path` with one more node for every bump that holds the ball over less than a step, so between two nodes.
-
-    Such a bump lies between both that meet in a corner, and holds the ball there higher than they do.
-    """
-    known = np.zeros(path.arc.size - 1, dtype=np.bool_)
-    for _ in range(MOST_ROUNDS):
-        cells, arc, drop = corners_of(path).between_nodes(path)
-        new = ~known[cells]
-        cells, arc, drop = cells[new], arc[new], drop[new]
-        held = _held_between(path, rolled, cells, arc)
-        contact = (held.place - path.arc[0]) / rolled.pace
-        # Where both leaps that it leaves are too short to be corners, the one corner is nearer to the truth.
-        leap = np.maximum(contact - path.contact[cells], path.contact[cells + 1] - contact)
-        narrow = (held.drop < drop - HIGHER) & (leap > LEAP)
-        known[cells] = ~narrow
-        if not narrow.any():
-            break
-        known = np.insert(known, cells[narrow] + 1, False)
-        path = _with_nodes(path, rolled, cells[narrow], arc[narrow], Held(*(of[narrow] for of in held)))
-    return path
-
-
-def _with_nodes(path: RolledPath, rolled: Rolled, cells: Index, arc: Array, held: Held) -> RolledPath:
-    """The path with nodes in these `cells` (N,), at the arcs (N,), rad, where the ball is `held` so."""
-    contact = (held.place - path.arc[0]) / rolled.pace
-    added = (arc, held.drop, rolled.ball.slope(held.depth, held.place - arc), contact)
-    return RolledPath(*(np.insert(old, cells + 1, more) for old, more in zip(path, added, strict=True)))
-
-
-def _held_between(path: RolledPath, rolled: Rolled, cells: Index, arc: Array) -> Held:
-    """The ball at arcs (N,), rad, between the nodes of these `cells` (N,) of the path: by what lies between the places
-    at which it touches there."""
-    _, ball, surface, points, depth = rolled
-    fine, outer = points[1] - points[0], ball.turn < 0.0
-    touched = path.arc[0] + path.contact * rolled.pace
-    first, last = (np.rint((touched[cells + k] - points[0]) / fine).astype(np.int64) for k in (0, 1))
-    place = _highest_between(depth, first, last, arc - points[0], fine, *ball[:2], outer)
-    return between_points(surface, ball, arc, points[place], fine)
-
-
 def _margins(depths: Array, race: str, ball: Ball, fine: float) -> tuple[int, int]:
     """By how many steps the path goes on beyond the edges of a surface of these `depths` (N,), m, as bumps that stand
     proud of the race lift the ball there; and how many points, `fine` (rad) apart, a contact is ahead of the ball at
@@ -284,7 +154,7 @@ def _roll(
     drop, contact = np.empty(count), np.empty(count, dtype=np.int64)
     for k in range(count):
         centre = k * POINTS_A_STEP + reach
-        least, best = _drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer), centre
+        least, best = drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer), centre
         for block in range((centre - reach) // size, (centre + reach) // size + 1):
             first, last = max(block * size, centre - reach), min(block * size + size - 1, centre + reach)
             near = max(first - centre, centre - last, 0)
@@ -292,39 +162,15 @@ def _roll(
                 continue
             for place in range(first, last + 1):
                 away = abs(place - centre)
-                found = _drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer)
+                found = drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer)
                 if found < least:
                     least, best = found, place
         drop[k], contact[k] = least, best
     return drop, contact
 
 
-@njit
-def _highest_between(
-    depth: Array,
-    first: Index,
-    last: Index,
-    arc: Array,
-    step: float,
-    race_radius: float,
-    ball_radius: float,
-    outer: bool,
-) -> Index:
-    """The points (N,) of the surface, from `first` to `last` (N,) each, that hold balls at the arcs (N,), rad, from
-    point 0 highest."""
-    highest = first.copy()
-    for k in range(arc.size):
-        least = math.inf
-        for place in range(first[k], last[k] + 1):
-            away = abs(step * place - arc[k])
-            found = _drop_on(depth[place], math.cos(away), math.sin(away), race_radius, ball_radius, outer)
-            if found < least:
-                least, highest[k] = found, place
-    return highest
-
-
 @njit_inline
-def _drop_on(s: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool) -> float:
+def drop_on(s: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool) -> float:
     """Drop (m) of a ball that touches the surface at the depth `s` (m), so far away; infinite if it cannot."""
     radius = race_radius + s if outer else race_radius - s
     lever = radius * sine

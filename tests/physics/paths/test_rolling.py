@@ -10,7 +10,8 @@ from measures import hanging
 from scipy.interpolate import CubicSpline
 
 from physics.paths.corners import branches
-from physics.paths.rolling import deep_gap_drop, hanging_reach, roll, smooth_branches
+from physics.paths.path_nodes import bumpy_branches
+from physics.paths.rolling import deep_gap_drop, hanging_reach, roll
 
 BALL = 3.56e-3
 RACE = {"outer": 22.935e-3, "inner": 15.815e-3}
@@ -241,11 +242,11 @@ def test_a_bump_that_holds_the_ball_over_less_than_a_step_is_not_passed_over(rac
         return surface
 
     low = roll(sloped(crests(0.0)), (-half, half), race, RACE[race], BALL, STEP)
-    path, without = low.path, smooth_branches(low)
+    path, without = low.path, bumpy_branches(low)
     assert np.min(np.abs(path.arc - middle)) == pytest.approx(0.5 * step)
     corner = float(np.interp(middle, without.arc, without.drop))
     surface = crests(20e-6 - corner + 15e-9)  # holds the ball 15 nm higher than its neighbours, over a µm
-    found = smooth_branches(roll(sloped(surface), (-half, half), race, RACE[race], BALL, STEP))
+    found = bumpy_branches(roll(sloped(surface), (-half, half), race, RACE[race], BALL, STEP))
     near = np.abs(found.edges - middle) < 0.5 * step
     assert np.count_nonzero(near) == 2
     assert 0.0 < np.ptp(found.edges[near]) < 0.5 * step
@@ -266,7 +267,7 @@ def test_a_path_over_roughness_is_the_same_with_steps_eight_times_as_short(race,
         return rough(arc, order) + (10e-6 if order == 0 else 0.0)
 
     arcs = np.linspace(-half, half, 400_001)
-    long, short = (smooth_branches(roll(surface, (-half, half), race, RACE[race], BALL, step / n)) for n in (1, 8))
+    long, short = (bumpy_branches(roll(surface, (-half, half), race, RACE[race], BALL, step / n)) for n in (1, 8))
     assert long.edges.size > 100
     drops = [np.interp(arcs, found.arc, found.drop) for found in (long, short)]
     np.testing.assert_allclose(*drops, rtol=0, atol=2e-9)  # chords of 2 µm, and corners of bumps less than 6 µm apart

@@ -103,10 +103,11 @@ class Source:
         found = self._row(wish, field).astype(np.float64)
         missing = self.missing(wish, field)
         told = found[: np.flatnonzero(np.isfinite(found)).max(initial=-1) + 1]
-        if (missing.size and missing[0] < told.size) or (missing.size and not self._empty(wish, field)):
+        if missing.size and (missing[0] < told.size or not self._empty(wish, field)):
             raise self._not_finite(missing, found.size, wish, field, "times alone")
-        if (np.diff(told) <= 0.0).any():
-            at = int(np.argmax(np.diff(told) <= 0.0))
+        falls = np.flatnonzero(np.diff(told) <= 0.0)
+        if falls.size:
+            at = falls[0]
             raise BadInput(
                 f"{told[at + 1]:g} follows {told[at]:g}", str(self.path), field, wish, "times that rise throughout"
             )

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+LARGEST_SEED = 2**32 - 1  # that scikit-learn takes
+
 
 class Corpus:
     """A corpus in a folder: a sequence of (acceleration (T, axes) in m/s², labels), in the order of the record indices.
@@ -202,11 +204,14 @@ class Corpus:
 
         All records of a virtual bearing (`bearing_id`) are on the same side, and each side has about the same share of
         every value of the label `stratify`. Raises BadInput if there are fewer bearings, or fewer records of every
-        value, than folds, and for a label that is unknown or of numbers with decimals.
+        value, than folds, for a label that is unknown or of numbers with decimals, and for a `seed` that is no whole
+        number from 0 to 2³² − 1.
         """
         from sklearn.model_selection import StratifiedGroupKFold
 
         self._require_folds(count, stratify)
+        if not (isinstance(seed, int | np.integer) and 0 <= seed <= LARGEST_SEED):
+            raise BadInput(field="seed", value=seed, allowed=f"a whole number from 0 to {LARGEST_SEED}")
         table = self.labels
         record = table["record"].to_numpy()
         parted = StratifiedGroupKFold(count, shuffle=True, random_state=seed)

@@ -122,7 +122,9 @@ def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> Non
             raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
     elif windows:
         raise BadInput("plain impulse trains have features only", field="--input", value=WINDOWS, allowed=FEATURES)
-    for folder in tests:
+    for place, folder in enumerate(tests):
+        if folder.resolve() in (earlier.resolve() for earlier in tests[:place]):
+            raise BadInput("this corpus is named twice", str(folder), "--test")
         corpus = _corpus(folder, "--test", "the folder of a corpus, simulated or imported")
         if corpus.labels.empty:
             raise BadInput("this corpus has no records", str(folder), "--test")

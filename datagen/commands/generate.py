@@ -9,7 +9,7 @@ import typer
 
 from datagen.commands.program import JsonFile, command, complain, write_json
 from datagen.commands.progress_display import show_records
-from datagen.counts import bytes_text
+from datagen.counts import bytes_text, counted
 from datagen.errors import BadInput
 from datagen.exits import FAILED
 from datagen.files.places import FAILURES
@@ -45,10 +45,13 @@ def generate(
 
     chosen = None if records is None else _numbers("--records", records)
     engine = Engine(workers=workers, backend=backend, scheduler=scheduler)
+    settings = load_recipe(recipe)
     with show_records() as listener:
-        run = make(load_recipe(recipe), out, limit=limit, records=chosen, engine=engine, listener=listener)
+        run = make(settings, out, limit=limit, records=chosen, engine=engine, listener=listener)
     write_json(json_file, run)
     _print_run(run)
+    if limit is not None and limit > settings.count:
+        complain(f"--limit {limit}: the recipe has no more than {counted(settings.count, 'record')}")
     if not run.complete:
         raise typer.Exit(FAILED)
 

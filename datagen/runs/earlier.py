@@ -13,11 +13,11 @@ from datagen.errors import BadInput
 from datagen.files.atomic import LOCK, is_temporary
 from datagen.files.places import OUT, require_folder
 
-VERSIONS = {
-    "recipe_hash": "the recipe",
-    "model_hash": "the physics",
-    "format_hash": "the file format",
-    "program_hash": "the program",
+BEGUN_WITH = {
+    "recipe_hash": "another recipe or another version of this one",
+    "model_hash": "another version of the physics",
+    "format_hash": "another version of the file format",
+    "program_hash": "another version of the program",
 }
 # What a run leaves that was interrupted before its first shard.
 BEGINNING = (LOCK, SHARDS)
@@ -77,11 +77,11 @@ def _settled_spans(sidecars: Iterable[Sidecar], identity: Identity, folder: Path
 
 
 def _require_same(identity: Identity, found: Identity, folder: Path, held: str = "the corpus") -> None:
-    names = [name for part, name in VERSIONS.items() if getattr(found, part) != getattr(identity, part)]
-    if names:
+    others = [other for part, other in BEGUN_WITH.items() if getattr(found, part) != getattr(identity, part)]
+    if others:
         raise BadInput(
-            f"{held} in this folder was begun with another version of {' and '.join(names)}, and a corpus never "
-            "mixes versions: choose another folder, or delete this one",
+            f"{held} in this folder was begun with {', and with '.join(others)}; a corpus never mixes them: choose "
+            "another folder, or delete this one",
             str(folder),
             OUT,
         )

@@ -89,6 +89,13 @@ def test_generate_check_and_info_work_and_write_their_results(tiny_recipe: Path,
     assert json.loads(results.read_text())["counts"]["rig"] == {"gearbox": 3}
 
 
+def test_a_limit_beyond_the_recipe_is_told(tiny_recipe: Path, tmp_path: Path) -> None:
+    code, shown, message = run("generate", tiny_recipe, "--out", tmp_path / "out", "--limit", 99, "--workers", 1)
+    assert code == 0
+    assert "14 of 14 records" in shown
+    assert "--limit 99: the recipe has no more than 14 records" in message
+
+
 def test_check_ends_with_1_and_says_what_is_wrong(tiny_recipe: Path, tmp_path: Path) -> None:
     run("generate", tiny_recipe, "--out", tmp_path / "out", "--records", "1", "--workers", 1)
     shard = next((tmp_path / "out" / "shards").glob("*.nc"))

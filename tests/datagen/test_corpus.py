@@ -208,6 +208,8 @@ def test_folds_follow_from_their_seed(corpus: Corpus) -> None:
         ((2.5,), "count = 2.5: "),
         ((3, "speed"), 'stratify = "speed": no such label; allowed: '),
         ((3, "bpfo"), 'stratify = "bpfo": this label takes other values with every record; allowed: '),
+        ((3, "rig", -1), "seed = -1; allowed: a whole number from 0 to 4294967295"),
+        ((3, "rig", 0.5), "seed = 0.5; "),
         ((7, "record"), "and of no record are there more than 1 records; allowed: none"),
     ],
 )

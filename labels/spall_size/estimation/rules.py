@@ -10,7 +10,7 @@ from scipy.signal import find_peaks, hilbert
 
 from labels.dead_sensor import live_axis
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import FEWEST_PASSES, SizeEstimate, SizeOutcome
 from physics.arrays import Array
 from physics.checks import require_positive
 
@@ -59,6 +59,8 @@ class EnvelopeLagRule:
             return SizeEstimate(SizeOutcome.NO_SIGNAL, method)
         race = situation.race or "outer"
         period, bearing = situation.pass_periods()[race], situation.bearing()
+        if signal.size < FEWEST_PASSES * period * rate:
+            return SizeEstimate(SizeOutcome.TOO_SHORT, method)
         lag = envelope_lag(signal, rate, LONGEST_SHARE * period)
         if math.isnan(lag):
             return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, method)

@@ -314,6 +314,13 @@ def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, op
     assert done.output.count("\n") == 1
 
 
+def test_a_corpus_is_not_scored_twice(tiny_corpus):
+    again = tiny_corpus / ".." / tiny_corpus.name
+    done = run("classify", "--train", tiny_corpus, "--test", tiny_corpus, "--test", again)
+    assert done.exit_code == 2
+    assert done.stderr.endswith("this corpus is named twice\n")
+
+
 def test_impulse_trains_have_no_windows(tiny_corpus):
     command = ["classify", "--train", "impulse-trains", "--test", str(tiny_corpus), "--input", "windows"]
     done = run(*command, "--estimator", "math:sqrt")

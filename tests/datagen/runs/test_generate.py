@@ -181,8 +181,8 @@ def test_leftovers_of_killed_writers_are_swept(tiny: Recipe, copy: Path) -> None
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"seed": 8}, "another version of the recipe"),
-        ({"title": "Another title"}, "another version of the recipe"),
+        ({"seed": 8}, "another recipe or another version of this one"),
+        ({"title": "Another title"}, "another recipe or another version of this one"),
     ],
 )
 def test_a_corpus_of_another_recipe_is_refused_and_left_alone(
@@ -218,7 +218,7 @@ def test_a_corpus_that_another_run_began_meanwhile_is_refused_and_left_alone(
         return plan_shards(*arguments)
 
     monkeypatch.setattr("datagen.runs.generate.plan_shards", slowly)
-    with pytest.raises(BadInput, match="another version of the recipe"):
+    with pytest.raises(BadInput, match="another recipe or another version of this one"):
         generate(Recipe.model_validate(tiny.model_dump(mode="json") | {"seed": 8}), out, engine=ALONE)
     assert {path.name: path.read_bytes() for path in (out / "shards").iterdir()} == {
         path.name: path.read_bytes() for path in (tiny_corpus / "shards").iterdir()

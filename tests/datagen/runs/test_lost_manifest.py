@@ -65,7 +65,7 @@ def test_another_recipe_is_refused_and_everything_left_as_it_is(damage: str, cop
     other.write_text(tiny_recipe.read_text().replace("seed = 7", "seed = 8"))
     DAMAGES[damage](manifest_path(copy))
     before = {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()}
-    with pytest.raises(BadInput, match="begun with another version of the recipe, and"):
+    with pytest.raises(BadInput, match="begun with another recipe or another version of this one; a"):
         generate(load_recipe(other), copy, engine=ALONE)
     assert {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()} == before
 

@@ -6,6 +6,7 @@ import pytest
 
 from labels.spall_size.estimation.rules import EnvelopeLagRule, envelope_lag
 from labels.spall_size.situation import Situation
+from labels.spall_size.size_estimate import SizeOutcome
 from physics.checks import InvalidParameter
 
 RATE = 65536.0
@@ -53,6 +54,13 @@ def test_the_length_is_told_along_the_raceway(pulse_train, race, diameter_mm):
     train = pulse_train(100.0 / RATE, situation.pass_periods()[race])
     estimate = EnvelopeLagRule().estimate(train.signal, RATE, situation)
     assert estimate.extent_mm == pytest.approx(estimate.extent * diameter_mm / 2.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(("passes", "outcome"), [(5.9, SizeOutcome.TOO_SHORT), (6.1, SizeOutcome.ESTIMATED)])
+def test_less_than_six_passes_are_too_few(passes, outcome, pulse_train):
+    period = GEARBOX.pass_periods()["outer"]
+    signal = pulse_train(100.0 / RATE, period).signal[: int(passes * period * RATE)]
+    assert EnvelopeLagRule().estimate(signal, RATE, GEARBOX).outcome is outcome
 
 
 @pytest.mark.parametrize("rate", [0.0, -1.0, math.nan, math.inf])

@@ -40,12 +40,21 @@ from physics.contact.track import (
 from physics.contact.turning import cosine_sine
 from physics.paths.depth_path import path_at
 
-# Second index of `balls`: cosine and sine of its angle in the cage; clearance minus diameter deviation (m);
-# gap plus depth (m) and its rate (m/s); 1 in the contact set and 0 outside; compression (m); the contact law whether or
-# not the ball touches (N); the force of the contact set (N); the rate of compression (m/s);
-# its angle in the cage (rad).
+# Second index of `balls`, what is known of each ball.
 BALL_ROWS = 11
-COSINE, SINE, GAP, FLOOR, FALL, ACTIVE, COMPRESSION, LAW, FORCE, CLOSING, PLACE = range(BALL_ROWS)
+(
+    COSINE,  # of its angle in the cage
+    SINE,
+    GAP,  # clearance minus diameter deviation, m
+    FLOOR,  # gap plus depth of spalls and waves under it, m
+    FALL,  # rate of the floor, m/s
+    ACTIVE,  # 1 in the contact set, 0 outside
+    COMPRESSION,  # m
+    LAW,  # what the contact law gives, whether or not the ball touches, N
+    FORCE,  # the same in the contact set, 0 outside, N
+    CLOSING,  # rate of compression, m/s
+    PLACE,  # its angle in the cage, rad
+) = range(BALL_ROWS)
 # The balls of a cage are padded to a multiple of the widest vector of today's processors: what is left behind whole
 # vectors goes one by one, and four single balls take longer than eight at once.
 WHOLE_VECTOR = 8

@@ -11,10 +11,19 @@ from physics._jit import njit_inline
 from physics.arrays import Array
 from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
 
-# Columns of `spalls`: place of the first ball of its row, its cage, direction of travel, angle to ball 1 of its row at
-# zero cage angle and time (rad), speed of its race (rad/s); where its path begins and ends and the mean width of its
-# cells (rad), 1 if it is rough, and how far it strays from a chord over 1, 2, 4 … cells (m), see `DepthPath`.
-FIRST_BALL, CAGE, SIGN, ANGLE, SPEED, ENTRY, LEAVE, CELL, ROUGH, RELIEF = range(10)
+# Columns of `spalls`.
+(
+    FIRST_BALL,  # column in `balls` of the first ball of its row
+    CAGE,  # of its row
+    SIGN,  # direction of travel, 1 or −1
+    ANGLE,  # to ball 1 of its row at zero cage angle and time, rad
+    SPEED,  # of its race, rad/s
+    ENTRY,  # where its path begins, rad
+    LEAVE,  # and ends, rad
+    CELL,  # mean width of the cells of its path, rad
+    ROUGH,  # 1 if its path is rough
+    RELIEF,  # first of RELIEF_LEVELS: how far its path strays from a chord over 1, 2, 4 … cells, m, see `DepthPath`
+) = range(10)
 SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
 # Of the polynomial of a cell of the waviness.
 WAVE_COEFFICIENTS = 6
@@ -29,7 +38,7 @@ class Track(NamedTuple):
 
     Cage angles: quartics `cage` (G, I, 5) over equal intervals, `clock` (G, 3) first knot (s), knots per second and
     seconds per knot.
-    Spalls (D, 18) with as many `paths`.
+    `spalls` (D, 17): the columns above; as many `paths`.
     `waviness` (2, C, 6 S): polynomials of degree five of the outer and inner race over C equal cells of each of the B
     spacings of a row; of every cell the fifth powers of the spacings, twice round so that B of them follow any one, in
     the first of S = `wave_columns` columns, then the fourth ones and so on. C is 0 for smooth races.

@@ -32,10 +32,15 @@ class PowerSeries(NamedTuple):
     reach: float
 
 
-# Rows of the weights of one step, (2, 13, 4), first index the axis: exp(hL) in the order (xo, vo, xr, vr); the rows
-# (xo, vo) of exp(hL/2); the weights of the stages' forces in the new state; and, in pairs for (xo, vo), the weights of
-# the forces in later stages, for the exponential Runge-Kutta method of Krogstad; last φ4, for a force with a cube.
-WHOLE, HALF, FIRST, MIDDLE, LAST, TO_2_3, TO_3_4, TO_4, CUBE = 0, 4, 6, 7, 8, 9, 10, 11, 12
+# First rows of the weights of one step, (2, 13, 4): the first index is the axis, the last (xo, vo, xr, vr). Those of
+# forces are for the exponential Runge-Kutta method of Krogstad, from whose stages others follow.
+WHOLE = 0  # four rows: exp(hL)
+HALF = 4  # two rows, of xo and vo: exp(hL/2)
+FIRST, MIDDLE, LAST = 6, 7, 8  # of the forces at the beginning, in the middle and at the end, in the new state
+# Of earlier forces in later stages, a pair for (xo, vo) each: of the first force in the second stage and in the third;
+# of the second in the third and of the first in the fourth; of the third in the fourth.
+TO_2_3, TO_3_4, TO_4 = 9, 10, 11
+CUBE = 12  # φ4, for a force with a cube
 WEIGHT_ROWS = 13
 
 

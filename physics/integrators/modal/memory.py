@@ -11,6 +11,7 @@ from physics.arrays import Array
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
 from physics.integrators.modal.layout import POWERS
 
+# Units of a sample: a step of a sample or less is a whole number of them, or ends off the grid.
 UNITS = 16
 # Steps of more than a sample, in samples, and where the weights of the samples inside each begin.
 STRIDES = (2, 3, 4, 6, 8, 12, 16, 24)
@@ -23,24 +24,41 @@ SHORTEST = 1.0 / 64.0
 NO_BALL = -1
 # Lengths that differ by less than this share of a unit are one.
 NEARLY = 1e-6
-# Entries of `clock`: time (s), longest next step (s), length of the step before (s, 0 if its past is of no use), what
-# is left to the contact change ahead (s), longest step next to it (s) and on the way to it (s), tolerance (N s), sum of
-# the squares of the acceleration (m²/s⁴), sum of the squares of the errors (N² s²).
+# Entries of `clock`.
 CLOCK_ENTRIES = 9
-TIME, PACE, BEFORE, LEFT, GRADED, ON_WAY, TOLERANCE, SQUARES, BUDGET = range(CLOCK_ENTRIES)
-# Entries of `marks`: units passed, unit before which no stride starts, next kink, changes located in this sample, ball
-# of the contact change ahead, whether `time` is a whole number of units, balls that pull now, sample from which on the
-# tolerance is to be set anew, 1 where a step may pass over bumps of a path unseen, 1 where the contact change ahead
-# is at a wall of the path, unit before which no loss of contact is put on the grid.
+(
+    TIME,  # s
+    PACE,  # longest next step, s
+    BEFORE,  # length of the step before, s; 0 if its past is of no use
+    LEFT,  # what is left to the contact change ahead, s
+    GRADED,  # longest step next to that change, s
+    ON_WAY,  # longest step on the way to it, s
+    TOLERANCE,  # N s
+    SQUARES,  # sum of the squares of the acceleration, m²/s⁴
+    BUDGET,  # sum of the squares of the errors, N² s²
+) = range(CLOCK_ENTRIES)
+# Entries of `marks`.
 MARKS_ENTRIES = 11
-CELL, CAREFUL, STOP, TRIED, BALL, ON_GRID, PULLING, RETUNE, BUMPY, AT_WALL, EXACT = range(MARKS_ENTRIES)
+(
+    CELL,  # units passed
+    CAREFUL,  # unit before which no stride starts
+    STOP,  # number of the next kink
+    TRIED,  # changes located in this sample
+    BALL,  # ball of the contact change ahead, or NO_BALL
+    ON_GRID,  # 1 where the time is a whole number of units
+    PULLING,  # how many balls pull now
+    RETUNE,  # sample from which on the tolerance is to be set anew
+    BUMPY,  # 1 where a step may pass over bumps of a path unseen
+    AT_WALL,  # 1 where the contact change ahead is at a wall of the path
+    EXACT,  # unit before which no loss of contact is put on the grid
+) = range(MARKS_ENTRIES)
 
 
 class Memory(NamedTuple):
     """What a march remembers between its steps, and scratch that it uses again and again; G cages of M balls.
 
     - `states` (2, 12): amplitudes at both ends of a step, by turns; `between` (12,): of a sample inside a step
-    - `weights` (rows of modal/layout.py): of every step length; `inside`: of the samples inside strides
+    - `weights` (26, 168): of every step length; `inside` (67, 172): of the samples inside strides (modal/layout.py)
     - `course` (2, 5): contact force of the step along x and y (N), a polynomial in the share of the step
     - `phi` (2, 6, 12): scratch of modal/weights.py: φ-functions over half a step and the whole of it
     - `rest` (2, 11): readings of what the loads alone do, at the time of the contacts

@@ -16,7 +16,7 @@ from physics.scene import Scene
 from physics.statics.load_distribution import load_vector
 from physics.statics.rest import elastic
 from physics.statics.rest_series import MARK, PLACE_X, PLACE_Y, TOLERANCE, coarsest_stride, rest_series
-from physics.statics.stiffness import EXACT
+from physics.statics.successive_rest import EXACT
 from physics.trace import Kept, Trace
 
 

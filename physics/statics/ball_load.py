@@ -14,7 +14,7 @@ from physics.contact.forces import FORCE, Contacts, of_ball
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
-from physics.statics.stiffness import expected, rest_at
+from physics.statics.successive_rest import expected, rest_at
 
 # Share of the load on the shaft that may be left unbalanced.
 TOLERANCE = 1e-9

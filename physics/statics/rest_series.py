@@ -25,7 +25,7 @@ from physics.paths.depth_path import BREAK, span_of
 from physics.paths.profile import is_rough
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
-from physics.statics.stiffness import expected, rest_at
+from physics.statics.successive_rest import expected, rest_at
 
 # Polynomials of four and six neighbours may differ by this share of kyy. Measured in tests/physics: the trace is then
 # within a tenth of 1e-4 of kyy (RMS) of the one solved everywhere.

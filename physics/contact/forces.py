@@ -24,10 +24,8 @@ from physics.contact.power import power
 from physics.contact.track import (
     CAGE,
     FIRST_BALL,
-    SHORT_ROW_COLUMNS,
     SIGN,
     SPEED,
-    WAVE_COEFFICIENTS,
     Track,
     cage_at,
     hindmost,
@@ -38,6 +36,7 @@ from physics.contact.track import (
     waviness_at,
 )
 from physics.contact.turning import cosine_sine
+from physics.contact.waves import SHORT_ROW_COLUMNS, WAVE_COEFFICIENTS, add_waves, powers, rates_of
 from physics.paths.depth_path import path_at
 
 # Second index of `balls`, what is known of each ball.
@@ -63,11 +62,6 @@ LANES = 4
 # Columns of `frames`, one row a cage: cosine and sine of its angle, its speed (rad/s).
 FRAME_COLUMNS = 3
 FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(FRAME_COLUMNS)
-
-# A cell of the waviness and the first column of its table that a row of balls reads; weights of its coefficients, that
-# of the fifth power first.
-Cell = tuple[int, np.uint64]
-Weights = tuple[float, float, float, float, float, float]
 
 
 class Law(NamedTuple):
@@ -153,58 +147,15 @@ def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, tim
         # what is read is what was written: only so does the loop over the few balls of a row take vectors.
         here = np.uint64(cage), np.uint64(first), np.uint64(row)
         a, b = (outer, np.uint64(outer_spacing)), (inner, np.uint64(inner_spacing))
-        p, q = _powers(x), _powers(z)
+        p, q = powers(x), powers(z)
         if columns == SHORT_ROW_COLUMNS:
-            _add_waves(balls, FLOOR, here, waves, a, b, p, q, SHORT_ROW_COLUMNS)
+            add_waves(balls, FLOOR, here, waves, a, b, p, q, SHORT_ROW_COLUMNS)
             if rates:
-                _add_waves(balls, FALL, here, waves, a, b, _rates(p, pace), _rates(q, inner_pace), SHORT_ROW_COLUMNS)
+                add_waves(balls, FALL, here, waves, a, b, rates_of(p, pace), rates_of(q, inner_pace), SHORT_ROW_COLUMNS)
         else:
-            _add_waves(balls, FLOOR, here, waves, a, b, p, q, columns)
+            add_waves(balls, FLOOR, here, waves, a, b, p, q, columns)
             if rates:
-                _add_waves(balls, FALL, here, waves, a, b, _rates(p, pace), _rates(q, inner_pace), columns)
-
-
-@njit_pasted
-def _powers(x: float) -> Weights:
-    square = x * x
-    return square * square * x, square * square, square * x, square, x, 1.0
-
-
-@njit_pasted
-def _rates(of_x: Weights, pace: float) -> Weights:
-    """Rates of the powers of x where x grows by `pace` a second."""
-    _, x4, x3, x2, x, _ = of_x
-    return 5.0 * pace * x4, 4.0 * pace * x3, 3.0 * pace * x2, 2.0 * pace * x, pace, 0.0
-
-
-@njit_pasted
-def _add_waves(
-    balls: Array,
-    entry: int,
-    here: tuple[np.uint64, np.uint64, np.uint64],
-    waves: Array,
-    outer: Cell,
-    inner: Cell,
-    p: Weights,
-    q: Weights,
-    columns: np.uint64,
-) -> None:
-    """Add the coefficients in a cell of each race, weighed by `p` and `q`, to an `entry` of the balls of a row: `here`
-    are its cage, its first ball and its size; a power has so many `columns`."""
-    cage, first, row = here
-    second, third = columns, columns + columns
-    fourth, fifth, sixth = third + columns, third + third, third + third + columns
-    for j in range(row):
-        a, b = outer[1] + j, inner[1] + j
-        balls[cage, entry, first + j] += (
-            (waves[0, outer[0], a] * p[0] + waves[0, outer[0], a + second] * p[1])
-            + (waves[0, outer[0], a + third] * p[2] + waves[0, outer[0], a + fourth] * p[3])
-            + (waves[0, outer[0], a + fifth] * p[4] + waves[0, outer[0], a + sixth] * p[5])
-        ) + (
-            (waves[1, inner[0], b] * q[0] + waves[1, inner[0], b + second] * q[1])
-            + (waves[1, inner[0], b + third] * q[2] + waves[1, inner[0], b + fourth] * q[3])
-            + (waves[1, inner[0], b + fifth] * q[4] + waves[1, inner[0], b + sixth] * q[5])
-        )
+                add_waves(balls, FALL, here, waves, a, b, rates_of(p, pace), rates_of(q, inner_pace), columns)
 
 
 @njit_inline

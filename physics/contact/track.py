@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from physics._jit import njit_inline
 from physics.arrays import Array
+from physics.contact.waves import WAVE_COEFFICIENTS
 from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
 
 # Columns of `spalls`.
@@ -25,11 +24,6 @@ from physics.paths.depth_path import RELIEF_LEVELS, Paths, path_at
     RELIEF,  # first of RELIEF_LEVELS: how far its path strays from a chord over 1, 2, 4 … cells, m, see `DepthPath`
 ) = range(10)
 SPALL_COLUMNS = RELIEF + RELIEF_LEVELS
-# Of the polynomial of a cell of the waviness.
-WAVE_COEFFICIENTS = 6
-# Columns that each of these has in the table: room for a row of up to 16 balls twice. Longer rows have twice theirs.
-SHORT_ROW_COLUMNS = np.uint64(32)
-
 TURNS_PER_RADIAN = 1.0 / (2.0 * math.pi)
 
 
@@ -52,11 +46,6 @@ class Track(NamedTuple):
     row_size: int
     spacing: float
     shaft_speed: float
-
-
-def wave_columns(balls: int) -> int:
-    """How many columns each power of a cell of the waviness has, for rows of so many `balls`."""
-    return max(int(SHORT_ROW_COLUMNS), 2 * balls)
 
 
 @njit_inline

@@ -22,6 +22,12 @@ def touches(contacts: Contacts, cage: int, place: int) -> bool:
 
 
 @njit_inline
+def contradicts(contacts: Contacts, cage: int, place: int) -> bool:
+    """Whether a ball's contact differs from the contact set, from what `press` left."""
+    return touches(contacts, cage, place) != (contacts.balls[cage, ACTIVE, place] > 0.5)
+
+
+@njit_inline
 def count_changes(contacts: Contacts) -> int:
     """Number of balls whose contact differs from the contact set, from what `press` left."""
     balls, changed = contacts.balls, 0

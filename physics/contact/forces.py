@@ -261,3 +261,14 @@ def of_ball(balls: Array, row: int, ball: int) -> float:
     """One entry of `balls` for the ball numbered cage · M + place."""
     size = balls.shape[2]
     return balls[ball // size, row, ball % size]
+
+
+@njit_inner
+def direction(contacts: Contacts, cage: int, place: int) -> tuple[float, float]:
+    """Cosine and sine of the angle φ of a ball; `set_time` must have been called."""
+    balls, frames = contacts.balls, contacts.frames
+    cosine, sine = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE]
+    return (
+        balls[cage, COSINE, place] * cosine - balls[cage, SINE, place] * sine,
+        balls[cage, SINE, place] * cosine + balls[cage, COSINE, place] * sine,
+    )

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.arrays import Array
-from physics.contact.contact_set import touches
+from physics.contact.contact_set import contradicts
 from physics.contact.forces import ACTIVE, Contacts, compression_of, law_force, of_ball, press, set_time
 from physics.motion import MotionModel, outer_load, relative_acceleration
 
@@ -82,8 +82,7 @@ def _mark_suspects(contacts: Contacts, share: float, suspects: Array) -> None:
     """Note `share` for every ball that contradicts the contact set now and was not noted for an earlier one."""
     for cage in range(suspects.shape[0]):
         for j in range(suspects.shape[1]):
-            contradicts = touches(contacts, cage, j) != (contacts.balls[cage, ACTIVE, j] > 0.5)
-            if contradicts and (suspects[cage, j] == 0.0 or share < suspects[cage, j]):
+            if contradicts(contacts, cage, j) and (suspects[cage, j] == 0.0 or share < suspects[cage, j]):
                 suspects[cage, j] = share
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from physics._jit import njit, njit_lean
 from physics.arrays import Array
-from physics.contact.contact_set import touches
+from physics.contact.contact_set import contradicts
 from physics.contact.forces import ACTIVE, FORCE, Contacts, of_ball
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
 
@@ -71,7 +71,7 @@ def change_unlocated(contacts: Contacts, time: float, output: Output) -> None:
     balls = contacts.balls
     for cage in range(balls.shape[0]):
         for place in range(balls.shape[2]):
-            if touches(contacts, cage, place) != (balls[cage, ACTIVE, place] > 0.5):
+            if contradicts(contacts, cage, place):
                 toggle(balls, cage * balls.shape[2] + place, time, output)
                 output.tally[UNLOCATED] += 1
 

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from physics._jit import njit_inner, njit_lean
 from physics.arrays import Array
 from physics.assembly import assemble, ball_numbers
-from physics.contact.forces import COMPRESSION, FORCE, Contacts, of_ball, set_time
+from physics.contact.forces import COMPRESSION, FORCE, Contacts, direction, of_ball, set_time
 from physics.motion import MotionModel, motion_model, outer_load
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.scene import Scene
-from physics.statics.rest import LOADED, NO_EQUILIBRIUM, NOT_LOADED, NOT_UNIQUE, direction, solve_at
+from physics.statics.rest import LOADED, NO_EQUILIBRIUM, NOT_LOADED, NOT_UNIQUE, solve_at
 
 OUTCOMES = {
     LOADED: StaticOutcome.LOADED,

@@ -52,17 +52,6 @@ class Hold(NamedTuple):
     xy: float
 
 
-@njit_inner
-def direction(contacts: Contacts, cage: int, place: int) -> tuple[float, float]:
-    """Cosine and sine of the angle φ of a ball."""
-    balls, frames = contacts.balls, contacts.frames
-    cosine, sine = frames[cage, FRAME_COSINE], frames[cage, FRAME_SINE]
-    return (
-        balls[cage, COSINE, place] * cosine - balls[cage, SINE, place] * sine,
-        balls[cage, SINE, place] * cosine + balls[cage, COSINE, place] * sine,
-    )
-
-
 @njit_inline
 def elastic(contacts: Contacts, dx: float, dy: float) -> Hold:
     """What the contacts hold without damping at the displacement (dx, dy), m.

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.contact.contact_set import count_changes, touches
+from physics.contact.contact_set import contradicts, count_changes
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FLOOR, LAW, Contacts, Law, compression_of
 from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may_shrink
 from physics.integrators.modal.memory import (
@@ -146,9 +146,8 @@ def _is_past(contacts: Contacts, step: float, tolerance: float, apart_from: int)
     """Whether some ball, `apart_from` one, contradicts the contact set by more than the tolerance (N s)."""
     for cage in range(contacts.balls.shape[0]):
         for place in range(contacts.balls.shape[2]):
-            contradicts = touches(contacts, cage, place) != (contacts.balls[cage, ACTIVE, place] > 0.5)
-            contradicts = contradicts and cage * contacts.balls.shape[2] + place != apart_from
-            if contradicts and _wrong_by(contacts, cage, place, step) > tolerance:
+            other = cage * contacts.balls.shape[2] + place != apart_from
+            if other and contradicts(contacts, cage, place) and _wrong_by(contacts, cage, place, step) > tolerance:
                 return True
     return False
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
-from physics.contact.contact_set import touches
+from physics.contact.contact_set import contradicts, touches
 from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
 from physics.integrators.modal.approach import meet_change
 from physics.integrators.modal.flow import LinearFlow
@@ -62,7 +62,7 @@ def left_out(contacts: Contacts, step: float) -> float:
     balls, force = contacts.balls, 0.0
     for cage in range(balls.shape[0]):
         for place in range(balls.shape[2]):
-            if touches(contacts, cage, place) != (balls[cage, ACTIVE, place] > 0.5):
+            if contradicts(contacts, cage, place):
                 force += abs(balls[cage, LAW, place])
     return force * step
 

@@ -42,11 +42,12 @@ from physics.statics.load_distribution import carried, load_vector, refuse
 from physics.statics.rest import NO_EQUILIBRIUM, solve_at
 from physics.trace import ContactChanges, Kept, Trace
 
-NODES_PER_SPACING = 4096
-NODES_PER_SAMPLE = 2
+# Nodes of the table over a spacing of cage angle, or a sample of time.
+NODES_PER_SPACING, NODES_PER_SAMPLE = 4096, 2
 METHOD = "exponential_rk4"
-# Columns of the table: force at zero displacement and velocity, stiffness xx, xy, yx, yy, damping xx, xy, yy.
+# Columns of the table: force (N) at zero displacement and velocity, stiffness (N/m) and damping (N s/m).
 COLUMNS = 9
+FORCE_X, FORCE_Y, K_XX, K_XY, K_YX, K_YY, C_XX, C_XY, C_YY = range(COLUMNS)
 
 
 class Place(NamedTuple):
@@ -112,8 +113,8 @@ def _pull(contacts: LinearContacts, dx: float, dy: float, vx: float, vy: float) 
     """Net force (N) of the linear contact at a displacement (m) and velocity (m/s)."""
     row = contacts.row
     return (
-        row[0] + row[2] * dx + row[3] * dy + row[6] * vx + row[7] * vy,
-        row[1] + row[4] * dx + row[5] * dy + row[7] * vx + row[8] * vy,
+        row[FORCE_X] + row[K_XX] * dx + row[K_XY] * dy + row[C_XX] * vx + row[C_XY] * vy,
+        row[FORCE_Y] + row[K_YX] * dx + row[K_YY] * dy + row[C_XY] * vx + row[C_YY] * vy,
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from physics.arrays import Array
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import Contacts
-from physics.integrators.method_table import MARCHES
+from physics.integrators.method_table import MARCHES, REFERENCE
 from physics.integrators.output import (
     HELD,
     LOG_FULL,
@@ -75,14 +75,14 @@ def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, 
         time=time,
         acceleration=acceleration,
         changes=ContactChanges(
-            time=np.array([change[0] for change in changes], dtype=np.float64),
-            row=np.array([change[1] for change in changes], dtype=np.int16),
-            ball=np.array([change[2] for change in changes], dtype=np.int16),
-            made=np.array([change[3] for change in changes], dtype=np.bool_),
+            time=np.array([change.time for change in changes], dtype=np.float64),
+            row=np.array([change.row for change in changes], dtype=np.int16),
+            ball=np.array([change.ball for change in changes], dtype=np.int16),
+            made=np.array([change.made for change in changes], dtype=np.bool_),
             initial=np.asarray(solution.initial, dtype=np.bool_),
         ),
         model=MODEL,
-        method="reference",
+        method=REFERENCE,
         step=math.nan,
         error_estimate=math.nan,
         tension_share=math.nan,

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,24 +23,31 @@ from physics.paths.passages import passages
 from physics.paths.profile import build_path
 from physics.scene import Scene
 
-Change = tuple[float, int, int, bool]
-
-RELATIVE_TOLERANCE = 1e-9
-DISPLACEMENT_TOLERANCE = 1e-18
+# Of the deviation from the start, and of displacements in m; velocities have this times the resonance, in m/s.
+RELATIVE_TOLERANCE, DISPLACEMENT_TOLERANCE = 1e-9, 1e-18
+# Periods of the resonance.
 LONGEST_STEP = 0.2
-LOOKS_PER_STEP = 8
-LOCATED_WITHIN = 1e-13
+# A change of contact is looked for at so many instants of a step, and located within so many seconds.
+LOOKS_PER_STEP, LOCATED_WITHIN = 8, 1e-13
+# s
 KINK_HALF_WIDTH = 1e-11
-MOST_STEPS_PER_LONGEST = 200
-SPARE_STEPS = 20_000
+# For each of the longest ones that would do, and so many more.
+MOST_STEPS_PER_LONGEST, SPARE_STEPS = 200, 20_000
+
+
+class Change(NamedTuple):
+    """A change of contact at `time` (s): `ball` of `row`, both from 1, begins to touch if `made`, or ceases to."""
+
+    time: float
+    row: int
+    ball: int
+    made: bool
 
 
 @dataclass(frozen=True)
 class ReferenceSolution:
-    """State (T, 12) at the requested times, the located changes of contact, and who touches (rows, balls) at t = 0.
-
-    A change is (time in s, row from 1, ball from 1, made); they are in time order.
-    """
+    """State (T, 12) at the requested times, the located changes of contact in time order, and who touches (rows, balls)
+    at t = 0."""
 
     state: Array
     changes: list[Change]
@@ -145,7 +152,8 @@ class _Run:
         closed = self._closed(self.now, self.deviation)
         balls = self.scene.rig.bearing.balls
         for index in np.flatnonzero(closed != self.touching):
-            self.changes.append((self.now, int(index) // balls + 1, int(index) % balls + 1, bool(closed[index])))
+            row, ball = divmod(int(index), balls)
+            self.changes.append(Change(self.now, row + 1, ball + 1, bool(closed[index])))
         self.touching = closed
 
     def _step_over(self, end: float) -> None:

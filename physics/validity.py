@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,7 @@ STEEL_DENSITY = 7850.0  # kg/m³, assumed for every rolling element
 NEGLIGIBLE_SHARE = 0.2  # the paper's own fan rig reaches 0.19 over the sharp exit that its response needs
 LIMITING_SPEED_FACTOR = 5e5  # rpm · mm, shaft speed times pitch diameter: usual limit of greased bearings
 SAME_SPEED = 1e-6  # a nominal cage speed rounded to seven digits is still that of pure rolling
+# A path is looked at in so many places; a rough one in at least as many for each of its roughness values.
 PATH_SAMPLES, SAMPLES_PER_KNOT = 4001, 8
 PEAK_INSTANTS = 256
 
@@ -59,47 +61,54 @@ def inertia_force(scene: Scene, spall: Spall) -> float:
     path to the next in the time t between them.
     """
     bearing = scene.rig.bearing
-    way, arc = _steepest_way(spall, bearing)
+    way = _steepest_way(spall, bearing)
     relative = scene.cage_of(spall.row).nominal_speed - scene.race_speed(spall.race)
-    return element_mass(bearing) * 2.0 * way * (relative / arc) ** 2
+    return element_mass(bearing) * 2.0 * way.drop * (relative / way.arc) ** 2
 
 
-def _steepest_way(spall: Spall, bearing: Bearing) -> tuple[float, float]:
-    """How far (m) a ball goes down or up, and over which arc (rad), where that takes the largest force."""
+class Way(NamedTuple):
+    """A ball's way down, or up, by a `drop` (m) over an `arc` (rad) of the race."""
+
+    drop: float
+    arc: float
+
+
+def _steepest_way(spall: Spall, bearing: Bearing) -> Way:
+    """The way that takes the largest force."""
     half = spall.extent / 2.0
     if is_rough(spall, bearing):
         return _steepest_rough_way(spall, bearing)
     if spall.profile == "tukey":
-        return spall.depth, max(min(spall.entry_taper, spall.exit_taper), spall.extent / (PATH_SAMPLES - 1))
+        return Way(spall.depth, max(min(spall.entry_taper, spall.exit_taper), spall.extent / (PATH_SAMPLES - 1)))
     path = build_path(spall, bearing)
     first, last = path.breaks[[0, -1]].tolist()
     down, up = _way_from_edges(path, -half, half, 1.0), _way_from_edges(path, first, last, -1.0)
-    return max(down, up, key=lambda way: way[0] / way[1] ** 2)
+    return max(down, up, key=lambda way: way.drop / way.arc**2)
 
 
-def _way_from_edges(path: DepthPath, first: float, last: float, sense: float) -> tuple[float, float]:
-    """How far (m) the path goes down between two edges (rad), or up with a `sense` of −1, and the shorter arc (rad)
-    between an edge and there; no way over all of it where it does not."""
+def _way_from_edges(path: DepthPath, first: float, last: float, sense: float) -> Way:
+    """The way from the nearer of two edges (rad) to where the path is deepest between them, or highest with a `sense`
+    of −1; no drop over all of the arc if it goes nowhere."""
     arc = np.linspace(first, last, PATH_SAMPLES)
     away = sense * path.depth(arc)
     farthest = float(away.max())
     if farthest <= 0.0:
-        return 0.0, last - first
+        return Way(0.0, last - first)
     there = arc[away >= 0.999 * farthest]
     resolution = (last - first) / (PATH_SAMPLES - 1)
-    return farthest, max(min(float(there[0]) - first, last - float(there[-1])), resolution)
+    return Way(farthest, max(min(float(there[0]) - first, last - float(there[-1])), resolution))
 
 
-def _steepest_rough_way(spall: Spall, bearing: Bearing) -> tuple[float, float]:
-    """Drop (m) and arc (rad) between the two neighbouring turning points whose drop over arc squared is largest."""
+def _steepest_rough_way(spall: Spall, bearing: Bearing) -> Way:
+    """The way between the two neighbouring turning points whose drop over arc squared is largest."""
     samples = max(PATH_SAMPLES, SAMPLES_PER_KNOT * len(spall.roughness_values))
     arc = np.linspace(-spall.extent / 2.0, spall.extent / 2.0, samples)
     depth = build_path(spall, bearing).depth(arc)
     direction = np.sign(np.diff(depth))
     turning = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1, [samples - 1]])
-    drop, way = np.abs(np.diff(depth[turning])), np.diff(arc[turning])
-    steepest = int(np.argmax(drop / way**2))
-    return float(drop[steepest]), float(way[steepest])
+    drop, arcs = np.abs(np.diff(depth[turning])), np.diff(arc[turning])
+    steepest = int(np.argmax(drop / arcs**2))
+    return Way(float(drop[steepest]), float(arcs[steepest]))
 
 
 def peak_ball_load(scene: Scene) -> float:

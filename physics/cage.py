@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from physics._jit import njit_inner, njit_lean
@@ -93,7 +93,7 @@ class CagePath:
         return float(self.speed(np.concatenate([[0.0, self.duration], inside])).max())
 
     @cached_property
-    def knot_times(self) -> NDArray[np.float64]:
+    def knot_times(self) -> Array:
         """Times of the knots, shape (K,), s."""
         return self.knot_start + self.knot_step * np.arange(len(self.knot_values), dtype=np.float64)
 
@@ -113,15 +113,15 @@ class CagePath:
         angle.c[-1] += self.start_angle - float(angle(0.0))
         return angle
 
-    def angle(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    def angle(self, time: Array) -> Array:
         """Unwrapped cage angle at `time` (T,), rad: the position of ball 1 of row 1."""
         return np.asarray(self.polynomial(time))
 
-    def speed(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    def speed(self, time: Array) -> Array:
         """Cage speed at `time` (T,), rad/s."""
         return np.asarray(self.polynomial.derivative()(time))
 
-    def crossing_times(self, target: NDArray[np.float64]) -> NDArray[np.float64]:
+    def crossing_times(self, target: Array) -> Array:
         """Times (N,) at which the cage angle equals each `target` angle (N,), s; beyond the ends at the mean speed."""
         return crossing_times(self.polynomial, self.mean_speed, self.duration, np.asarray(target, dtype=float))
 
@@ -147,9 +147,7 @@ class LongerPath(CagePath):
         return PPoly(np.concatenate([known.c, straight], axis=1), edges, extrapolate=True)
 
 
-def crossing_times(
-    polynomial: PPoly, mean_speed: float, duration: float, target: NDArray[np.floating]
-) -> NDArray[np.float64]:
+def crossing_times(polynomial: PPoly, mean_speed: float, duration: float, target: Array) -> Array:
     """Times (N,) at which a rising piecewise polynomial over [0, duration] equals `target` (N,).
 
     Outside [0, duration] the path goes on at `mean_speed`.
@@ -225,10 +223,18 @@ def slip_knot_scale(correlation: float) -> float:
     return 1.0 / math.sqrt(float(variance))
 
 
+class SlipKnots(NamedTuple):
+    """Knots of a slip as a `CagePath` takes them: their `step` (s), the time of the first (s), and their values (1)."""
+
+    step: float
+    start: float
+    values: tuple[float, ...]
+
+
 def draw_slip_knots(
     generator: np.random.Generator, deviation: float, correlation_time: float, duration: float, lead_in: float = 0.0
-) -> tuple[float, float, tuple[float, ...]]:
-    """Knot step (s), first knot time (s) and knot values of a stationary slip with the stated `deviation` (1).
+) -> SlipKnots:
+    """Knots of a stationary slip with the stated standard `deviation` (1) and `correlation_time` (s).
 
     They cover −`lead_in` to `duration` (s). The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck)
     sequence, four per correlation time, scaled so that the spline through them has the stated deviation on average;
@@ -256,4 +262,4 @@ def draw_slip_knots(
     for k in range(1, count):
         values[k] = correlation * values[k - 1] + innovation * noise[k]
     values *= deviation * slip_knot_scale(correlation)
-    return step, start, tuple(float(v) for v in np.round(values, 12))
+    return SlipKnots(step, start, tuple(float(v) for v in np.round(values, 12)))

@@ -62,8 +62,8 @@ def slipping(scene: Scene, deviation: float, seed: int) -> Scene:
     """The steady `scene` with random slip of this standard deviation and one ball pass of correlation time."""
     cage = scene.cage
     one_pass = scene.rig.bearing.spacing / cage.nominal_speed
-    step, start, values = draw_slip_knots(np.random.default_rng(seed), deviation, one_pass, cage.duration)
-    return replace(scene, cage=replace(cage, knot_step=step, knot_start=start, knot_values=values))
+    knots = draw_slip_knots(np.random.default_rng(seed), deviation, one_pass, cage.duration)
+    return replace(scene, cage=replace(cage, knot_step=knots.step, knot_start=knots.start, knot_values=knots.values))
 
 
 def line_spall(rig_name: str) -> Spall:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from physics.arrays import Array
 from physics.bearing import Bearing
 from physics.checks import require_not_negative, require_positive
 
@@ -53,22 +53,23 @@ class Rig:
         """Angular frequency of the resonator on the outer ring without support and shaft, rad/s."""
         return math.sqrt(self.resonator_stiffness * (1.0 / self.resonator_mass + 1.0 / self.outer_mass))
 
-    def mass_matrix(self) -> NDArray[np.float64]:
+    def mass_matrix(self) -> Array:
         """M of (xi, yi, xo, yo, xr, yr), shape (6, 6), kg [P14 Eq. 13, 14]."""
         return np.diag(np.repeat([self.inner_mass, self.outer_mass, self.resonator_mass], 2))
 
-    def stiffness_matrix(self) -> NDArray[np.float64]:
+    def stiffness_matrix(self) -> Array:
         """K without the bearing, shape (6, 6), N/m [P14 Eq. 13, 15]."""
         support = np.diag([self.support_stiffness_x, self.support_stiffness_y])
         return _chain(support, self.resonator_stiffness * np.eye(2))
 
-    def damping_matrix(self) -> NDArray[np.float64]:
+    def damping_matrix(self) -> Array:
         """C without the bearing, shape (6, 6), N s/m [P14 Eq. 13, 15]."""
         support = np.diag([self.support_damping_x, self.support_damping_y])
         return _chain(support, self.resonator_damping * np.eye(2))
 
 
-def _chain(support: NDArray[np.float64], resonator: NDArray[np.float64]) -> NDArray[np.float64]:
+def _chain(support: Array, resonator: Array) -> Array:
+    """Matrix (6, 6) of the outer ring held by `support` (2, 2) with the `resonator` (2, 2) on it; the shaft is free."""
     matrix = np.zeros((6, 6))
     matrix[2:4, 2:4] = support + resonator
     matrix[2:4, 4:6] = -resonator

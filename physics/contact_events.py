@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.arrays import Array, Flags
+from physics.arrays import Array, Flags, Index
 from physics.trace import ContactChanges
 
 
@@ -34,7 +34,7 @@ def contact_events(
 def _fill_events(
     times: Array,
     begins: Flags,
-    first: NDArray[np.int64],
+    first: Index,
     initial: Flags,
     ball: NDArray[np.int16],
     entry: Array,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eig, eigh
 
 from physics.angular_speed import in_hertz
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.cage import CagePath
 from physics.checks import require
 from physics.operation import Operation
@@ -72,7 +72,7 @@ def modes(rig: Rig, stiffness: Array, damping: Array) -> Modes:
     return Modes(frequency[order] / (2.0 * math.pi), ratio[order], shape / largest)
 
 
-def _pair(values: NDArray[np.complex128]) -> tuple[Array, Array, NDArray[np.int64]]:
+def _pair(values: NDArray[np.complex128]) -> tuple[Array, Array, Index]:
     """Frequency (rad/s), damping ratio and column of each mode from the eigenvalues of Eq. 30, (12,) [P14 Eq. 31]."""
     rising = np.flatnonzero(values.imag > 0.0)
     real = np.flatnonzero(values.imag == 0.0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 from physics.checks import require, require_not_negative
 
 
@@ -23,8 +23,8 @@ class ContactChanges:
     time: Array
     row: NDArray[np.int16]
     ball: NDArray[np.int16]
-    made: NDArray[np.bool_]
-    initial: NDArray[np.bool_]
+    made: Flags
+    initial: Flags
 
     def before(self, end: float) -> ContactChanges:
         """Those before an `end` (s)."""

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit, njit_lean
-from physics.arrays import Array
+from physics.arrays import Array, Flags, Index
 from physics.contact.contact_set import contradicts
 from physics.contact.forces import ACTIVE, FORCE, Contacts, of_ball
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
@@ -44,10 +41,10 @@ class Output(NamedTuple):
     force: Array
     outer: Array
     change_time: Array
-    change_ball: NDArray[np.int64]
-    change_made: NDArray[np.bool_]
+    change_ball: Index
+    change_made: Flags
     initial: Array
-    tally: NDArray[np.int64]
+    tally: Index
     touched: Array
     budget: Array
 

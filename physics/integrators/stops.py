@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from physics._jit import njit_inner, njit_lean
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.contact.forces import ACTIVE, of_ball
 
 ANY_BALL = -1
@@ -22,7 +19,7 @@ class Stops(NamedTuple):
     ANY_BALL where a step ends whether it touches or not."""
 
     time: Array
-    ball: NDArray[np.int64]
+    ball: Index
 
 
 @njit_inner

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from physics._jit import njit_lean
-from physics.arrays import Array, Flags
+from physics.arrays import Array, Flags, Index
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
 from physics.modes import coupled_matrix
@@ -107,7 +107,7 @@ def _way_down(path: DepthPath, sense: float) -> tuple[Array, Array]:
     return arcs[way], depths[way]
 
 
-def _ball_angle(scene: Scene, spall: Spall, ball: NDArray[np.int64], time: Array) -> Array:
+def _ball_angle(scene: Scene, spall: Spall, ball: Index, time: Array) -> Array:
     bearing = scene.rig.bearing
     turned = scene.cage_of(spall.row).angle(time)
     return np.asarray(turned + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
@@ -140,7 +140,7 @@ class Swings(NamedTuple):
 
     turn: NDArray[np.complex128]
     reading: Array
-    sample: NDArray[np.int64]
+    sample: Index
     kick: NDArray[np.complex128]
 
 

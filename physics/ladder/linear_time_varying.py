@@ -18,10 +18,9 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit, njit_inline, specialise, uncompiled
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 from physics.assembly import assemble, ball_numbers
 from physics.cage import CagePath
 from physics.contact.contact_set import reset_contact
@@ -64,7 +63,7 @@ def repeats_with_the_balls(scene: Scene) -> bool:
 
 
 @njit
-def _linearise(contacts: Contacts, time: Array, loads: Array) -> tuple[Array, NDArray[np.bool_], int]:
+def _linearise(contacts: Contacts, time: Array, loads: Array) -> tuple[Array, Flags, int]:
     """Table (N, 9), who touches (N, M), and the first index without a position, or −1."""
     table = np.zeros((time.size, COLUMNS))
     touching = np.zeros((time.size, contacts.balls.shape[0] * contacts.balls.shape[2]), dtype=np.bool_)
@@ -160,7 +159,7 @@ def _march(
             now, then = then, now
 
 
-def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, NDArray[np.bool_]]:
+def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, Flags]:
     """Times (N,), table (N, 9) and who touches (N, M); raises SimulationFailed."""
     contacts = assemble(scene)
     if repeats_with_the_balls(scene):
@@ -178,7 +177,7 @@ def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, NDArr
     return time, table, touching
 
 
-def _changes(scene: Scene, touching: NDArray[np.bool_], samples: int, rate: float) -> ContactChanges:
+def _changes(scene: Scene, touching: Flags, samples: int, rate: float) -> ContactChanges:
     """Changes of contact between samples, from who touches (N, M) at the nodes of the table."""
     bearing, (_, ball) = scene.rig.bearing, ball_numbers(scene)
     real = touching[:, ball >= 0].reshape(-1, bearing.rows, bearing.balls)

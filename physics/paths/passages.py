@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.cage import crossing_times
 from physics.scene import Scene
 
@@ -19,7 +18,7 @@ class Passages:
     """Crossings of one point of one spall by the balls of its row, in time order: `time` (P,) s, `ball` (P,) from 1."""
 
     time: Array
-    ball: NDArray[np.int64]
+    ball: Index
 
 
 def passages(scene: Scene, spall_index: int, arc: float, start: float, stop: float) -> Passages:

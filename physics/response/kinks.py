@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.contact.forces import Contacts
 from physics.contact.track import CAGE, FIRST_BALL
 from physics.integrators.stops import ANY_BALL, Stops
@@ -36,7 +35,7 @@ def known_kinks(scene: Scene, contacts: Contacts, longest: float = 0.0) -> Stops
     return Stops(time[order], ball[order])
 
 
-def _beside_ridges(time: Array, ball: NDArray[np.int64], spall: NDArray[np.int64], longest: float) -> NDArray[np.int64]:
+def _beside_ridges(time: Array, ball: Index, spall: Index, longest: float) -> Index:
     """Which of the crossings (S,) are those of a ball that passes from one spall to another within the `longest` step
     (s)."""
     order = np.lexsort((time, ball))

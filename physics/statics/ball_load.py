@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_lean
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import FORCE, Contacts, of_ball
 from physics.motion import MotionModel, motion_model
@@ -37,9 +37,7 @@ def ball_load(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) ->
 
 
 @njit_lean
-def _follow(
-    contacts: Contacts, motion: MotionModel, time: Array, ball: NDArray[np.int64], place: Array, load: Array
-) -> int:
+def _follow(contacts: Contacts, motion: MotionModel, time: Array, ball: Index, place: Array, load: Array) -> int:
     """Fill `load` (K,), N in radial direction, along the way of the shaft, `place` (K, 2), m; the first instant at
     which no position carries the load, or K."""
     lost = time.size

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit_inner, njit_lean
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.assembly import assemble, ball_numbers
 from physics.contact.forces import COMPRESSION, FORCE, Contacts, direction, of_ball, set_time
 from physics.motion import MotionModel, motion_model, outer_load
@@ -41,7 +40,7 @@ class Equilibrium:
     ball_load: Array
     stiffness: Array
     damping: Array
-    status: NDArray[np.int64]
+    status: Index
 
     def outcome(self, index: int) -> StaticOutcome:
         """How the search ended at one instant."""
@@ -55,7 +54,7 @@ class _Found(NamedTuple):
     stiffness: Array
     damping: Array
     force: Array
-    status: NDArray[np.int64]
+    status: Index
 
 
 def instants_without_period(duration: float, count: int) -> Array:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from physics.arrays import Array
+from physics.arrays import Array, Index
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow
 from physics.integrators.modal.layout import POWERS
 
@@ -82,7 +81,7 @@ class Memory(NamedTuple):
     noted: Array
     midway: Array
     clock: Array
-    marks: NDArray[np.int64]
+    marks: Index
     fastest: float
 
 

@@ -6,10 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from physics._jit import njit
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 from physics.cage import CagePath
 from physics.paths.depth_path import DepthPath
 from physics.paths.profile import build_path
@@ -222,7 +221,7 @@ def _pressed(
 
 
 @njit
-def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.bool_]:
+def contact_set(equations: Equations, time: float, state: Array) -> Flags:
     """Which balls (B,) touch: those compressed, and under the no-tension law only while they also push."""
     touching = np.empty(equations.balls.shape[0], dtype=np.bool_)
     turn = _turn(equations, time)
@@ -233,7 +232,7 @@ def contact_set(equations: Equations, time: float, state: Array) -> NDArray[np.b
 
 
 @njit
-def slopes(equations: Equations, touching: NDArray[np.bool_], time: float, state: Array) -> Array:
+def slopes(equations: Equations, touching: Flags, time: float, state: Array) -> Array:
     """Time derivative (12,) of the state while exactly the balls `touching` (B,) are in contact."""
     contact = np.zeros(2)
     loads, turn = equations.loads, _turn(equations, time)

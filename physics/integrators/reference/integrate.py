@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
-from physics.arrays import Array
+from physics.arrays import Array, Flags
 from physics.integrators.reference.equations import contact_set, slopes, write_equations
 from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
@@ -51,7 +50,7 @@ class ReferenceSolution:
 
     state: Array
     changes: list[Change]
-    initial: NDArray[np.bool_]
+    initial: Flags
 
 
 def integrate_reference(scene: Scene, start_state: Array, times: Array) -> ReferenceSolution:
@@ -141,7 +140,7 @@ class _Run:
             before = after
         return None
 
-    def _closed(self, time: float, deviation: Array) -> NDArray[np.bool_]:
+    def _closed(self, time: float, deviation: Array) -> Flags:
         return contact_set(self.equations, time, self.start + deviation)
 
     def _disagrees(self, time: float, deviation: Array) -> bool:

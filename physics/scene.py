@@ -13,8 +13,8 @@ from physics.rig import Rig
 from physics.spall import Spall, require_apart
 from physics.words import CONTACT_LAWS
 
-# m along the race. To find the path of a ball takes the longer the shorter the surface is: its points lie closer, and
-# the ball is as large as ever. One of a micrometre takes seconds.
+# m along the race. The shorter the surface, the longer it takes to find the path of a ball: points lie closer, and the
+# ball is as large as ever. One of a micrometre takes seconds.
 SHORTEST_ROLLED = 1e-6
 
 
@@ -86,14 +86,14 @@ class Scene:
         """Balls meet the entry edge of an inner spall first only while the shaft overtakes them."""
         shaft = self.operation.shaft_speed
         for row in sorted({spall.row for spall in self.spalls if spall.race == "inner"}):
-            cage, field = self.cage_of(row), "cage" if row == 1 or self.second_cage is None else "second_cage"
+            cage, name = self.cage_of(row), "cage" if row == 1 or self.second_cage is None else "second_cage"
             fastest = max(cage.fastest, cage.mean_speed)
             steady = fastest == shaft and not cage.knot_values
             require(
                 fastest < shaft or steady,
-                f"{field} = {fastest:.6g} rad/s at its fastest; allowed over an inner spall: below the shaft's "
+                f"{name} = {fastest:.6g} rad/s at its fastest; allowed over an inner spall: below the shaft's "
                 f"{shaft:.6g} rad/s, or that speed without slip",
-                field,
+                name,
             )
 
     @property

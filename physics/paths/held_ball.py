@@ -14,7 +14,7 @@ ROUNDING = 1e-15
 # How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
 # ends says that the ball touches.
 HALVINGS, CUTS = 3, 3
-# To the last digit of an angle.
+# Halvings that find an angle to its last digit.
 AWAY_HALVINGS = 60
 # Share of its radius by which a ball may touch beside its centre.
 FARTHEST = 1.0 - 1e-12
@@ -44,8 +44,13 @@ class Held(NamedTuple):
         return int(np.count_nonzero(holds))
 
 
+def turn_of(race: str) -> float:
+    """1 on the "inner" race, which bends away from the ball, −1 on the "outer", which bends towards it."""
+    return -1.0 if race == "outer" else 1.0
+
+
 class Ball(NamedTuple):
-    """A ball and the race it rolls on: both radii (m), and `turn`, 1 on the inner race, −1 on the outer."""
+    """A ball and the race it rolls on: both radii (m), and the race's `turn_of`."""
 
     race_radius: float
     ball_radius: float

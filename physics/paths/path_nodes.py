@@ -20,7 +20,7 @@ MOST_ROUNDS = 32
 HOLLOW_HALVINGS = 6
 # A contact so near to a lip (steps) is on it.
 ON_LIP = 1e-3
-# What is left of a height (m) when a ball is held between points of a surface.
+# To this (m) heights are known of a ball that is held between points of a surface.
 ROUNDED = 1e-13
 
 

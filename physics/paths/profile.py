@@ -29,6 +29,7 @@ from physics.paths.spall_surface import (
 from physics.scene import Scene
 from physics.spall import Spall
 
+# So a taper is met to 2.4e-8 of its depth, and its slope to 3.6e-6 of the depth over the taper.
 CELLS_PER_TAPER = 48
 CELLS_PER_ROUGHNESS_STEP = 4
 # Largest error (m) of a rough path between the nodes of its cells, which are halved at most so many times for it. Drawn

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from physics._jit import njit, njit_inline, njit_lean
 from physics.arrays import Array, Index
 from physics.paths.corners import LEAP, RolledPath
+from physics.paths.depth_path import Curve
 from physics.paths.held_ball import (
     ROUNDING,
     Ball,
@@ -19,14 +19,13 @@ from physics.paths.held_ball import (
     hold_as_neighbours,
     hold_between_points,
     hold_on_lips,
+    turn_of,
 )
 
-Curve = Callable[[Array], Array]
-
 FEWEST_STEPS = 512
-# Points of the surface for each one of the path.
+# Points of the surface to a step of the path.
 POINTS_A_STEP = 4
-# Points of the surface that are passed over together, for each one of the path's.
+# Steps of the path whose points of the surface are passed over together if the highest of them cannot hold the ball.
 BLOCKED = 4
 
 
@@ -50,7 +49,7 @@ def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Cu
 
     Outer race: Rb − √(Rb² − Ro² sin²ψ) − Ro (1 − cos ψ); inner race: the last term is + Ri (1 − cos ψ).
     """
-    turn = -1.0 if race == "outer" else 1.0
+    turn = turn_of(race)
 
     def drop(arc: Array) -> Array:
         lever = np.minimum(race_radius * np.sin(arc), ball_radius)
@@ -70,7 +69,7 @@ def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float
 
     No more than the arc at which the ball slips past the edge.
     """
-    turn = -1.0 if race == "outer" else 1.0
+    turn = turn_of(race)
     furthest = math.asin(min(1.0, ball_radius / race_radius))
     drop = min(drop, ball_radius + turn * race_radius * (1.0 - math.cos(furthest)))
     centre_radius = race_radius + turn * (ball_radius - drop)
@@ -93,7 +92,7 @@ def roll(
     has no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
     ball touches is looked for among points of the surface and then, exactly, between the neighbours of the point found.
     """
-    ball = Ball(race_radius, ball_radius, -1.0 if race == "outer" else 1.0)
+    ball = Ball(race_radius, ball_radius, turn_of(race))
     lips = np.zeros(0) if lips is None else lips
     (start, stop), length = ends, ends[1] - ends[0]
     count = max(FEWEST_STEPS, math.ceil(length / step))
@@ -170,9 +169,13 @@ def _roll(
 
 
 @njit_inline
-def drop_on(s: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool) -> float:
-    """Drop (m) of a ball that touches the surface at the depth `s` (m), so far away; infinite if it cannot."""
-    radius = race_radius + s if outer else race_radius - s
+def drop_on(depth: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool) -> float:
+    """Drop (m) of a ball that touches the surface at this `depth` (m); infinite if it is too far away to touch there.
+
+    `cosine` and `sine` are of the angle between the ball's centre and the contact, not below 0. The same as
+    `Ball.drop`, number by number.
+    """
+    radius = race_radius + depth if outer else race_radius - depth
     lever = radius * sine
     if lever >= ball_radius:
         return math.inf
@@ -186,7 +189,10 @@ def drop_on(s: float, cosine: float, sine: float, race_radius: float, ball_radiu
 def _least_drop(
     highest: float, deepest: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool
 ) -> float:
-    """A drop (m) below which no surface between these depths (m) holds the ball, so far away."""
+    """A drop (m) below which no surface between the `highest` and the `deepest` depth (m) holds the ball.
+
+    `cosine` and `sine` as in `drop_on`, of the least angle at which it may touch.
+    """
     lever = (race_radius + highest if outer else race_radius - deepest) * sine
     if lever >= ball_radius:
         return math.inf

@@ -9,6 +9,7 @@ from physics.arrays import Array
 from physics.paths.held_ball import Surface
 from physics.spall import Spall
 
+# Share of its depth by which a floor may lie below the ball that touches it, and above its deepest part.
 TOUCHING_SHARE = 0.02
 
 

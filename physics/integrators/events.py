@@ -72,7 +72,8 @@ def contact_condition(contacts: Contacts, way: Way, ball: int, share: float) -> 
     step, law = way.step, contacts.law
     compression, rate = compression_of(contacts, ball, way.time + share * step, x, y, u / step, v / step)
     if law.no_tension:
-        # Compression (m) is brought to the scale of a force so that one number carries both conditions.
+        # Compression (m) is brought to the scale of a force, by the secant of a ball's law at 1 µm, so that one number
+        # carries both conditions.
         return min(law.stiffness * 1e-3 * compression, law_force(law, compression, rate)), 0.0, rate
     return compression, rate * step, rate
 

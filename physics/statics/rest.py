@@ -35,6 +35,14 @@ NEGLIGIBLE_COMPRESSION = 1e-13
 LARGEST_MOVE = 0.05
 MOST_ITERATIONS = 200
 MOST_SHORTENINGS = 40
+# Beside the load, this share of what the balls press with counts where an unbalanced force is called small.
+PRESSED_SHARE = 1e-3
+# A step is no longer than so many typical compressions, and half the displacement.
+LONGEST_STEP = 20.0
+# The energy has to fall by this share of what its slope foretells (Armijo's rule), give or take its relative rounding.
+SUFFICIENT_FALL, ENERGY_ROUNDING = 1e-4, 1e-14
+# A step that does not make it fall so far is shortened to between these shares of its length.
+SHORTEST_AGAIN, LONGEST_AGAIN = 0.01, 0.9
 
 
 class Hold(NamedTuple):
@@ -124,7 +132,7 @@ def solve_at(contacts: Contacts, load_x: float, load_y: float, dx: float, dy: fl
 def _ends(hold: Hold, law: Law, load: float, gx: float, gy: float, share: float) -> bool:
     """Whether the unbalanced force (gx, gy) is a small `share` of the load, or there is no load and no ball pressed."""
     # Under preload the balls press each other harder than the load, and rounding grows with that.
-    return _is_free(hold, law, load) or math.hypot(gx, gy) <= share * (load + 1e-3 * hold.pressed)
+    return _is_free(hold, law, load) or math.hypot(gx, gy) <= share * (load + PRESSED_SHARE * hold.pressed)
 
 
 @njit_inner
@@ -150,7 +158,7 @@ def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_
     xx, yy = hold.xx + extra, hold.yy + extra
     determinant = xx * yy - hold.xy * hold.xy
     x, y = (yy * gx - hold.xy * gy) / determinant, (xx * gy - hold.xy * gx) / determinant
-    share = min(1.0, (20.0 * typical + least_room) / math.hypot(x, y))
+    share = min(1.0, (LONGEST_STEP * typical + least_room) / math.hypot(x, y))
     return share * x, share * y
 
 
@@ -172,12 +180,16 @@ def _descend(
     for _ in range(MOST_SHORTENINGS):
         x, y = dx + share * step_x, dy + share * step_y
         hold = elastic(contacts, x, y)
-        if hold.energy - load_x * x - load_y * y <= objective - 1e-4 * share * descent + 1e-14 * abs(objective):
+        enough = objective - SUFFICIENT_FALL * share * descent + ENERGY_ROUNDING * abs(objective)
+        if hold.energy - load_x * x - load_y * y <= enough:
             break
         # Past the lowest point along the step: the slope of the energy there and its stiffness say how far.
         slope = (hold.force_x - load_x) * step_x + (hold.force_y - load_y) * step_y
         bend = hold.xx * step_x * step_x + 2.0 * hold.xy * step_x * step_y + hold.yy * step_y * step_y
-        share = min(max(share - slope / bend, 0.01 * share), 0.9 * share) if bend > 0.0 else 0.5 * share
+        if bend > 0.0:
+            share = min(max(share - slope / bend, SHORTEST_AGAIN * share), LONGEST_AGAIN * share)
+        else:
+            share *= 0.5
     return x, y, hold
 
 

@@ -31,8 +31,13 @@ AIM, MARGIN = 0.1, 0.75
 # No tolerance is below the first share of the acceleration that the load would give the outer ring, nor below the
 # second of what the largest forces do in a sample: they are not known better.
 SMALLEST_SHARE, ROUND_OFF = 1e-8, 1e-13
-# The tolerance of a coarse response; weights of the guessed size of the signal, in samples.
-COARSE, CERTAIN, UNCERTAIN = 1e-3, 1e9, 512.0
+# The tolerance of a coarse response, relative.
+COARSE = 1e-3
+# The size that a signal is said to have counts like that of so many samples: one that is known stays, one that is
+# guessed soon gives way to what is seen.
+KNOWN, GUESSED = 1e9, 512.0
+# A `spending` that no errors use up.
+UNLIMITED = 1e9
 
 
 @dataclass(frozen=True)
@@ -73,15 +78,20 @@ class Goal:
         """A grid whose tolerance is this `aim` of the accuracy at first, of a signal whose mean square may be `seen`
         (m²/s⁴), and then what leaves the estimated error within it."""
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * safety_factor(sensitivity) * aim)) ** 2
-        return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least, seen, UNCERTAIN, spending)
+        return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least, seen, GUESSED, spending)
 
 
-def steady(case: Case, samples: int, share: float, size: float, spending: float = CERTAIN) -> Stride:
-    """A grid whose tolerance stays this `share` of a signal of known `size` (m/s², RMS), whatever errors it leaves."""
-    return _grid(case, samples, share, 0.0, size**2, CERTAIN, spending)
+def steady(case: Case, samples: int, share: float, size: float, spending: float = UNLIMITED) -> Stride:
+    """A grid whose tolerance is this `share` of a signal of known `size` (m/s², RMS), whatever errors it leaves.
+
+    As these do not use up an unlimited `spending`, it grows to four times that within 1536 samples (`set_tolerance`).
+    """
+    return _grid(case, samples, share, 0.0, size**2, KNOWN, spending)
 
 
 def _grid(case: Case, samples: int, share: float, least: float, seen: float, weight: float, spending: float) -> Stride:
+    """A grid for errors of this `share` of the signal, or `least` (m/s², RMS) if that is more; `seen` (m²/s⁴) is what
+    to take for the signal's mean square, with the `weight` of so many samples, and `spending` as in Stride."""
     floor = share * SMALLEST_SHARE * abs(case.scene.operation.load) / case.scene.rig.outer_mass
     return Stride(
         samples=samples,

@@ -29,7 +29,9 @@ from physics.trace import ACCELERATION_ALONE, Kept
 
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
+# Instants whose contact stiffness and damping are averaged for the modes.
 MEAN_STIFFNESS_TIMES = 64
+# N/m; the modes need a spring between the rings even where no ball is pressed.
 SMALLEST_STIFFNESS = 1e3
 
 

@@ -11,8 +11,8 @@ from scipy.special import ellipe, ellipkm1
 from physics.bearing import DEFAULT_CONFORMITY, RACES, SMALLEST_CONFORMITY, Bearing
 from physics.checks import require_between, require_one_of, require_positive
 
-YOUNG_MODULUS = 206e9
-POISSON_RATIO = 0.3
+# Of bearing steel; the modulus in Pa.
+YOUNG_MODULUS, POISSON_RATIO = 206e9, 0.3
 BALL_EXPONENT = 1.5
 ROLLER_EXPONENT = 10.0 / 9.0
 PALMGREN_FACTOR = 8.06e4  # N/mm^2: load of one steel line contact is 8.06e4 l^(8/9) δ^(10/9), l and δ in mm
@@ -110,7 +110,6 @@ def race_contact(
     return PointContact(
         along=2.0 / ball_diameter + bend,
         across=2.0 / ball_diameter - 1.0 / (conformity * ball_diameter),
-        modulus=YOUNG_MODULUS / (1.0 - POISSON_RATIO**2),
     )
 
 
@@ -170,14 +169,12 @@ def is_roller(bearing: Bearing) -> bool:
     return bearing.exponent < (BALL_EXPONENT + ROLLER_EXPONENT) / 2.0
 
 
-def contact_width(
-    bearing: Bearing,
-    race: str,
-    load: float,
-) -> float:
+def contact_width(bearing: Bearing, race: str, load: float) -> float:
     """Width along the rolling direction of the contact with `race` ("outer", "inner") under a normal `load` (N), m.
 
-    Balls: the ellipse of the bearing's conformity. Rollers: the line contact of the length that K stands for.
+    Balls: the ellipse of the bearing's conformity. Rollers: the line contact of the length l that K stands for, Hertz's
+    2 √(8 F / (π l Σρ E/(1 − ν²))) of two bodies of one steel.
+
     InvalidParameter unless the load is above 0, or for another race.
     """
     require_positive("load", load, "N")

@@ -35,9 +35,13 @@ from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink, passed
 from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
 from physics.motion import MotionModel
 
+# Local error, relative to the motion seen so far, at one step a sample.
 LOOSEST_TOLERANCE = 2e-3
+# Of a sample.
 FIRST_STEP_SHARE = 1e-3
+# The next step is this share of the one that would just keep the tolerance, within these bounds of the last one.
 SAFETY, MOST_SHRINKING, MOST_GROWTH = 0.9, 0.2, 5.0
+# m: what moves less is taken to have moved by this.
 SMALLEST_MOTION = 1e-18
 MOST_STEPS_PER_SAMPLE, SPARE_STEPS = 40, 20_000
 

@@ -4,7 +4,7 @@ What a machine is, put together in a `scene`:
 
 - `bearing`, with `hertz` (how stiff and how wide a contact is), `rating` (static load rating) and `orders` (how often
   balls pass)
-- `rig`, `spall`, `imperfections`, `operation`, `cage`
+- `rig`, `spall`, `imperfections`, `operation`, `cage` (with `crossing`: when a cage comes by an angle)
 - `catalog/`: published bearings and rigs; `reference_scenes`: the named scenes of the paper's two rigs
 
 What comes of it, from the front door inwards:

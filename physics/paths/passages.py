@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from physics.arrays import Array, Index
-from physics.cage import crossing_times
+from physics.crossing import crossing_times
 from physics.scene import Scene
 
 

@@ -31,8 +31,8 @@ from physics.operation import Operation
 from physics.paths.profile import race_depth
 from physics.recursive_filter import filtered
 from physics.response.kinks import known_kinks
+from physics.response.march_output import empty_output
 from physics.response.resampling import decimate, read_at, read_repeated
-from physics.response.single_march import empty_output
 from physics.rms import stretches_apart
 from physics.scene import Scene
 from physics.sensor.mode import SensorMode, mode_accelerations

@@ -5,6 +5,7 @@
   (tolerance and error) and `attempts` (made again, or confirmed by a finer one)
 - `periodic`: only until the response repeats itself; `lead_in`: begun before the record
 - `silence`: what is too small to be more than rounding
-- `kinks`: known instants at which steps have to end; `change_log`: room for changes of contact
+- `kinks`: known instants at which steps have to end; `change_log`: room for changes of contact; `march_output`: what
+  a march writes into, and the trace that comes of it
 - `oversampling`: how finely to sample a response; `resampling`: other samples of what came out
 """

@@ -22,8 +22,8 @@ from physics.response.goal import (
     rms_distance,
     steady,
 )
+from physics.response.march_output import trace_of
 from physics.response.modal_case import March, case_of
-from physics.response.single_march import trace_of
 from physics.rms import rms
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium

@@ -22,7 +22,7 @@ from physics.motion import MotionModel, motion_model, starting_state
 from physics.outcome import StaticOutcome
 from physics.response.change_log import room_for_changes
 from physics.response.kinks import known_kinks
-from physics.response.single_march import empty_output, require_done
+from physics.response.march_output import empty_output, require_done
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium, equilibrium, instants_without_period, refuse
 from physics.trace import ACCELERATION_ALONE, Kept

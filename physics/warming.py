@@ -88,14 +88,23 @@ def compile_location() -> None:
     """Compile the part of the modal march that locates changes of contact."""
     contacts, flow, grid, memory, output = _before_a_march(_scene())
     now, then = memory.states
-    trial = Trial(0.0, 0.0, now, (0.0, 0.0), then, (0.0, 0.0), 0)
+    trial = Trial(time=0.0, step=0.0, now=now, force=(0.0, 0.0), then=then, after=(0.0, 0.0), halfway=0)
     compile_for(look, contacts, flow, grid, memory, 1, trial, True, True, output)
 
 
 def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory, Output]:
     """What a march of a single sample is given, made without a kernel that the march does not need."""
     contacts, flow = assemble(scene), linear_flow(motion_model(scene), (1e8, 1e8), (1.0, 1.0))
-    grid = Stride(1, 1.0 / RATE, len(STRIDES), 1.0, 1.0, 1.0, 1.0, 1.0)
+    grid = Stride(
+        samples=1,
+        interval=1.0 / RATE,
+        levels=len(STRIDES),
+        share=1.0,
+        least=1.0,
+        seen=1.0,
+        seen_samples=1.0,
+        spending=1.0,
+    )
     memory = memory_for(flow, np.zeros(AMPLITUDES), empty_tables(), contacts.balls.shape)
     return contacts, flow, grid, memory, empty_output(contacts, 1, 1, ACCELERATION_ALONE)
 

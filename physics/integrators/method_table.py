@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from typing import NamedTuple
 
 from physics.integrators.dormand_prince_march import march_dormand_prince
 from physics.integrators.exponential_adams import ORDERS, march_of_order
@@ -21,16 +22,24 @@ MARCHES: Mapping[str, Callable[..., int]] = {
     **{f"exponential_adams{order}": march_of_order(order) for order in ORDERS},
 }
 
-# Largest |λ| h of an undamped mode, and from each damping ratio on (method.py): where the largest eigenvalue of the
-# method's amplification matrix over one step reaches 1. tests/physics/integrators/test_stability_limits.py has these
-# matrices. Limits rise with a little damping and fall again towards the aperiodic case. An undamped mode under the
-# Adams methods of order 3 and 4 grows at any step; up to their limit by less than 1 % in 65 536 steps.
-RK4_EXPONENTIAL = (1.41, ((0.9, 1.33),))
-RK4_CLASSICAL = (2.78, ((0.3, 2.59), (0.9, 2.78)))
+
+class Limits(NamedTuple):
+    """The largest |λ| h of an undamped mode, and from each damping ratio on, as `Method` has them."""
+
+    undamped: float
+    damped: tuple[tuple[float, float], ...]
+
+
+# Where the largest eigenvalue of the method's amplification matrix over one step reaches 1; these matrices are in
+# tests/physics/integrators/test_stability_limits.py. Limits rise with a little damping and fall again towards the
+# aperiodic case. An undamped mode under the Adams methods of order 3 and 4 grows at any step; up to their limit by less
+# than 1 % in 65 536 steps.
+RK4_EXPONENTIAL = Limits(1.41, ((0.9, 1.33),))
+RK4_CLASSICAL = Limits(2.78, ((0.3, 2.59), (0.9, 2.78)))
 ADAMS = {
-    2: (1.83, ((0.2, 1.36), (0.5, 0.87))),
-    3: (0.05, ((1e-5, 0.075), (1e-4, 0.16), (3e-4, 0.235), (1e-3, 0.34), (1e-2, 0.7), (3e-2, 0.78))),
-    4: (0.15, ((1e-5, 0.235), (1e-4, 0.36), (3e-4, 0.44), (1e-3, 0.55), (3e-3, 0.61))),
+    2: Limits(1.83, ((0.2, 1.36), (0.5, 0.87))),
+    3: Limits(0.05, ((1e-5, 0.075), (1e-4, 0.16), (3e-4, 0.235), (1e-3, 0.34), (1e-2, 0.7), (3e-2, 0.78))),
+    4: Limits(0.15, ((1e-5, 0.235), (1e-4, 0.36), (3e-4, 0.44), (1e-3, 0.55), (3e-3, 0.61))),
 }
 _LOCATED = "every contact change located on the quintic through the step's ends; stops at every known kink"
 
@@ -57,8 +66,8 @@ METHODS: Mapping[str, Method] = {
             title="exponential Runge-Kutta, order 4",
             order=4.0,
             contact_sums=4.0,
-            stability_limit=RK4_EXPONENTIAL[0],
-            damped_limits=RK4_EXPONENTIAL[1],
+            stability_limit=RK4_EXPONENTIAL.undamped,
+            damped_limits=RK4_EXPONENTIAL.damped,
             limits=CONTACT_MODES,
             dense_output="steps end on samples",
             events=_LOCATED,
@@ -71,8 +80,8 @@ METHODS: Mapping[str, Method] = {
                 title=f"exponential Adams predictor-corrector, order {order}",
                 order=float(order),
                 contact_sums=2.0,
-                stability_limit=ADAMS[order][0],
-                damped_limits=ADAMS[order][1],
+                stability_limit=ADAMS[order].undamped,
+                damped_limits=ADAMS[order].damped,
                 limits=CONTACT_MODES,
                 dense_output="steps end on samples",
                 events=f"{_LOCATED}; restarts after each with exponential Runge-Kutta steps",
@@ -86,8 +95,8 @@ METHODS: Mapping[str, Method] = {
             title="classical Runge-Kutta, order 4",
             order=4.0,
             contact_sums=4.0,
-            stability_limit=RK4_CLASSICAL[0],
-            damped_limits=RK4_CLASSICAL[1],
+            stability_limit=RK4_CLASSICAL.undamped,
+            damped_limits=RK4_CLASSICAL.damped,
             limits=ALL_MODES,
             dense_output="steps end on samples",
             events=_LOCATED,

@@ -46,7 +46,7 @@ def simulate(
     and `lead_in` how long before t = 0 the machine starts. A rate too low to hold the resonator is simulated at a
     multiple of it and decimated without aliasing (states and forces stay samples).
 
-    Raises InvalidParameter unless the rate is above 0 and the solution follows what is to be kept; SimulationFailed,
+    Raises InvalidParameter unless the rate is above 0 and the solution can keep what `keep` asks for; SimulationFailed,
     with a typed outcome, if no response comes of this scene.
     """
     require_positive("rate", rate, "Hz")

@@ -37,9 +37,10 @@ class Kept:
     """What else a trace keeps besides acceleration and contact changes.
 
     `state`: displacements and velocities; `force`: the normal force of every ball; `outer`: the outer ring's motion, at
-    a multiple of the rate that is also large enough for what is to follow it at up to `fastest_path` (Hz).
+    a multiple of the rate. `fastest_path` (Hz; 0: none): the frequency of the fastest resonance on the sensor's path
+    that this motion is to drive, for which the multiple has to be large enough.
 
-    Raises InvalidParameter for a path that is no frequency, or follows an outer ring that is not kept.
+    Raises InvalidParameter if `fastest_path` is no frequency, or is given without `outer`.
     """
 
     state: bool = False

@@ -101,14 +101,14 @@ def local_error(rates: Array, step: float, scale: Array) -> float:
         for stage in range(STAGES):
             total += ERROR[stage] * rates[stage, i]
         miss[i] = step * total
-    relative(miss)
+    make_relative(miss)
     for i in range(12):
         largest = max(largest, abs(miss[i]) / scale[i])
     return largest if math.isfinite(largest) else math.inf
 
 
 @njit
-def relative(state: Array) -> None:
+def make_relative(state: Array) -> None:
     """Make inner ring and resonator of `state` (12,) relative to the outer ring."""
     for axis in range(2):
         for first in (0, 6):

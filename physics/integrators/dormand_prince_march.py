@@ -16,7 +16,7 @@ from physics._jit import njit
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
-from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, relative, slope
+from physics.integrators.dormand_prince import STAGES, attempt, dense_output, local_error, make_relative, slope
 from physics.integrators.output import (
     DONE,
     LOG_FULL,
@@ -61,7 +61,7 @@ def _widen(work: Workspace, start: Array, state: Array, fastest: float) -> None:
     """Let the scale of errors grow with the deviation of `state` from the `start` of the run."""
     for i in range(12):
         work.deviation[i] = state[i] - start[i]
-    relative(work.deviation)
+    make_relative(work.deviation)
     for i in range(12):
         floor = SMALLEST_MOTION if i < 6 else SMALLEST_MOTION * fastest
         work.scale[i] = max(work.scale[i], abs(work.deviation[i]), floor)

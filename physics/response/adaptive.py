@@ -30,9 +30,11 @@ from physics.statics.load_distribution import Equilibrium
 from physics.trace import ACCELERATION_ALONE, Kept, Trace
 
 PILOT_SAMPLES = 2048
-SEED_ATTEMPTS = 3
-# First guess of the signal's size: this share of the acceleration that the load would give the outer ring.
-GUESSED_SHARE = 1e-2
+# First guess of the signal's size: this share of the acceleration that the load would give the outer ring. A coarse
+# response tells it better; where it is below the second share of the guess, another one is made to what it told, so
+# many in all. None is made to less than the third share of the guess before.
+GUESSED_SHARE, FAR_SMALLER, SMALLEST_GUESS = 1e-2, 0.1, 1e-3
+MOST_GUESSES = 3
 # A response of more than this sensitivity may be chaotic where the pilot did not look: it is made again, and how far
 # both are apart decides. So is one whose errors may grow and that is farther from a coarse one than this many times the
 # error allowed, or than this share of its size, if that is more than what is allowed.
@@ -126,13 +128,13 @@ def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
     case, short = goal.case, min(goal.samples, pilot)
     length = goal.samples if case.memory > 0.0 else short
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
-    for _ in range(SEED_ATTEMPTS):
+    for _ in range(MOST_GUESSES):
         coarse = March(case, short).go_on(steady(case, short, COARSE, size))
         found = rms(coarse.acceleration[short // 2 : short])
-        if found > 0.1 * size:
+        if found > FAR_SMALLER * size:
             size = found
             break
-        size = max(found, 1e-3 * size)
+        size = max(found, SMALLEST_GUESS * size)
     if case.memory > 0.0:
         # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
         coarse = perturbed_response(case, steady(case, length, COARSE, size))

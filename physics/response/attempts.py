@@ -26,21 +26,24 @@ from physics.rms import rms
 CALM = 1.5
 # No further attempt is made after one that has left more than this share of the error.
 MOST_ATTEMPTS, WORTHWHILE = 4, 0.5
+# The next one aims at this share of what would just do, and at no more than that share of what the last one aimed at.
+NEXT_SHARE, MOST_NEXT = 0.7, 0.5
 # A response of more than this sensitivity may be chaotic, and is to be confirmed.
 CHAOTIC = 50.0
 # To make a response again it is made with this share of the tolerance at most; to confirm one, at first with SURE.
 FINER, SURE = 0.25, 1.0 / 16.0
 # Of a response that is farther than this share of its size from a coarser one no point is known.
 LOST = 0.1
-# Distances shrink with tolerances to this power, or to a higher one if the responses show it: impacts' errors shrink
-# late.
+# Distances between responses shrink with this power of the tolerance, or with a higher one if the responses show it:
+# errors of impacts begin to shrink late.
 LATE = 0.5
 # The finer of two responses may be this many times as wrong as their distance leaves to hope for.
 CONFIRMED = 6.0
 # How many more are made to confirm one; none after one that took MUCH_WORK times the steps of the one to be confirmed.
 MOST_CONFIRMATIONS, MUCH_WORK = 4, 7
-# What the share of the samples before they are LOST must exceed, with two attempts left and with one: it grew at most
-# 2.6 times when the tolerance became MUCH_FINER (in 100 such scenes of 2780 of the wide corpus, from 0.1 to 1 s long).
+# For a finer response to be worth a first or a second attempt, two that are LOST must not be so within this share of
+# the samples; a third is not made of them. That share grew at most 2.6 times when the tolerance became MUCH_FINER (in
+# 100 such scenes of 2780 of the wide corpus, from 0.1 to 1 s long).
 SOON = (0.15, 0.4)
 # The next one has at least this share of the tolerance of the one before, and at most SURE.
 MUCH_FINER = 1.0 / 256.0
@@ -62,7 +65,7 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
         before, error = error, goal.error(output, sensitivity)
         if error <= goal.allowed(size) or error > WORTHWHILE * before:
             break
-        aim *= min(0.5, 0.7 * goal.allowed(size) / error)
+        aim *= min(MOST_NEXT, NEXT_SHARE * goal.allowed(size) / error)
         seen = size**2
         march = goal.begin()
     return output, grid

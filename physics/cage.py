@@ -83,7 +83,7 @@ class CagePath:
 
     @cached_property
     def fastest(self) -> float:
-        """Largest cage speed between 0 and `duration`, rad/s: at an end, or where the speed turns from rising."""
+        """Largest cage speed between 0 and `duration`, rad/s: at an end, or at a maximum between."""
         if not self.knot_values:
             return self.mean_speed
         turns = self.polynomial.derivative(2).roots(discontinuity=False, extrapolate=False)

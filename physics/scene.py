@@ -29,7 +29,7 @@ class Scene:
     The balls turn as the cage says and the inner race as `operation` says. Nothing makes the two agree: a cage may be
     braked, or dragged along, for a study, so whoever changes the shaft's speed gives a new `cage` as well. `validity`
     says where a cage's nominal speed is not that of pure rolling; its slip is a label. Only over a spall of the inner
-    race a cage may not be faster than the shaft, not even for a moment: balls would come from behind, through the edge
+    race may a cage not be faster than the shaft, not even for a moment: balls would come from behind, through the edge
     that is called the exit. A cage that turns with the shaft all the time is allowed; no ball passes then.
 
     Raises InvalidParameter, which names the field, the value and what is allowed.

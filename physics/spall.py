@@ -40,9 +40,9 @@ class Spall:
     steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth).
 
     A taper of zero is a step without slope. The film, whose force is c_d times the rate of compression, gives no
-    impulse there, but c_d `depth` over any taper however short. So tukey's response to ever shorter tapers does not end
-    in that to none; a taper of 0.001 degrees has their limit. Beside tapers the path follows `roughness_values` to
-    1e-10 m, unless they jump by many times what drawn ones do from step to step.
+    impulse there, but c_d `depth` over any taper however short. So under tukey the response to ever shorter tapers does
+    not tend to that without one; a taper of 0.001 degrees has their limit. Beside tapers the path follows
+    `roughness_values` to 1e-10 m, unless they jump by many times what drawn ones do from step to step.
 
     InvalidParameter unless `race`, `row` and `profile` are as above, the extent is above 0 and π at most, depths are
     within 10 mm and the tapers fit into the extent. Roughness values (4 or more, 0 at both ends) or table (2 points or

@@ -9,8 +9,9 @@ from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts, law_force
 
-# A mark is a polynomial in this number (a multiplier of D. Knuth's generators) with coefficients of 0 and 1, cut to as
-# many bits as a float holds with room for more. The number's powers up to the 2^50th differ in these bits.
+# A mark is a polynomial in this number (the multiplier of D. Knuth's generator for MMIX) with coefficients of 0 and 1,
+# cut to 52 bits, so that a float holds it exactly, with room to add to it. The number's powers up to the 2^50th differ
+# in these bits.
 MARK_BASE, MARK_BITS = 6364136223846793005, (1 << 52) - 1
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from physics.arrays import Array
 
-# What is shorter than this share of the full step is not tried, but taken as over: times differ by rounding alone.
+# No step is made over less than this share of the full one: times so near to each other differ by rounding alone.
 SMALLEST_STEP_SHARE = 1e-7
 # So many changes of contact are located in one full step; further ones are taken over at the end of a trial instead.
 MOST_CHANGES_PER_STEP = 100

@@ -29,8 +29,8 @@ from physics.paths.depth_path import BREAK, RELIEF_LEVELS, span_of
 
 # A ball near a change is looked at once a cell of its path, at most this often in a step.
 MOST_LOOKS = 64
-# A share of no step; how far behind a corner one looks at its far side, as a share of the step: slip changes by less
-# within it.
+# A share of the step that lies beyond it; and how far behind a corner, as a share of the step, its far side is looked
+# at: within this the cage's slip hardly changes.
 LATER, BEHIND = 2.0, 1e-4
 
 

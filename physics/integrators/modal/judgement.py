@@ -32,9 +32,9 @@ FLIGHT_ERROR = 1.0 / 2880.0
 # The tolerance grows or shrinks by what the errors so far make of the budget, within these bounds, as if this many
 # samples had kept to it before the first.
 LEAST_SPENT, MOST_SPENT, BUDGET_SAMPLES = 0.25, 8.0, 512
-# A step is taken back if its error exceeds the tolerance this many times. The next may be twice or half as long again
-# if it stays below these shares of it, since the error grows by the fifth power of the length, and has to be shorter
-# by LESS if it exceeds the tolerance.
+# A step is taken back if its error exceeds the tolerance this many times. The next may be twice as long, or half as
+# long again, if it stays below these shares of it, since the error grows by the fifth power of the length; and has to
+# be LESS times as long if it exceeds the tolerance.
 REJECTED, DOUBLED, LONGER, LESS = 4.0, 1.0 / 32.0, 1.5**-5, 0.75
 
 

@@ -40,7 +40,8 @@ def draw_path(axes: Axes, portrait: Portrait) -> None:
     drop = path.depth(arc) * 1e6
     axes.fill_between(np.degrees(arc), drop, 0.0, color=PALE, linewidth=0)
     axes.plot(np.degrees(arc), drop, color=BLUE, linewidth=1.5)
-    axes.plot(math.degrees(path.deepest), path.largest_depth * 1e6, marker="v", color=INK, markersize=5, linestyle="")
+    lowest = path.depth(np.array([path.deepest])) * 1e6
+    axes.plot(math.degrees(path.deepest), lowest, marker="v", color=INK, markersize=5, linestyle="")
     deepest = max(float(drop.max()), 1e-3)
     axes.set(ylim=(1.3 * deepest, min(float(drop.min()), 0.0) - 0.18 * deepest), ylabel="drop (µm)")
     _mark_edges(axes, spall)

@@ -33,7 +33,8 @@ class DepthPath:
     within the cell (0 to 1), coefficients `cubics` (sum of cells, 4) from the cube down, m. Zero outside.
 
     `deepest` (rad): the arc at which the drop is largest, the middle of a flat floor, of several the widest or else the
-    first; `largest_depth` (m): the drop there; `bridged`: the ball rests on both edges before it reaches the floor;
+    first; `largest_depth` (m): the drop there, or 0 where a spall stands proud of the race throughout, whose deepest
+    place is the lowest within its edges; `bridged`: the ball rests on both edges before it reaches the floor;
     `rough`: it goes up and down all along. `relief` (8,), m: how far a bump can stand out of the chord over 1, 2, 4 …
     mean cells; zero where there is none.
     """
@@ -147,12 +148,20 @@ def hermite_cubics(value: Array, rate: Array) -> Array:
 
 
 def hermite_path(
-    edges: Array, cells: list[int], depth: Curve, slope: Curve, *, bridged: bool, bumps: bool, rough: bool
+    edges: Array,
+    cells: list[int],
+    depth: Curve,
+    slope: Curve,
+    *,
+    bridged: bool,
+    bumps: bool,
+    rough: bool,
+    spall: tuple[float, float] | None = None,
 ) -> DepthPath:
     """The path of the curve `depth` (m) with its `slope` (m/rad) over `edges` (P + 1,), `cells` a piece.
 
     Cubic Hermite cells with the curve's values and one-sided slopes at the nodes. Its relief is known if there may be
-    `bumps`.
+    `bumps`. The edges of the `spall` (rad) are needed if the path reaches beyond them.
     """
     count = np.array(cells, dtype=np.int64)
     first = np.cumsum(count + 1) - (count + 1)
@@ -165,6 +174,8 @@ def hermite_path(
     values, rates = depth(inner), slope(inner) * width[piece]
     cubics = np.delete(hermite_cubics(values, rates), (first + count)[:-1], axis=0)
     deepest, largest = _deepest(arcs, values, np.delete(arcs, first + count), np.repeat(width, count), cubics)
+    if spall is not None and not spall[0] <= deepest <= spall[1]:
+        deepest = _lowest_within(spall, depth)
     path = DepthPath(
         breaks=np.asarray(edges, dtype=np.float64),
         cells=count,
@@ -197,6 +208,12 @@ def _deepest(nodes: Array, values: Array, left: Array, width: Array, cubics: Arr
     begin, end = arcs[order[turns[0::2]]], arcs[order[turns[1::2] - 1]]
     widest = int(np.argmax(end - begin))
     return float(0.5 * (begin[widest] + end[widest])), largest
+
+
+def _lowest_within(spall: tuple[float, float], depth: Curve) -> float:
+    """Arc (rad) of the largest drop between the edges of a `spall`, to a thousandth of their distance."""
+    arc = np.linspace(*spall, 1001)
+    return float(arc[np.argmax(depth(arc))])
 
 
 def _relief(path: DepthPath) -> Array:

@@ -211,6 +211,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
         # One lip is enough for a free ball to touch it within a step.
         bumps=rough or measured,
         rough=rough,
+        spall=(-spall.extent / 2.0, spall.extent / 2.0),
     )
 
 

@@ -316,3 +316,13 @@ def test_a_pass_cut_by_an_end_of_the_record_tells_neither_fall_nor_rise_of_its_l
         assert np.isnan(table.fall_time[cut]).all()
         assert np.isnan(table.rise_time[cut]).all()
         assert np.isfinite(table.fall_time[~cut]).any()
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_the_deepest_point_of_a_spall_that_stands_proud_throughout_lies_between_its_edges(make_scene, race):
+    values = (0.0, *(-1e-6 * (2.0 + np.cos(np.linspace(0.0, 12.0, 15)))), 0.0)
+    spall = Spall(race, 1, 4.7, 1e-3, 0.0, profile="ball_path", roughness=1e-6, roughness_values=values)
+    table = ball_passes(make_scene(spall), None, DURATION)
+    assert len(table) > 10
+    assert (table.entry_time <= table.deepest_time).all()
+    assert (table.deepest_time <= table.exit_time).all()

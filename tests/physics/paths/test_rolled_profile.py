@@ -258,6 +258,20 @@ def test_the_deepest_place_of_two_pits_is_in_one_of_them(gearbox, race):
 
 
 @RACES
+@pytest.mark.parametrize("depth", [0.0, 1e-9])
+def test_the_deepest_place_of_a_spall_that_stands_proud_throughout_lies_within_it(gearbox, race, depth):
+    """Its path begins and ends far beyond the spall, where its bumps lift the ball off the race."""
+    values = (0.0, *(-1e-6 * (2.0 + np.cos(np.linspace(0.0, 12.0, 15)))), 0.0)
+    spall = gap(race, extent=1e-3, depth=depth, roughness=1e-6, roughness_values=values)
+    path = build_path(spall, gearbox.bearing)
+    assert path.breaks[0] < -5 * spall.extent
+    assert (path.depth(inside(spall)) < 0.0).all()
+    assert abs(path.deepest) <= spall.extent / 2
+    assert path.depth(np.array([path.deepest])) == pytest.approx(path.depth(inside(spall)).max(), abs=1e-12)
+    assert path.largest_depth == 0.0
+
+
+@RACES
 def test_a_ball_over_a_table_rests_on_what_lifts_it_most_of_all_its_points(gearbox, race):
     """Walls at both ends, one of them proud, and faces that the ball rolls over: every point of it tried."""
     angle = np.array([-0.034, -0.02, -0.008, 0.004, 0.02, 0.034])

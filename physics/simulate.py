@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from physics.checks import require, require_positive
+from physics.integrators.modal.error_growth import share_below
 from physics.ladder.model_table import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
@@ -15,7 +16,8 @@ from physics.request import SMALLEST_ACCURACY, Accurate, FixedSteps, HalvedSteps
 from physics.response.adaptive import respond_accurately
 from physics.response.fixed_steps import respond_by_fixed_steps
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
-from physics.response.modal_case import resting
+from physics.response.lowered import respond_lowered
+from physics.response.modal_case import mean_flow, resting
 from physics.response.oversampling import oversampling
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
@@ -122,15 +124,23 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
     samples, accuracy = _samples(scene, rate), solution.accuracy
     rest, factor = resting(scene), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
-    asked = (longer, rest, rate * factor, marched, accuracy, solution.least_error)
     alone = keep == ACCELERATION_ALONE
     repeated = solution.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
-    trace = respond_until_repeated(*asked) if repeated else respond_accurately(*asked, keep)
-    lowered = _lowered(trace, rate, factor, samples)
-    if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * rms(trace.acceleration):
-        # What repeating leaves out lies at low frequencies, where hardly anything of the signal is.
-        lowered = _lowered(respond_accurately(*asked, keep), rate, factor, samples)
-    return lowered
+
+    def respond(asked: float) -> tuple[Trace, float]:
+        case = (longer, rest, rate * factor, marched, asked, solution.least_error)
+        trace = respond_until_repeated(*case) if repeated else respond_accurately(*case, keep)
+        lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
+        if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * size:
+            # What repeating leaves out lies at low frequencies, where hardly anything of the signal is.
+            trace = respond_accurately(*case, keep)
+            lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
+        return lowered, size
+
+    if factor == 1:
+        return respond(accuracy)[0]
+    share = share_below(mean_flow(motion_model(longer), rest), scene.duration, rate / 2.0)
+    return respond_lowered(respond, share, accuracy, solution.least_error)
 
 
 def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSteps | Reference, keep: Kept) -> Trace:

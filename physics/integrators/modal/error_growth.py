@@ -14,6 +14,9 @@ from physics.integrators.modal.flow import DISPLACEMENT, OUTPUT, LinearFlow, com
 # scenes in five have a ratio above 4.
 FEEDING = 4.0
 
+# Lines of a spectrum on the way up to a frequency, and round each mode.
+SPECTRUM_LINES = 801
+
 
 def ringing(flow: LinearFlow, duration: float) -> float:
     """What a push of 1 N s between the rings leaves in the resonator's acceleration: ∫ a² dt, m²/s³ per (N s)².
@@ -29,6 +32,29 @@ def ringing(flow: LinearFlow, duration: float) -> float:
         mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())
         sums.append(-0.5 * float((same + mixed).sum().real))
     return max(sums)
+
+
+def share_below(flow: LinearFlow, duration: float, frequency: float) -> float:
+    """The share of the RMS of what a push leaves in the resonator's acceleration that lies below a `frequency` (Hz).
+
+    The larger of both directions; `duration` (s) as for `ringing`.
+    """
+    shares = []
+    for axis in range(2):
+        rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[OUTPUT]), axis)
+        rate, share = np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
+        # Dense where a mode rings, of whatever width.
+        round_modes = rate.imag[:, None] - rate.real[:, None] * np.tan(np.linspace(-1.57, 1.57, SPECTRUM_LINES))
+        end = 2.0 * math.pi * frequency
+        lines = np.unique(
+            np.clip(np.concatenate([round_modes.ravel(), np.linspace(0.0, end, SPECTRUM_LINES)]), 0.0, None)
+        )
+        turning = 1j * lines[:, None]
+        answer = 0.5 * (share / (turning - rate) + share.conj() / (turning - rate.conj())).sum(axis=1)
+        power = np.abs(answer) ** 2
+        below = lines <= end
+        shares.append(math.sqrt(np.trapezoid(power[below], lines[below]) / np.trapezoid(power, lines)))
+    return max(shares)
 
 
 def memory_of_errors(flow: LinearFlow, swing: Array) -> float:

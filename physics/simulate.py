@@ -128,7 +128,8 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
     repeated = solution.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
 
     def respond(asked: float) -> tuple[Trace, float]:
-        case = (longer, rest, rate * factor, marched, asked, solution.least_error)
+        least = solution.least_error
+        case = (longer, rest, rate * factor, marched, max(asked, SMALLEST_ACCURACY), least)
         trace = respond_until_repeated(*case) if repeated else respond_accurately(*case, keep)
         lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
         if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * size:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from physics.request import SMALLEST_ACCURACY
 from physics.response.lead_in import MOST_ATTEMPTS, NEXT_SHARE
 from physics.rms import rms
 from physics.trace import Trace
@@ -25,9 +24,9 @@ def respond_lowered(
         trace, before = respond(asked)
         error, size = share * trace.error_estimate * before, rms(trace.acceleration)
         allowed = max(accuracy * size, least)
-        if trace.chaotic or error <= allowed or asked <= SMALLEST_ACCURACY:
+        if trace.chaotic or error <= allowed:
             break
-        asked = max(SMALLEST_ACCURACY, asked * NEXT_SHARE * allowed / error)
+        asked *= NEXT_SHARE * allowed / error
     if trace.chaotic or size == 0.0:
         return trace
     return replace(trace, error_estimate=max(trace.error_estimate, error / size))

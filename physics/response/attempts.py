@@ -63,7 +63,7 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
         output = goal.go_on(march, grid)
         size = rms(output.acceleration)
         before, error = error, goal.error(output, sensitivity)
-        if error <= goal.allowed(size) or error > WORTHWHILE * before:
+        if error <= goal.allowed(size) or error > WORTHWHILE * before or goal.allowed(size) == 0.0:
             break
         aim *= min(MOST_NEXT, NEXT_SHARE * goal.allowed(size) / error)
         seen = size**2

@@ -157,4 +157,6 @@ def _next_share(pair: Pair, allowed: float, power: float) -> float:
 def _observed_power(pair: Pair, following: Pair) -> float:
     """The power of the tolerance with which the distance has shrunk from one pair to the following, LATE to 1."""
     distance = max(following.distance, ROUND_OFF * following.size)
+    if distance == 0.0:
+        return 1.0
     return min(max(math.log(distance / pair.distance) / math.log(pair.share), LATE), 1.0)

@@ -103,6 +103,22 @@ def test_a_chaotic_response_is_confirmed_by_one_so_much_finer_as_their_distance_
     assert sensitivity == 60.0
 
 
+def test_a_response_that_finer_ones_leave_nothing_of_is_confirmed_without_error():
+    late = np.arange(SAMPLES)[:, None] >= 0.9 * SAMPLES
+    vanishing = World(lambda asked, number: an_output(np.where(late, asked, 0.0) * [1.0, 1.0] * (asked > 2e-5), asked))
+    fine, error, _ = confirm_doubtful(*coarse_of(vanishing, 60.0))
+    assert len(vanishing.asked) == 2
+    assert not fine.acceleration.any()
+    assert error == 0.0
+
+
+def test_a_response_of_exactly_zero_is_not_asked_for_again_and_again():
+    nothing = World(lambda asked, number: an_output(np.zeros((SAMPLES, 2)), asked))
+    goal, march = begun(nothing)
+    to_accuracy(goal, march, 1.0, 0.0)
+    assert len(nothing.asked) == 1
+
+
 def test_rings_that_part_are_confirmed_however_little_sensitive():
     world = wrong_by(1.0, made=(False, False))
     confirm_doubtful(*coarse_of(world, 1.0))

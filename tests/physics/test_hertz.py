@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from physics.checks import InvalidParameter
 from physics.hertz import (
@@ -40,27 +41,30 @@ def test_a_ball_on_a_ball_follows_the_closed_form_of_a_circular_contact():
     assert contact.approach(load) == pytest.approx(half_width**2 / effective_radius, rel=1e-12)  # rounding
 
 
+def hertz_integral(load, a, b, weight):
+    """Hertz's integral of a `weight` over an ellipse of the semi-axes `a` along and `b` across (m) under `load` (N)."""
+
+    # w = ab s², so that the integrand varies on the scale of s = 1 to a few.
+    def integrand(s):
+        w = a * b * s**2
+        return 2 * math.sqrt(a * b) * weight(w) / math.sqrt((a**2 + w) * (b**2 + w))
+
+    return 3 * load / (2 * math.pi * MODULUS) * quad(integrand, 0, np.inf, epsabs=0, epsrel=1e-10, limit=400)[0]
+
+
+def curvatures(load, a, b):
+    """Sums of curvatures (1/m) along and across of the bodies that such an ellipse flattens against each other."""
+    return tuple(2 * hertz_integral(load, a, b, lambda w, axis=axis: 1 / (axis**2 + w)) for axis in (a, b))
+
+
 @pytest.mark.parametrize("conformity", [0.505, 0.52, 0.6, 3.2])
 @pytest.mark.parametrize("race", ["outer", "inner"])
 def test_the_ellipse_satisfies_the_integral_equations_of_hertz(race, conformity):
     contact = race_contact(race, 38.75e-3, 7.12e-3, conformity=conformity)
     load = 63.0
     a, b = contact.semi_axes(load)
-    strength = 3 * load / (2 * math.pi * MODULUS)
-
-    def potential(weight):
-        # w = ab s², so that the integrand varies on the scale of s = 1 to a few.
-        def integrand(s):
-            w = a * b * s**2
-            return 2 * math.sqrt(a * b) * weight(w) / math.sqrt((a**2 + w) * (b**2 + w))
-
-        return quad(integrand, 0, np.inf, epsabs=0, epsrel=1e-10, limit=400)[0]
-
-    along = strength * potential(lambda w: 1 / (a**2 + w))
-    across = strength * potential(lambda w: 1 / (b**2 + w))
-    assert along == pytest.approx(contact.along / 2, rel=1e-8)  # quadrature
-    assert across == pytest.approx(contact.across / 2, rel=1e-8)  # quadrature
-    assert strength * potential(lambda w: 1.0) == pytest.approx(contact.approach(load), rel=1e-8)  # quadrature
+    assert curvatures(load, a, b) == pytest.approx((contact.along, contact.across), rel=1e-8)  # quadrature
+    assert hertz_integral(load, a, b, lambda w: 1.0) == pytest.approx(contact.approach(load), rel=1e-8)  # quadrature
 
 
 def test_nearly_circular_contacts_join_the_circular_limit_smoothly():
@@ -125,11 +129,16 @@ def test_the_contact_width_of_the_gearbox_rig_is_about_0_2_mm(authority, gearbox
 
 
 def test_the_contact_width_is_the_short_axis_in_a_groove_and_grows_with_the_cube_root_of_load(gearbox):
-    contact = race_contact("inner", 38.75e-3, 7.12e-3)
-    along, across = contact.semi_axes(63.0)
-    assert along < across
-    assert contact_width(gearbox.bearing, "inner", 63.0) == pytest.approx(2 * along, rel=1e-14)
-    ratio = contact_width(gearbox.bearing, "inner", 8 * 63.0) / contact_width(gearbox.bearing, "inner", 63.0)
+    bearing, load = gearbox.bearing, 63.0
+    width = contact_width(bearing, "inner", load)
+    # 2/D + 1/R along the race, and 2/D less the curvature of the groove across it.
+    ball, groove = 2 / bearing.ball_diameter, 1 / (bearing.inner_conformity * bearing.ball_diameter)
+    half_across = brentq(
+        lambda b: curvatures(load, width / 2, b)[1] - (ball - groove), width / 2, 50 * width, xtol=1e-14
+    )
+    along = ball + 1 / bearing.raceway_radius("inner")
+    assert curvatures(load, width / 2, half_across)[0] == pytest.approx(along, rel=1e-7)  # quadrature and root
+    ratio = contact_width(bearing, "inner", 8 * load) / width
     assert ratio == pytest.approx(2.0, rel=1e-12)  # rounding
 
 

@@ -17,7 +17,7 @@ from physics.operation import Operation
 from physics.rig import Rig
 from physics.scene import Scene
 from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import matrix
+from physics.statics.stiffness import symmetric_matrices
 
 
 @dataclass(frozen=True)
@@ -103,4 +103,4 @@ def rated_matrices(rig: Rig) -> tuple[Array, Array]:
     cage = CagePath(nominal_speed=rig.bearing.cage_speed(rig.rated_speed), duration=1.0)
     scene = Scene(rig=rig, operation=Operation(shaft_speed=rig.rated_speed, load=rig.rated_load), cage=cage)
     rest = equilibrium(scene, np.zeros(1))
-    return matrix(rest.stiffness[0]), matrix(rest.damping[0])
+    return symmetric_matrices(rest.stiffness[0]), symmetric_matrices(rest.damping[0])

@@ -15,7 +15,7 @@ from physics.modes import modes
 from physics.outcome import StaticOutcome
 from physics.rms import rms
 from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import matrix
+from physics.statics.stiffness import symmetric_matrices
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -163,7 +163,7 @@ def vertical_modes(portrait: Portrait) -> list[float]:
     rest = equilibrium(portrait.scene, np.array([sum(portrait.window) / 2.0]))
     if rest.outcome(0) is not StaticOutcome.LOADED:
         return []
-    found = modes(portrait.scene.rig, matrix(rest.stiffness[0]), matrix(rest.damping[0]))
+    found = modes(portrait.scene.rig, symmetric_matrices(rest.stiffness[0]), symmetric_matrices(rest.damping[0]))
     moves = np.abs(found.shape) ** 2
     along_y = moves[1::2].sum(axis=0) > moves[0::2].sum(axis=0)
     return [float(frequency) for frequency in found.frequency_hz[along_y]]

@@ -27,7 +27,7 @@ from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.statics.load_distribution import carried, instants_without_period
-from physics.statics.stiffness import matrix
+from physics.statics.stiffness import symmetric_matrices
 from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
 # Instants of a record whose stiffness and damping are averaged for its modes.
@@ -58,7 +58,7 @@ def _sound(scene: Scene) -> Scene:
 def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
     """Stiffness (2, 2) and film damping (2, 2) of the bearing without spalls, means over the record."""
     rest = carried(_sound(scene), instants_without_period(scene.duration, MEAN_TIMES))
-    return matrix(rest.stiffness.mean(axis=0)), matrix(rest.damping.mean(axis=0))
+    return symmetric_matrices(rest.stiffness.mean(axis=0)), symmetric_matrices(rest.damping.mean(axis=0))
 
 
 def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:

@@ -14,7 +14,7 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.rig import Rig
 from physics.scene import Scene
 from physics.statics.load_distribution import Equilibrium
-from physics.statics.stiffness import matrix
+from physics.statics.stiffness import symmetric_matrices
 
 MOST_STABLE_SUBSTEPS = 1024
 
@@ -27,11 +27,11 @@ def limiting_modes(rig: Rig, limits: str, stiffness: Array, damping: Array) -> N
     """
     if limits == ALL_MODES:
         mass, size = rig.mass_matrix(), 6
-        k = coupled_matrix(rig.stiffness_matrix(), matrix(stiffness))
-        c = coupled_matrix(rig.damping_matrix(), matrix(damping))
+        k = coupled_matrix(rig.stiffness_matrix(), symmetric_matrices(stiffness))
+        c = coupled_matrix(rig.damping_matrix(), symmetric_matrices(damping))
     elif limits == CONTACT_MODES:
         mass, size = np.eye(2) / (1.0 / rig.inner_mass + 1.0 / rig.outer_mass), 2
-        k, c = matrix(stiffness), matrix(damping)
+        k, c = symmetric_matrices(stiffness), symmetric_matrices(damping)
     else:
         return np.zeros(0, np.complex128)
     first_order = np.zeros((2 * size, 2 * size))

@@ -59,7 +59,7 @@ def _stiffness_at(contacts: Contacts, time: Array, displacement: Array) -> Array
     return stiffness
 
 
-def matrix(components: Array) -> Array:
+def symmetric_matrices(components: Array) -> Array:
     """Symmetric matrices (…, 2, 2) from components (…, 3) in the order xx, yy, xy."""
     xx, yy, xy = np.moveaxis(np.asarray(components), -1, 0)
     return np.stack([np.stack([xx, xy], axis=-1), np.stack([xy, yy], axis=-1)], axis=-2)

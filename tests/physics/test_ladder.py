@@ -20,7 +20,7 @@ from physics.request import Accurate, FixedSteps, Simpler
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import matrix, stiffness_at, stiffness_trace
+from physics.statics.stiffness import stiffness_at, stiffness_trace, symmetric_matrices
 from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept
 
 RATE = 65536.0
@@ -238,8 +238,8 @@ def test_between_its_steps_the_impulse_train_is_the_rigs_own_equation_of_motion_
     aside = {"angle": 4.5, "extent": 0.1, "depth": 1e-4, "entry_taper": 0.02, "exit_taper": 0.02}
     scene = dataclasses.replace(scene, rig=rig, spalls=(dataclasses.replace(scene.spalls[0], **aside),))
     edges, rest = edges_of(scene), equilibrium(dataclasses.replace(scene, spalls=()), np.linspace(0.0, 0.03, 1001))
-    spring = coupled_matrix(rig.stiffness_matrix(), matrix(rest.stiffness.mean(axis=0)))
-    damper = coupled_matrix(rig.damping_matrix(), matrix(rest.damping.mean(axis=0)))
+    spring = coupled_matrix(rig.stiffness_matrix(), symmetric_matrices(rest.stiffness.mean(axis=0)))
+    damper = coupled_matrix(rig.damping_matrix(), symmetric_matrices(rest.damping.mean(axis=0)))
     mass = np.diag(rig.mass_matrix())
 
     def accelerations(time, state):

@@ -9,7 +9,7 @@ import pytest
 from physics.imperfections import Imperfections, Waviness
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import matrix, stiffness_trace
+from physics.statics.stiffness import stiffness_trace, symmetric_matrices
 from physics.words import STIFFNESS_COMPONENTS
 
 BOTTOM = math.radians(270.0)
@@ -57,7 +57,7 @@ SCENES = {
 def test_stiffness_times_the_shift_is_the_change_of_load(gearbox, build_scene, variant, spalls):
     changed = SCENES[variant]
     scene = build_scene(gearbox, *spalls, start_angle=0.05, **changed)
-    stiffness = matrix(stiffness_trace(scene, START)[0])
+    stiffness = symmetric_matrices(stiffness_trace(scene, START)[0])
     little = 1e-3
     for phase in (0.0, math.pi / 2.0, 2.0):
         extra = {"unbalance_force": little, "unbalance_phase": phase}
@@ -157,5 +157,5 @@ def test_the_trace_is_taken_at_each_instant_s_own_load_and_spall_angle(gearbox, 
 def test_matrices_are_symmetric_and_hold_the_components_in_their_order():
     components = np.arange(6.0).reshape(2, 3)
     assert STIFFNESS_COMPONENTS == ("xx", "yy", "xy")
-    assert matrix(components).tolist() == [[[0.0, 2.0], [2.0, 1.0]], [[3.0, 5.0], [5.0, 4.0]]]
-    assert matrix((1.0, 2.0, 3.0)).tolist() == [[1.0, 3.0], [3.0, 2.0]]
+    assert symmetric_matrices(components).tolist() == [[[0.0, 2.0], [2.0, 1.0]], [[3.0, 5.0], [5.0, 4.0]]]
+    assert symmetric_matrices((1.0, 2.0, 3.0)).tolist() == [[1.0, 3.0], [3.0, 2.0]]

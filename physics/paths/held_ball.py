@@ -10,7 +10,7 @@ import numpy as np
 from physics.arrays import Array, Index
 
 # What rounding leaves of a height (m).
-ROUNDING = 1e-15
+HEIGHT_ROUNDING = 1e-15
 # How often the two spaces beside a point of the surface are halved, and then cut where a straight line between their
 # ends says that the ball touches.
 HALVINGS, CUTS = 3, 3
@@ -121,7 +121,7 @@ def between_points(surface: Surface, ball: Ball, arc: Array, place: Array, apart
 
 def hold_between_points(surface: Surface, ball: Ball, arc: Array, held: Held, apart: float) -> None:
     """Let balls touch the surface between its points, `apart` (rad), beside those that hold them."""
-    held.take(np.arange(arc.size), between_points(surface, ball, arc, held.place, apart), ROUNDING)
+    held.take(np.arange(arc.size), between_points(surface, ball, arc, held.place, apart), HEIGHT_ROUNDING)
 
 
 def hold_as_neighbours(surface: Surface, ball: Ball, arc: Array, held: Held, apart: float, leap: float) -> None:
@@ -133,7 +133,7 @@ def hold_as_neighbours(surface: Surface, ball: Ball, arc: Array, held: Held, apa
         moved = 0
         for at, neighbour in ((corners, corners + 1), (corners + 1, corners)):
             found = between_points(surface, ball, arc[at], held.place[neighbour], apart)
-            moved += held.take(at, found, -ROUNDING)
+            moved += held.take(at, found, -HEIGHT_ROUNDING)
         if moved == 0:
             return
 

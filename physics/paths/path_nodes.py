@@ -20,8 +20,8 @@ MOST_ROUNDS = 32
 HOLLOW_HALVINGS = 6
 # A contact so near to a lip (steps) is on it.
 ON_LIP = 1e-3
-# To this (m) heights are known of a ball that is held between points of a surface.
-ROUNDED = 1e-13
+# To this (m) the height of a ball is known that is held between points of a surface.
+BETWEEN_POINTS_ERROR = 1e-13
 
 
 def bumpy_branches(rolled: Rolled) -> Branches:
@@ -39,7 +39,7 @@ def gap_branches(rolled: Rolled, floor_ends: Array) -> Branches:
     path = _with_narrow_bumps(rolled, _with_hollows(rolled))
     arc = floor_ends[(floor_ends > path.arc[0]) & (floor_ends < path.arc[-1])]
     cells, floor = _cells_of(path, arc), rolled.surface(arc)
-    touched = _held_between(path, rolled, cells, arc).drop > floor - ROUNDED
+    touched = _held_between(path, rolled, cells, arc).drop > floor - BETWEEN_POINTS_ERROR
     ends = Held(arc[touched], floor[touched], floor[touched])
     return _ending_at(path, rolled, cells[touched], arc[touched], ends)
 

@@ -12,7 +12,7 @@ from physics.arrays import Array, Index
 from physics.paths.corners import LEAP, RolledPath
 from physics.paths.depth_path import Curve
 from physics.paths.held_ball import (
-    ROUNDING,
+    HEIGHT_ROUNDING,
     Ball,
     Held,
     Surface,
@@ -198,5 +198,5 @@ def _least_drop(
         return math.inf
     hanging = math.sqrt(ball_radius * ball_radius - lever * lever)
     if outer:
-        return (race_radius + highest) * cosine - hanging - race_radius + ball_radius - ROUNDING
-    return race_radius + ball_radius - (race_radius - highest) * cosine - hanging - ROUNDING
+        return (race_radius + highest) * cosine - hanging - race_radius + ball_radius - HEIGHT_ROUNDING
+    return race_radius + ball_radius - (race_radius - highest) * cosine - hanging - HEIGHT_ROUNDING

@@ -20,9 +20,13 @@ from physics.checks import (
 )
 
 PROFILES = ("tukey", "ball_path", "table")
+# Of a surface, m: no spall is deeper, and no measured surface higher.
+DEEPEST = 1e-2
+# The first and the last are 0; fewer than two between them cannot go up and down.
+FEWEST_ROUGHNESS_VALUES = 4
 # Share of an arc that is rounding: so far tapers may exceed a spall, spalls that touch overlap, and an extended one
-# fall short of the ball spacing.
-ROUNDING = 1e-12
+# fall short of the ball spacing; a table's, whose degrees come from a file, may reach beyond a spall by the second.
+ARC_ROUNDING, TABLE_ROUNDING = 1e-12, 1e-9
 
 
 @dataclass(frozen=True)
@@ -70,12 +74,12 @@ class Spall:
         require_finite("angle", self.angle, "rad")
         require_positive("extent", self.extent, "rad")
         require_between("extent", self.extent, 0.0, math.pi, "rad")
-        require_between("depth", self.depth, 0.0, 1e-2, "m")
+        require_between("depth", self.depth, 0.0, DEEPEST, "m")
         require_not_negative("roughness", self.roughness, "m")
         for field in ("entry_taper", "exit_taper"):
             require_between(field, getattr(self, field), 0.0, self.extent, "rad")
         require(
-            self.entry_taper + self.exit_taper <= self.extent * (1.0 + ROUNDING),
+            self.entry_taper + self.exit_taper <= self.extent * (1.0 + ARC_ROUNDING),
             f"entry_taper + exit_taper = {self.entry_taper + self.exit_taper:.6g} rad is longer than the spall "
             f"(extent = {self.extent:.6g} rad)",
             "entry_taper",
@@ -96,8 +100,8 @@ class Spall:
         if not values:
             return
         require(
-            len(values) >= 4,
-            f"roughness_values must be at least 4 numbers (m); there are {len(values)}",
+            len(values) >= FEWEST_ROUGHNESS_VALUES,
+            f"roughness_values must be at least {FEWEST_ROUGHNESS_VALUES} numbers (m); there are {len(values)}",
             "roughness_values",
         )
         for place, value in enumerate(values, start=1):
@@ -133,9 +137,9 @@ class Spall:
             "table_angle",
         )
         for value in depth:
-            require_between("table_depth", value, -1e-2, 1e-2, "m")
-        # Beyond its ends the table would be cut off by a wall; halves of degrees may differ in their last digit.
-        half = 0.5 * self.extent * (1.0 + 1e-9)
+            require_between("table_depth", value, -DEEPEST, DEEPEST, "m")
+        # Beyond its ends the table would be cut off by a wall.
+        half = 0.5 * self.extent * (1.0 + TABLE_ROUNDING)
         for value in angle:
             require_between("table_angle", value, -half, half, "rad")
 
@@ -151,7 +155,7 @@ class Spall:
 
 def is_extended(extent: float, bearing: Bearing) -> bool:
     """True if the arc `extent` (rad) always holds at least one ball of its row: Δφ ≥ 2π/Nb."""
-    return extent >= bearing.spacing * (1.0 - ROUNDING)
+    return extent >= bearing.spacing * (1.0 - ARC_ROUNDING)
 
 
 def require_apart(spalls: Sequence[Spall]) -> None:
@@ -160,7 +164,7 @@ def require_apart(spalls: Sequence[Spall]) -> None:
         apart = abs(math.remainder(one.angle - other.angle, math.tau))
         least = (one.extent + other.extent) / 2.0
         require(
-            one.row != other.row or apart >= least * (1.0 - ROUNDING),
+            one.row != other.row or apart >= least * (1.0 - ARC_ROUNDING),
             f"two spalls on row {one.row} overlap: {math.degrees(apart):.4g} degrees apart, and their extents need "
             f"{math.degrees(least):.4g}",
             "angle",

@@ -11,8 +11,9 @@ from datagen.recipes.machine_settings import Frequency
 from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.settings.table import Between, Table, Whole, at_most_one, refuse, rising
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
-from physics.backgrounds.impulses import MOST_PER_SECOND
+from physics.backgrounds.impulses import LARGEST_SPREAD, MOST_PER_SECOND
 from physics.backgrounds.pink import STEEPEST
+from physics.sensor.mode import HIGHEST_DAMPING
 
 # Up to a hundred thousand times gravity: more than any accelerometer takes. Far more would not fit what is stored.
 Acceleration = Annotated[Distribution, Between(0.0, 1e6)]
@@ -85,13 +86,13 @@ class ImpulseSettings(Table):
     """Knocks a second on average."""
     amplitude_m_s2: Acceleration
     """Median height of a knock, m/s²: what it would rise to if it did not decay, the sum over its resonances."""
-    spread: Annotated[Distribution, Between(0.0, 5.0)] = Fixed(0.5)
+    spread: Annotated[Distribution, Between(0.0, LARGEST_SPREAD)] = Fixed(0.5)
     """Standard deviation of the natural logarithm of the height."""
     resonances: Annotated[Distribution, Whole(1, 20)] = Fixed(2)
     """Number of resonances."""
     frequency_hz: Frequency
     """Frequency at which each rings, Hz, below half the sampling rate."""
-    damping: Annotated[Distribution, Between(0.0, 0.7, above=True)] = Uniform(0.01, 0.05)
+    damping: Annotated[Distribution, Between(0.0, HIGHEST_DAMPING, above=True)] = Uniform(0.01, 0.05)
     """Damping of each: it decays as exp(−2π · damping · frequency · time)."""
 
 

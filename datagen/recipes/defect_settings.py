@@ -15,7 +15,7 @@ from datagen.recipes.operation_settings import Degrees
 from datagen.recipes.profile_table import ProfileTable
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import RACES
-from physics.spall import ROUNDING
+from physics.spall import ARC_ROUNDING
 
 EXTENTS = ("extent_deg", "extent_mm", "extent_spacing")
 ENTRY_TAPERS = ("entry_taper_deg", "entry_taper_share")
@@ -157,7 +157,7 @@ def _check_reach(extent: Distribution, condition: str, ball_counts: tuple[int, .
     widest, narrowest = 360.0 / min(ball_counts), 360.0 / max(ball_counts)
     if condition == "line" and min(extent.stated()) >= widest:
         raise refuse("a line spall is shorter than the ball spacing", field, f"below {widest:.6g}")
-    if condition == "extended" and max(extent.stated()) < narrowest * (1.0 - ROUNDING):
+    if condition == "extended" and max(extent.stated()) < narrowest * (1.0 - ARC_ROUNDING):
         raise refuse("an extended spall is at least as long as the ball spacing", field, f"{narrowest:.6g} or more")
 
 
@@ -216,7 +216,7 @@ def _check_separation(spall: SpallSettings, where: str, place: PlaceOf) -> None:
     extent = min(spall.extent_deg.stated()) if spall.extent_deg is not None else 0.0
     for steps in range(1, min(count.stated())):
         apart = abs(math.remainder(steps * float(step.value), 360.0))
-        if apart < max(extent * (1.0 - ROUNDING), ROUNDING):
+        if apart < max(extent * (1.0 - ARC_ROUNDING), ARC_ROUNDING):
             raise refuse(
                 f"{where}: spalls 1 and {1 + steps} of {min(count.stated())} overlap, as their centres are {apart:g} "
                 f"degrees apart",
@@ -243,6 +243,6 @@ def _check_tapers(spall: SpallSettings, place: PlaceOf) -> None:
             shares += shortest / largest
         elif share is not None:
             shares += min(share.stated())
-    if shares > 1.0 + ROUNDING:
+    if shares > 1.0 + ARC_ROUNDING:
         field = next(name for name in (*EXIT_TAPERS, *ENTRY_TAPERS) if getattr(spall, name) is not None)
         raise refuse("entry and exit taper together are longer than the spall", place(field), "at most the whole spall")

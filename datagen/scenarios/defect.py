@@ -16,7 +16,7 @@ from physics.bearing import Bearing
 from physics.checks import InvalidParameter, require
 from physics.hertz import contact_width
 from physics.paths.roughness import draw_roughness
-from physics.spall import ROUNDING, Spall, is_extended, require_apart
+from physics.spall import ARC_ROUNDING, Spall, is_extended, require_apart
 
 TURN = 2.0 * math.pi
 DEFAULT_TAPER_SHARE = {"tukey": 0.1, "ball_path": 0.0, "table": 0.0}
@@ -143,7 +143,7 @@ def _require_arcs(extent: float, entry: float, exit_: float, bearing: Bearing, r
             field,
         )
     require(
-        entry + exit_ <= extent * (1.0 + ROUNDING),
+        entry + exit_ <= extent * (1.0 + ARC_ROUNDING),
         f"entry and exit taper of {math.degrees(entry):.4g} and {math.degrees(exit_):.4g} degrees are together longer "
         f"than the spall of {covered:.4g} degrees",
         "entry_taper",

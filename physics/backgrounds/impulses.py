@@ -17,8 +17,11 @@ from physics.checks import (
     settle_tuples,
 )
 from physics.recursive_filter import filtered
+from physics.sensor.mode import HIGHEST_DAMPING
 
 MOST_PER_SECOND = 10_000.0
+# With this spread of the logarithm one knock in six is 148 times the median or higher.
+LARGEST_SPREAD = 5.0
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Resonance:
 
     def __post_init__(self) -> None:
         require_positive("frequency", self.frequency, "Hz", what="impulse resonance")
-        require_between("damping", self.damping, 0.0, 0.7, what="impulse damping")
+        require_between("damping", self.damping, 0.0, HIGHEST_DAMPING, what="impulse damping")
         require_positive("damping", self.damping, what="impulse damping")
 
     def check_rate(self, rate: float) -> None:
@@ -58,7 +61,7 @@ class Impulses:
         settle_tuples(self, "resonances")
         require_between("per_second", self.per_second, 0.0, MOST_PER_SECOND, what="impulses per second")
         require_not_negative("amplitude", self.amplitude, "m/s²", what="impulse amplitude")
-        require_between("spread", self.spread, 0.0, 5.0, what="impulse spread")
+        require_between("spread", self.spread, 0.0, LARGEST_SPREAD, what="impulse spread")
         require(bool(self.resonances), "impulses have no resonance to ring", "resonances")
 
     def check_rate(self, rate: float) -> None:

@@ -176,14 +176,14 @@ def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:
     """The first `samples` of a trace at `rate`, a `factor` below the one it was marched at."""
     known = trace.rate == rate and trace.time.size == samples
     time = trace.time if known else np.arange(samples) / rate
-    raised = rate * factor
+    outer = None if trace.outer is None else replace(trace.outer, rate=rate * factor)
     if factor == 1:
-        return replace(trace, rate=rate, time=time, outer_rate=raised)
+        return replace(trace, rate=rate, time=time, outer=outer)
     return replace(
         trace,
         rate=rate,
         time=time,
-        outer_rate=raised,
+        outer=outer,
         acceleration=decimate(trace.acceleration, factor)[:samples],
         changes=trace.changes.before(samples / rate),
         state=None if trace.state is None else trace.state[::factor][:samples],

@@ -60,6 +60,21 @@ KEEPABLE = ("state", "force", "outer")
 
 
 @dataclass(frozen=True)
+class OuterMotion:
+    """The outer ring's `displacement` (m), `velocity` (m/s) and `acceleration` (m/s²) along x and y, (R, 2) each, at
+    `rate` (Hz)."""
+
+    rate: float
+    displacement: Array
+    velocity: Array
+    acceleration: Array
+
+    def from_sample(self, first: int) -> OuterMotion:
+        """The motion without the samples before the `first`."""
+        return OuterMotion(self.rate, self.displacement[first:], self.velocity[first:], self.acceleration[first:])
+
+
+@dataclass(frozen=True)
 class Trace:
     """The response of a Scene sampled at `rate` (Hz).
 
@@ -74,9 +89,8 @@ class Trace:
     `acceleration` (T, 2) of the resonator's mass along x and y, m/s²;
     `state` (T, 12): displacements (xi, yi, xo, yo, xr, yr) in m, then velocities in m/s, or None if not asked for;
     `contact_force` (T, rows, balls) normal force of each ball in N, or None if not asked for;
-    `outer_displacement` (m), `outer_velocity` (m/s) and `outer_acceleration` (m/s²), (T, 2) each, of the outer ring
-    along x and y, at `outer_rate` (Hz), a whole multiple of `rate`, or None if not asked for. Where the multiple is
-    above 1 they go on behind the last sample, for as long as the low-pass to `rate` looks ahead, 24 samples of it.
+    `outer`: the outer ring's motion at a whole multiple of `rate`, or None if not asked for. Where the multiple is
+    above 1 it goes on behind the last sample, for as long as the low-pass to `rate` looks ahead, 24 samples of it.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS, of fixed steps by how far a
     response at half the step is apart; NaN if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
@@ -101,10 +115,7 @@ class Trace:
     unlocated_changes: int = 0
     state: Array | None = None
     contact_force: Array | None = None
-    outer_rate: float = math.nan
-    outer_displacement: Array | None = None
-    outer_velocity: Array | None = None
-    outer_acceleration: Array | None = None
+    outer: OuterMotion | None = None
     sensitivity: float = math.nan
     chaotic: bool = False
     silent: bool = False

@@ -42,7 +42,7 @@ from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import carried
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
-from physics.trace import ACCELERATION_ALONE, ContactChanges
+from physics.trace import ACCELERATION_ALONE, ContactChanges, OuterMotion
 
 RATE, SAMPLES = 65536.0, 128
 # Looking for garbage, of which compiling makes next to none, would take this process a twelfth longer.
@@ -139,7 +139,7 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     read_at(still, time)
     read_repeated(still, 6, 1.0, 1)
     stretches_apart(still, 0, 0, 1)
-    decimate(mode_accelerations([SensorMode(RATE / 8.0, 0.1)], still, still, still, RATE), 2)
+    decimate(mode_accelerations([SensorMode(RATE / 8.0, 0.1)], OuterMotion(RATE, still, still, still)), 2)
     stiffness_series(scene, 1.0 / RATE, SAMPLES)
     stiffness_trace(scene, time)
     ball_load(scene, time, 1, np.ones(1, np.int16))

@@ -69,16 +69,14 @@ def from_start(trace: Trace) -> Trace:
     """What a `trace` with a lead-in has from t = 0 on; its step, tension share and unlocated changes stay those of the
     whole march, start included."""
     first = int(np.searchsorted(trace.time, 0.0))
-    raised = first * round(trace.outer_rate / trace.rate) if trace.outer_displacement is not None else 0
+    outer = trace.outer
     return replace(
         trace,
         time=trace.time[first:],
         acceleration=trace.acceleration[first:],
         state=None if trace.state is None else trace.state[first:],
         contact_force=None if trace.contact_force is None else trace.contact_force[first:],
-        outer_displacement=None if trace.outer_displacement is None else trace.outer_displacement[raised:],
-        outer_velocity=None if trace.outer_velocity is None else trace.outer_velocity[raised:],
-        outer_acceleration=None if trace.outer_acceleration is None else trace.outer_acceleration[raised:],
+        outer=None if outer is None else outer.from_sample(first * round(outer.rate / trace.rate)),
         changes=_changes_from_start(trace.changes),
     )
 

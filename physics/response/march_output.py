@@ -21,7 +21,7 @@ from physics.integrators.output import (
 )
 from physics.outcome import Outcome, SimulationFailed
 from physics.scene import Scene
-from physics.trace import ContactChanges, Kept, Trace
+from physics.trace import ContactChanges, Kept, OuterMotion, Trace
 
 MODEL = "nonlinear 6-DOF"
 
@@ -86,7 +86,5 @@ def trace_of(scene: Scene, grid: Grid, output: Output, method: str) -> Trace:
         unlocated_changes=int(output.tally[UNLOCATED]),
         state=output.state if output.state.shape[0] else None,
         contact_force=force,
-        outer_displacement=output.outer[0] if output.outer.shape[0] else None,
-        outer_velocity=output.outer[1] if output.outer.shape[0] else None,
-        outer_acceleration=output.outer[2] if output.outer.shape[0] else None,
+        outer=OuterMotion(rate, *output.outer) if output.outer.shape[0] else None,
     )

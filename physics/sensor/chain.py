@@ -62,8 +62,7 @@ def sensed(chain: SensorChain, trace: Trace) -> Array:
 
 
 def _of_outer_ring(modes: tuple[SensorMode, ...], trace: Trace) -> Array:
-    if trace.outer_displacement is None or trace.outer_velocity is None or trace.outer_acceleration is None:
+    if trace.outer is None:
         raise ValueError("sensor modes need a trace that kept the outer ring's motion: keep=Kept(outer=True)")
-    motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
-    raised = mode_accelerations(modes, *motion, trace.outer_rate)
-    return decimate(raised, round(trace.outer_rate / trace.rate))[: trace.time.size]
+    raised = mode_accelerations(modes, trace.outer)
+    return decimate(raised, round(trace.outer.rate / trace.rate))[: trace.time.size]

@@ -15,6 +15,7 @@ from scipy.linalg import expm
 from physics._jit import njit, njit_inline
 from physics.arrays import Array
 from physics.checks import require_below_nyquist, require_between, require_finite, require_positive
+from physics.trace import OuterMotion
 
 # Share of the critical damping; above 1/√2 nothing stands out of a frequency response.
 HIGHEST_DAMPING = 0.7
@@ -44,24 +45,23 @@ class SensorMode:
         require_below_nyquist("frequency", self.frequency, rate, what="sensor resonance")
 
 
-def mode_accelerations(
-    modes: Sequence[SensorMode], displacement: Array, velocity: Array, acceleration: Array, rate: float
-) -> Array:
-    """Sum of the modes' accelerations (T, 2), m/s², at rest at t = 0, from the outer ring's motion (T, 2) at `rate`.
+def mode_accelerations(modes: Sequence[SensorMode], outer: OuterMotion) -> Array:
+    """Sum of the modes' accelerations (R, 2), m/s², at rest at t = 0, from the motion of the `outer` ring.
 
-    Exact for the motion between two samples that is the polynomial of degree 5 through displacement (m), velocity
-    (m/s) and acceleration (m/s²) at both, so that a push that ends between samples keeps its size. InvalidParameter if
-    a resonance does not lie below half the rate.
+    Exact for the motion between two samples that is the polynomial of degree 5 through displacement, velocity and
+    acceleration at both, so that a push that ends between samples keeps its size. InvalidParameter if a resonance does
+    not lie below half the rate of the motion.
     """
     for mode in modes:
-        mode.check_rate(rate)
-    steps = [_discretised(mode, 1.0 / rate) for mode in modes]
-    total = np.zeros_like(acceleration)
+        mode.check_rate(outer.rate)
+    step = 1.0 / outer.rate
+    steps = [_discretised(mode, step) for mode in modes]
+    total = np.zeros_like(outer.acceleration)
     _carry_modes(
-        np.ascontiguousarray(displacement),
-        np.ascontiguousarray(velocity),
-        np.ascontiguousarray(acceleration),
-        1.0 / rate,
+        np.ascontiguousarray(outer.displacement),
+        np.ascontiguousarray(outer.velocity),
+        np.ascontiguousarray(outer.acceleration),
+        step,
         np.array([transition for transition, _ in steps]).reshape(-1, 2, 2),
         np.array([response for _, response in steps]).reshape(-1, 2, CUBIC),
         np.array([_reading(mode) for mode in modes]).reshape(-1, 2),

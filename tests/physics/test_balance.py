@@ -92,9 +92,9 @@ def test_the_outer_rings_mass_times_its_acceleration_is_the_sum_of_the_forces_on
     resonator = resonator + rig.resonator_damping * (speed - trace.state[:, 10:12])
     forces = contact_sums(scene, trace) - support - resonator
     # Rounding, and the nanosecond by which a step that ends at a change of contact stands beside its sample.
-    assert rig.outer_mass * trace.outer_acceleration == pytest.approx(forces, abs=1e-9 * np.abs(forces).max())
-    assert np.array_equal(trace.outer_displacement, place)
-    assert np.array_equal(trace.outer_velocity, speed)
+    assert rig.outer_mass * trace.outer.acceleration == pytest.approx(forces, abs=1e-9 * np.abs(forces).max())
+    assert np.array_equal(trace.outer.displacement, place)
+    assert np.array_equal(trace.outer.velocity, speed)
 
 
 def still_scene(reference_scene, law):

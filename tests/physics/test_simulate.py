@@ -178,12 +178,12 @@ def test_without_a_number_of_steps_they_are_doubled_until_the_response_meets_the
 def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_scene):
     scene = reference_scene("G1", 0.125)
     low, high = (simulate(scene, rate, keep=Kept(outer=True)) for rate in (16384.0, 114688.0))
-    assert simulate(scene, RATE).outer_acceleration is None
-    assert (low.rate, low.outer_rate, high.outer_rate) == (16384.0, 114688.0, 114688.0)
-    as_long = low.outer_acceleration[: high.outer_acceleration.shape[0]]
-    assert rms(as_long - high.outer_acceleration) < 1e-3 * rms(high.outer_acceleration)
+    assert simulate(scene, RATE).outer is None
+    assert (low.rate, low.outer.rate, high.outer.rate) == (16384.0, 114688.0, 114688.0)
+    as_long = low.outer.acceleration[: high.outer.acceleration.shape[0]]
+    assert rms(as_long - high.outer.acceleration) < 1e-3 * rms(high.outer.acceleration)
     # The low-pass behind it looks 24 samples ahead.
-    assert low.outer_velocity.shape == low.outer_displacement.shape == (7 * (low.acceleration.shape[0] + 24), 2)
+    assert low.outer.velocity.shape == low.outer.displacement.shape == (7 * (low.acceleration.shape[0] + 24), 2)
 
 
 @pytest.mark.parametrize(
@@ -198,8 +198,8 @@ def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_
 )
 def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, path, factor):
     trace = simulate(reference_scene("G0", 0.01), rate, keep=Kept(outer=True, fastest_path=path))
-    assert trace.outer_rate == factor * rate
-    assert trace.outer_velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
+    assert trace.outer.rate == factor * rate
+    assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
 
 
 @pytest.mark.parametrize("name", ["G1", "F1"])

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -399,8 +400,8 @@ def test_what_else_is_kept_moves_no_bit_and_agrees_with_fixed_steps(name, refere
     fine = simulate(scene, RATE, FixedSteps(8), keep=Kept(state=True, force=True, outer=True))
     assert np.array_equal(alone.acceleration, trace.acceleration)
     assert alone.contact_force is None
-    for name in ("state", "contact_force", "outer_displacement", "outer_velocity", "outer_acceleration"):
-        here, there = getattr(trace, name), getattr(fine, name)
+    for name in ("state", "contact_force", "outer.displacement", "outer.velocity", "outer.acceleration"):
+        here, there = (attrgetter(name)(each) for each in (trace, fine))
         assert rms(here - there) < 1e-3 * rms(there), name  # the accuracy asked for, of the resonator's acceleration
 
 

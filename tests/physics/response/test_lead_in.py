@@ -124,15 +124,15 @@ def test_the_instants_before_the_record_are_there_if_wanted():
     scene = slipping("G1", 0.05)
     keep = Kept(state=True, force=True, outer=True, fastest_path=9000.0)
     whole, recorded = (simulate(scene, RATE, keep=keep, lead_in=LeadIn(LEAD_IN, kept)) for kept in (True, False))
-    before, factor = round(LEAD_IN * RATE), round(whole.outer_rate / RATE)
+    before, factor = round(LEAD_IN * RATE), round(whole.outer.rate / RATE)
     assert whole.time[0] == -before / RATE
     assert recorded.time[0] == 0.0
     assert recorded.time.size == round(0.05 * RATE)
     assert factor > 1
     for field in ("acceleration", "state", "contact_force"):
         np.testing.assert_array_equal(getattr(recorded, field), getattr(whole, field)[before:])
-    for field in ("outer_displacement", "outer_velocity", "outer_acceleration"):
-        np.testing.assert_array_equal(getattr(recorded, field), getattr(whole, field)[before * factor :])
+    for field in ("displacement", "velocity", "acceleration"):
+        np.testing.assert_array_equal(getattr(recorded.outer, field), getattr(whole.outer, field)[before * factor :])
     np.testing.assert_array_equal(from_start(whole).changes.time, recorded.changes.time)
 
 

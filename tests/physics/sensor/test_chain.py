@@ -28,8 +28,7 @@ def test_by_default_the_sensor_shows_the_resonators_acceleration_alone(trace):
 
 
 def test_modes_add_to_the_resonator_and_the_mounting_comes_last(trace):
-    motion = (trace.outer_displacement, trace.outer_velocity, trace.outer_acceleration)
-    parts = [mode_accelerations([mode], *motion, trace.rate) for mode in MODES]
+    parts = [mode_accelerations([mode], trace.outer) for mode in MODES]
     together = 0.5 * trace.acceleration + parts[0] + parts[1]
     chain = SensorChain(MODES, 0.5, Mounting(9000.0, 4))
     assert sensed(chain, trace) == pytest.approx(mounted(Mounting(9000.0, 4), together, trace.rate), rel=1e-12)
@@ -85,8 +84,8 @@ def test_a_mode_near_half_the_rate_is_followed_through_sharp_knocks(knocking):
     # A mass on spring and damper whose foot is moved: velocity has no jumps where the acceleration has.
     pull, drag = (2.0 * math.pi * mode.frequency) ** 2, 4.0 * math.pi * mode.damping * mode.frequency
     carried = ([[0.0, 1.0], [-pull, -drag]], [[0.0, 0.0], [pull, drag]], [[-pull, -drag]], [[pull, drag]])
-    moved = fine.outer_displacement - fine.outer_displacement[0]
-    foot = [np.column_stack([moved[:, axis], fine.outer_velocity[:, axis]]) for axis in range(2)]
+    moved = fine.outer.displacement - fine.outer.displacement[0]
+    foot = [np.column_stack([moved[:, axis], fine.outer.velocity[:, axis]]) for axis in range(2)]
     ringing = [lsim(carried, one, fine.time)[1] for one in foot]
     reach = 24 * finer
     taps = firwin(2 * reach + 1, 0.95 / finer, window=("kaiser", 7.85726))

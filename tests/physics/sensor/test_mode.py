@@ -9,13 +9,13 @@ from physics.checks import InvalidParameter
 from physics.rms import relative_error, rms
 from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
-from physics.trace import Kept
+from physics.trace import Kept, OuterMotion
 
 RATE = 65536.0
 
 
 def harmonic_motion(frequency, rate, samples):
-    """Displacement, velocity and acceleration (T, 2) of a ring that starts to shake smoothly from rest."""
+    """Motion (T, 2) of a ring that starts to shake smoothly from rest."""
     time = np.arange(samples) / rate
     omega, ramp = 2.0 * math.pi * frequency, 1.0 / 0.05
     rise = 1.0 - np.exp(-((ramp * time) ** 4))
@@ -25,14 +25,14 @@ def harmonic_motion(frequency, rate, samples):
     x = rise * sine
     v = first * sine + omega * rise * cosine
     a = second * sine + 2.0 * omega * first * cosine - omega**2 * rise * sine
-    return tuple(np.column_stack([part, 2.0 * part]) for part in (x, v, a))
+    return OuterMotion(rate, *(np.column_stack([part, 2.0 * part]) for part in (x, v, a)))
 
 
 @pytest.mark.parametrize("driven", [100.0, 3000.0, 9000.0, 20000.0])
 def test_a_steady_shaking_comes_out_with_the_transmissibility_of_a_seismic_mass(driven):
     mode = SensorMode(8000.0, 0.05, 0.7)
     motion = harmonic_motion(driven, RATE, 8192)
-    given, got = motion[2][-2048:], mode_accelerations([mode], *motion, RATE)[-2048:]
+    given, got = motion.acceleration[-2048:], mode_accelerations([mode], motion)[-2048:]
     ratio = driven / mode.frequency
     expected = 0.7 * math.sqrt((1.0 + (0.1 * ratio) ** 2) / ((1.0 - ratio**2) ** 2 + (0.1 * ratio) ** 2))
     # The quintic between samples misses the sine by (2 pi f / rate)^6 / 46080 of it: 1.1e-3 at 20 kHz, far less below.
@@ -43,7 +43,8 @@ def test_a_steady_shaking_comes_out_with_the_transmissibility_of_a_seismic_mass(
 def test_a_step_of_acceleration_rings_at_the_damped_frequency_from_rest():
     mode, time = SensorMode(1000.0, 0.02), np.arange(400) / RATE
     step = np.ones((400, 2))
-    got = mode_accelerations([mode], 0.5 * step * time[:, None] ** 2, step * time[:, None], step, RATE)
+    moved = OuterMotion(RATE, 0.5 * step * time[:, None] ** 2, step * time[:, None], step)
+    got = mode_accelerations([mode], moved)
     omega, damped = 2000.0 * math.pi, 2000.0 * math.pi * math.sqrt(1.0 - 0.02**2)
     decay = np.exp(-0.02 * omega * time)
     expected = 1.0 - decay * (np.cos(damped * time) - 0.02 / math.sqrt(1.0 - 0.02**2) * np.sin(damped * time))
@@ -57,17 +58,16 @@ def test_a_mode_of_a_spall_at_one_step_a_sample_agrees_with_an_adaptive_solver_o
     omega = 2.0 * math.pi * mode.frequency
 
     def slope(time, state):
-        push = np.interp(time, fine.time, fine.outer_acceleration[:, 1])
+        push = np.interp(time, fine.time, fine.outer.acceleration[:, 1])
         return [state[1], -(omega**2) * state[0] - 2.0 * mode.damping * omega * state[1] - push]
 
     solved = solve_ivp(
         slope, (0.0, coarse.time[-1]), [0.0, 0.0], t_eval=coarse.time, max_step=2.0 / fine.rate, rtol=1e-6, atol=1e-16
     )
     expected = -(omega**2) * solved.y[0] - 2.0 * mode.damping * omega * solved.y[1]
-    motion = (coarse.outer_displacement, coarse.outer_velocity, coarse.outer_acceleration)
-    error = relative_error(mode_accelerations([mode], *motion, RATE)[:, 1], expected)
+    error = relative_error(mode_accelerations([mode], coarse.outer)[:, 1], expected)
     held = ([2.0 * mode.damping * omega, omega**2], [1.0, 2.0 * mode.damping * omega, omega**2])
-    first_order = relative_error(lsim(held, coarse.outer_acceleration[:, 1], coarse.time)[1], expected)
+    first_order = relative_error(lsim(held, coarse.outer.acceleration[:, 1], coarse.time)[1], expected)
     assert error < 2e-3  # straight lines between the finer run's samples leave 6e-4
     assert first_order > 5.0 * error  # what a first-order hold on the acceleration alone would lose
 
@@ -90,4 +90,4 @@ def test_an_impossible_mode_is_refused_with_its_number(fields, message):
 def test_a_resonance_at_half_the_rate_is_refused():
     still = np.zeros((8, 2))
     with pytest.raises(InvalidParameter, match=r"sensor resonance = 500\.0 Hz; allowed: 0 to 500 Hz"):
-        mode_accelerations([SensorMode(500.0, 0.1)], still, still, still, 1000.0)
+        mode_accelerations([SensorMode(500.0, 0.1)], OuterMotion(1000.0, still, still, still))

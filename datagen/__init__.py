@@ -10,6 +10,6 @@
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
 - what all of them use: `errors` (bad input, refused in one line), `counts` (numbers of things in words), `progress`
-  (how far a command has got), `exits` (exit codes), `garbage` (a collector that runs rarely), `processes` (workers that
-  never outlive their parent), `versions`
+  (how far a command has got), `exits` (exit codes), `garbage` (a collector that runs rarely), `freed_memory` (kept for
+  the next arrays), `processes` (workers that never outlive their parent), `versions`
 """

@@ -23,8 +23,8 @@ from datagen.commands import (
 )
 from datagen.commands.program import app
 from datagen.exits import OUTPUT_CLOSED
+from datagen.freed_memory import keep_freed_memory
 from datagen.garbage import collect_seldom
-from physics.freed_memory import keep_freed_memory
 
 COMMANDS = (
     generate,
@@ -47,7 +47,7 @@ def main() -> None:
     """Run the command line and end the process with 0, 1 (a check failed, or records could not be made), 2 (bad input),
     130 (Ctrl-C), 141 (nobody reads the output any more) or 143 (SIGTERM).
 
-    The process keeps the memory of freed arrays (physics.freed_memory) and collects garbage rarely.
+    The process keeps the memory of freed arrays (datagen.freed_memory) and collects garbage rarely.
     """
     collect_seldom()
     keep_freed_memory()

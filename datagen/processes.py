@@ -13,7 +13,7 @@ from datagen.garbage import collect_seldom
 
 PARENT_POLL = 0.25
 # Bytes by which a worker may grow. loky takes 300 MB for a leak, warns of it and starts another worker, where psutil is
-# installed; but long records take more, and their arrays are kept for the next ones (physics/freed_memory.py).
+# installed; but long records take more, and their arrays are kept for the next ones (datagen/freed_memory.py).
 GROWTH = 4 << 30
 
 

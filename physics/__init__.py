@@ -24,5 +24,5 @@ What all of them use:
 - `arrays`: names of array types; `words`: those of scenes and results, for packages that need no more than these
 - `_jit/`: compiles kernels; `warming` does so early; `compiled`: what other packages need of the compiler
 - `checks` (a value refused) and `spelling` (the name that was meant), `angular_speed` (rad/s in rpm and Hz), `rms`,
-  `recursive_filter`, `freed_memory`
+  `recursive_filter`
 """

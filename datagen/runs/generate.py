@@ -39,7 +39,7 @@ def generate(
     The arrays depend on the recipe alone, not on `engine`, the order or interruptions. A lost or damaged manifest is
     written again from the sidecars of the finished shards. Raises BadInput before anything is written; a
     KeyboardInterrupt leaves a usable corpus of the shards finished so far. Processes that make records, this one if it
-    is the only worker, keep the memory of freed arrays (physics.freed_memory).
+    is the only worker, keep the memory of freed arrays (datagen.freed_memory).
     """
     began, folder = time.monotonic(), Path(folder)
     asked = selection(recipe, limit, records)

@@ -11,6 +11,7 @@ from pathlib import Path
 from datagen.corpus_files.format import Identity, to_dataset
 from datagen.corpus_files.shard import Failure, Sidecar, write_shard
 from datagen.files.atomic import NO_SPACE
+from datagen.freed_memory import keep_freed_memory
 from datagen.progress import Say
 from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
@@ -18,7 +19,6 @@ from datagen.runs.plan import PlannedShard
 from datagen.runs.redraws import counted_redraws
 from datagen.scenarios.redraw import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
-from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
 
 
@@ -52,7 +52,7 @@ def load_kernels() -> None:
 def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
     """Make and write all records of a planned shard; raises OSError only if the disk is full.
 
-    The process keeps the memory of freed arrays from then on (physics.freed_memory).
+    The process keeps the memory of freed arrays from then on (datagen.freed_memory).
     """
     keep_freed_memory()
     try:

@@ -18,9 +18,9 @@ import tempfile
 import time
 from pathlib import Path
 
+from datagen.freed_memory import keep_freed_memory
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
-from physics.freed_memory import keep_freed_memory
 from physics.reference_scenes import reference_scene
 from physics.request import Accurate
 from physics.scene import Scene

@@ -27,12 +27,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.charts.contestants import ACCURACIES, SUBSTEPS
+from datagen.freed_memory import keep_freed_memory
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import measured_on
 from physics.cage import CagePath
-from physics.freed_memory import keep_freed_memory
 from physics.outcome import SimulationFailed
 from physics.request import Accurate, FixedSteps, Solution
 from physics.rms import relative_error, rms

@@ -12,9 +12,9 @@ import statistics
 import time
 from pathlib import Path
 
+from datagen.freed_memory import keep_freed_memory
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
-from physics.freed_memory import keep_freed_memory
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.request import FixedSteps, Reference
 from physics.response.periodic import METHOD as REPEATED

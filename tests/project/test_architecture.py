@@ -48,7 +48,7 @@ ROOMS = {
 PLACES = [(package, room) for package, rooms in ROOMS.items() for room in rooms]
 # The floors of datagen, packages and lone files: each may import from itself and from those before it.
 FLOORS = (
-    ("counts", "errors", "exits", "garbage", "processes", "progress", "versions"),
+    ("counts", "errors", "exits", "freed_memory", "garbage", "processes", "progress", "versions"),
     ("files",),
     ("distributions",),
     ("settings",),

@@ -7,13 +7,12 @@ import sys
 
 import pytest
 
-from physics.freed_memory import CHOSEN_BY, keep_freed_memory
-from physics.simulate import simulate
+from datagen.freed_memory import CHOSEN_BY
 
 PROGRAM = """
 import resource
 import numpy as np
-from physics.freed_memory import keep_freed_memory
+from datagen.freed_memory import keep_freed_memory
 
 print(int({call}))
 
@@ -42,12 +41,6 @@ def test_pages_of_freed_arrays_are_not_fetched_again():
     kept, faults = run("keep_freed_memory()")
     assert kept == 1
     assert faults < 1000  # 160 arrays of 1 MB are 40 960 pages; larger ones numpy puts onto huge pages
-
-
-def test_a_simulation_does_not_ask_for_it(reference_scene):
-    keep_freed_memory.cache_clear()
-    simulate(reference_scene("G0", 0.01), 65536.0)
-    assert keep_freed_memory.cache_info().currsize == 0
 
 
 def test_what_the_user_has_chosen_is_left_alone():

@@ -2,7 +2,7 @@
 
 The arrays of a record are megabytes that come and go with it. The C library fetches each of these from the system anew,
 which clears it page by page on first touch: a fifth of the time of a simulation. It is for whoever owns the process to
-ask for: the command line and the makers of records do, `simulate` does not.
+ask for: the command line and the makers of records do, the physics cannot.
 """
 
 from __future__ import annotations

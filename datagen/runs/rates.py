@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from datagen.scenarios.scenario import Scenario
-from physics.angular_speed import in_hertz
-from physics.integrators.propagator import reach
+from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model
 from physics.outcome import SimulationFailed
 from physics.response.oversampling import MOST_OVERSAMPLING, SAMPLES_WHERE_RAISED, oversampling
@@ -21,8 +20,8 @@ def against_rate(scenario: Scenario) -> str:
 
 def lowest_rate(scenario: Scenario) -> float:
     """The sampling rate (Hz) below which the fastest mode of the scenario's rig cannot be held."""
-    radians_a_second = reach(motion_model(scenario.scene), 1.0)
-    return in_hertz(radians_a_second) * SAMPLES_WHERE_RAISED / MOST_OVERSAMPLING
+    fastest = fast_periods(motion_model(scenario.scene), 1.0)
+    return fastest * SAMPLES_WHERE_RAISED / MOST_OVERSAMPLING
 
 
 class TooLowRates:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from datagen.scenarios.scenario import Scenario
-from physics.response.oversampling import raised_times
+from physics.response.oversampling import needed_multiple
 from physics.response.resampling import HALF_LENGTH_SAMPLES, HALVED_SHARE, KAISER_BETA
 
 LOWERING_RULE = (
@@ -21,7 +21,7 @@ LOWERING_RULE = (
 def sampling_data(scenario: Scenario) -> dict[str, Any]:
     """The sampling as plain data; `lowering` is None where the simulation runs at the record's own rate, and
     `settle_s` is there only where a record does not begin at rest."""
-    factor = raised_times(scenario.scene, scenario.rate, scenario.chain.fastest)
+    factor = needed_multiple(scenario.scene, scenario.rate, scenario.chain.fastest)
     settled = {"settle_s": scenario.settle} if scenario.settle > 0.0 else {}
     return settled | {
         "rate_hz": scenario.rate,

@@ -64,6 +64,11 @@ def reach(motion: MotionModel, step: float) -> float:
     return _fastest(motion) * step
 
 
+def fast_periods(motion: MotionModel, step: float) -> float:
+    """How many periods of its fastest mode a `step` (s) is."""
+    return reach(motion, step) / (2.0 * math.pi)
+
+
 @lru_cache(maxsize=MODELS_KEPT)
 def _fastest(motion: MotionModel) -> float:
     """Largest |eigenvalue| (1/s) of the linear part; asked for several times a scene."""

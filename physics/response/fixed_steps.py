@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from physics.integrators.method_table import METHODS
 from physics.integrators.output import Grid
-from physics.integrators.propagator import reach
+from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.single_march import respond
@@ -68,8 +68,7 @@ def respond_by_fixed_steps(
 
 def default_substeps(scene: Scene, rate: float) -> int:
     """Fewest steps a sample that give the fastest linear mode about six steps a period."""
-    per_step = reach(motion_model(scene), 1.0 / rate)
-    return max(1, math.ceil(per_step * STEPS_PER_FAST_PERIOD / (2.0 * math.pi)))
+    return max(1, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * STEPS_PER_FAST_PERIOD))
 
 
 def _estimated_error(coarse: Trace, fine: Trace) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from physics.integrators.propagator import reach
+from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model
 from physics.outcome import Outcome, SimulationFailed
 from physics.scene import Scene
@@ -16,15 +16,16 @@ SAMPLES_PER_FAST_PERIOD, SAMPLES_WHERE_RAISED = 4.0, 10.0
 # A path to the sensor follows the outer ring, whose acceleration jumps with every contact: with fewer samples, or a
 # smaller multiple of the rate, what the jumps do between samples and above half the rate reaches it.
 SAMPLES_PER_PATH_PERIOD, LEAST_WITH_PATH = 14.0, 3
-MOST_OVERSAMPLING = 160
+# A record's rate may be a sixteenth of the fastest mode's frequency: lower ones keep hardly anything of what rings.
+MOST_OVERSAMPLING = round(16.0 * SAMPLES_WHERE_RAISED)
 
 
-def raised_times(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
-    """How many times `rate` (Hz) is needed to hold the fastest linear mode of `scene` with room for the filter.
+def needed_multiple(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
+    """Which multiple of `rate` (Hz) holds the fastest linear mode of `scene` with room for the filter.
 
     And, if there is one, the `fastest_path` (Hz) that the outer ring shakes.
     """
-    periods = reach(motion_model(scene), 1.0 / rate) / (2.0 * math.pi)
+    periods = fast_periods(motion_model(scene), 1.0 / rate)
     factor = max(1, math.ceil(periods * SAMPLES_PER_FAST_PERIOD))
     if fastest_path > 0.0:
         return max(factor, LEAST_WITH_PATH, math.ceil(fastest_path / rate * SAMPLES_PER_PATH_PERIOD))
@@ -32,10 +33,10 @@ def raised_times(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
 
 
 def oversampling(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
-    """What `raised_times` gives; raises SimulationFailed if it is more than is ever made."""
-    factor = raised_times(scene, rate, fastest_path)
+    """The `needed_multiple`; raises SimulationFailed if it is more than is ever made."""
+    factor = needed_multiple(scene, rate, fastest_path)
     if factor > MOST_OVERSAMPLING:
-        fastest = max(reach(motion_model(scene), 1.0 / rate) * rate / (2.0 * math.pi), fastest_path)
+        fastest = max(fast_periods(motion_model(scene), 1.0), fastest_path)
         raise SimulationFailed(
             Outcome.UNRESOLVED,
             f"a rate of {rate:.6g} Hz has to be raised {factor} times to hold the fastest mode, {fastest:.4g} Hz; "

@@ -15,7 +15,7 @@ from physics.arrays import Array
 from physics.integrators.modal.flow import slowest_decay
 from physics.integrators.modal.memory import Stride
 from physics.integrators.output import Output
-from physics.integrators.propagator import reach
+from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model
 from physics.paths.profile import is_rough
 from physics.response.adaptive import PILOT_SAMPLES, respond_accurately
@@ -94,7 +94,7 @@ def respond_until_repeated(
 
 def _fineness(scene: Scene, rate: float) -> int:
     """How many times as dense as asked for, at `rate` (Hz), the samples of the march are."""
-    return max(FINENESS, math.ceil(SAMPLES_PER_FAST_PERIOD * reach(motion_model(scene), 1.0 / rate) / (2.0 * math.pi)))
+    return max(FINENESS, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * SAMPLES_PER_FAST_PERIOD))
 
 
 def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float, samples: int) -> Trace:

@@ -6,9 +6,9 @@ repeats itself with the balls, slip or not (film forces are of the mean cage spe
 resonator are exact, as in the step of the nonlinear model, which is used here with a linear contact.
 
 Steps are the fewest that are stable, and run over the jumps that the table has where contacts begin and end: at
-65 536 Hz this is off by 1 to 5 % of the RMS on the reference rigs, less at higher rates, and not estimated. The model
-itself is 1 to 2 % off the nonlinear one in G0 and F0 without clearance and 20 to 50 % with 1 to 10 µm of it, whatever
-the rate: balls then touch and let go at speed, so the film's force jumps at instants that the vibration moves.
+65 536 Hz this is off by 0.1 to 3.4 % of the RMS in the reference scenes, less at higher rates, and not estimated. The
+model itself is 1 to 2 % off the nonlinear one in G0 and F0 without clearance and 20 to 50 % with 1 to 10 µm of it,
+whatever the rate: balls then touch and let go at speed, so the film's force jumps at instants that the vibration moves.
 """
 
 from __future__ import annotations
@@ -58,7 +58,11 @@ class Place(NamedTuple):
 
 
 def repeats_with_the_balls(scene: Scene) -> bool:
-    """Whether every quantity is a function of the cage angle that returns after one ball spacing."""
+    """Whether every quantity is a function of the cage angle that returns after one ball spacing.
+
+    This asks for no period of time, as response.periodic.balls_a_period does: slip may be. But balls that differ, whose
+    period is a turn of the cage, and two cages, even of one speed, are tabulated in time.
+    """
     return not scene.turns_with_the_shaft and scene.balls_are_alike and scene.second_cage is None
 
 

@@ -30,9 +30,6 @@ from physics.statics.load_distribution import carried, instants_without_period
 from physics.statics.stiffness import symmetric_matrices
 from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
-# Instants of a record whose stiffness and damping are averaged for its modes.
-MEAN_TIMES = 64
-
 
 class Edges(NamedTuple):
     """Steps of force on the outer ring, E of them.
@@ -57,7 +54,7 @@ def _sound(scene: Scene) -> Scene:
 
 def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
     """Stiffness (2, 2) and film damping (2, 2) of the bearing without spalls, means over the record."""
-    rest = carried(_sound(scene), instants_without_period(scene.duration, MEAN_TIMES))
+    rest = carried(_sound(scene), instants_without_period(scene.duration))
     return symmetric_matrices(rest.stiffness.mean(axis=0)), symmetric_matrices(rest.damping.mean(axis=0))
 
 

@@ -29,9 +29,8 @@ from physics.trace import ACCELERATION_ALONE, Kept
 
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
-# Instants whose contact stiffness and damping are averaged for the modes.
-MEAN_STIFFNESS_TIMES = 64
-# N/m; the modes need a spring between the rings even where no ball is pressed.
+# N/m; the modes need a spring between the rings even where no ball is pressed: one so soft that a kilogram on it swings
+# at 5 Hz.
 SMALLEST_STIFFNESS = 1e3
 
 
@@ -88,7 +87,7 @@ def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
 def resting(scene: Scene) -> Equilibrium:
     """Quasi-static positions of `scene` from t = 0 to its end; raises SimulationFailed if none carries the load at
     t = 0."""
-    rest = equilibrium(scene, instants_without_period(scene.duration, MEAN_STIFFNESS_TIMES))
+    rest = equilibrium(scene, instants_without_period(scene.duration))
     if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
         refuse(scene, 0.0)
     return rest

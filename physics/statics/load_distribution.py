@@ -24,6 +24,8 @@ OUTCOMES = {
     NO_EQUILIBRIUM: StaticOutcome.NO_EQUILIBRIUM,
 }
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+# Instants that tell the mean stiffness and damping of the contacts over a record.
+INSTANTS_OF_MEAN = 64
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,7 @@ class _Found(NamedTuple):
     status: Index
 
 
-def instants_without_period(duration: float, count: int) -> Array:
+def instants_without_period(duration: float, count: int = INSTANTS_OF_MEAN) -> Array:
     """`count` instants (count,), s, rising, spread over `duration` (s) by the golden section.
 
     Means over evenly spaced instants see no swing at all where these meet the same phase of every ball pass.

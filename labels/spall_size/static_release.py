@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from physics.bearing import Bearing
-from physics.paths.rolling import hanging_reach
+from physics.paths.held_ball import ball_of
 
 # Compression at a spall over that in the direction of the load: mean cosine of the angle between them over spall
 # centres within ±25 degrees (one standard deviation).
@@ -18,7 +18,7 @@ def static_compression(bearing: Bearing, load: float) -> float:
 
 def release_arc(bearing: Bearing, race: str, load: float) -> float:
     """Arc (rad) from a sharp edge to where the ball has dropped by its static compression and is released."""
-    return hanging_reach(race, bearing.raceway_radius(race), bearing.ball_radius, static_compression(bearing, load))
+    return ball_of(bearing, race).reach_from_edge(static_compression(bearing, load))
 
 
 def arc_with_static_release(lag_arc: float, bearing: Bearing, race: str, load: float) -> float:

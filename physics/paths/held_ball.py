@@ -1,4 +1,4 @@
-"""What holds a ball over a surface: a place between its points that were tried, a lip, or the higher of two bumps."""
+"""A ball on its race, and what holds it: a place between points that were tried, a lip, or the higher of two bumps."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from physics.arrays import Array, Index
+from physics.bearing import Bearing
 
 # What rounding leaves of a height (m).
 HEIGHT_ROUNDING = 1e-15
@@ -44,13 +45,9 @@ class Held(NamedTuple):
         return int(np.count_nonzero(holds))
 
 
-def turn_of(race: str) -> float:
-    """1 on the "inner" race, which bends away from the ball, −1 on the "outer", which bends towards it."""
-    return -1.0 if race == "outer" else 1.0
-
-
 class Ball(NamedTuple):
-    """A ball and the race it rolls on: both radii (m), and the race's `turn_of`."""
+    """A ball and the race it rolls on: both radii (m), and `turn`, 1 where the race bends away from the ball, as the
+    inner one does, and −1 where it bends towards it."""
 
     race_radius: float
     ball_radius: float
@@ -92,10 +89,42 @@ class Ball(NamedTuple):
             least, most = np.where(ahead, middle, least), np.where(ahead, most, middle)
         return 0.5 * (least + most)
 
+    def drop_from_edge(self, arc: Array) -> Array:
+        """Drop (N,), m, of the ball hanging on one sharp edge at the arcs ψ (N,), rad, from it.
+
+        Outer race: Rb − √(Rb² − Ro² sin²ψ) − Ro (1 − cos ψ); inner race: the last term is + Ri (1 − cos ψ).
+        """
+        lever = np.minimum(self.race_radius * np.sin(arc), self.ball_radius)
+        hanging = self.ball_radius - np.sqrt(self.ball_radius**2 - lever**2)
+        return np.asarray(hanging + self.turn * self.race_radius * (1.0 - np.cos(arc)))
+
+    def slope_from_edge(self, arc: Array) -> Array:
+        """Slope (N,), m/rad, of that drop."""
+        lever = np.minimum(self.race_radius * np.sin(arc), self.ball_radius * FARTHEST)
+        hanging = lever * self.race_radius * np.cos(arc) / np.sqrt(self.ball_radius**2 - lever**2)
+        return np.asarray(hanging + self.turn * self.race_radius * np.sin(arc))
+
+    def reach_from_edge(self, drop: float) -> float:
+        """Arc (rad) from a sharp edge at which the ball hanging on it has dropped by `drop` (m).
+
+        No more than the arc at which it slips past the edge.
+        """
+        race_radius, ball_radius = self.race_radius, self.ball_radius
+        furthest = math.asin(min(1.0, ball_radius / race_radius))
+        drop = min(drop, ball_radius + self.turn * race_radius * (1.0 - math.cos(furthest)))
+        centre_radius = race_radius + self.turn * (ball_radius - drop)
+        half_sine = math.sqrt(drop * (2.0 * ball_radius - drop) / (4.0 * race_radius * centre_radius))
+        return min(furthest, 2.0 * math.asin(half_sine))
+
     def on(self, surface: Surface, place: Array, arc: Array) -> Held:
         """The ball at the arcs (N,), rad, that touches the surface at the places (N,), rad."""
         depth = surface(place)
         return Held(place, depth, self.drop(depth, place - arc))
+
+
+def ball_of(bearing: Bearing, race: str) -> Ball:
+    """A ball of the `bearing` on its "outer" or "inner" race."""
+    return Ball(bearing.raceway_radius(race), bearing.ball_radius, -1.0 if race == "outer" else 1.0)
 
 
 def between_points(surface: Surface, ball: Ball, arc: Array, place: Array, apart: float) -> Held:

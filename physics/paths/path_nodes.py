@@ -9,7 +9,7 @@ import numpy as np
 from physics._jit import njit
 from physics.arrays import Array, Index
 from physics.paths.corners import LEAP, NEAREST, Branches, RolledPath, branches, corners_of
-from physics.paths.held_ball import Held, between_points
+from physics.paths.held_ball import Ball, Held, between_points
 from physics.paths.rolling import Rolled, drop_on
 
 # A bump between both that meet in a corner holds the ball if it does so by more than this (m) higher than they.
@@ -133,32 +133,23 @@ def _held_between(path: RolledPath, rolled: Rolled, cells: Index, arc: Array) ->
     """The ball at arcs (N,), rad, between the nodes of these `cells` (N,) of the path: by what lies between the places
     at which it touches there."""
     _, ball, surface, points, depth = rolled
-    fine, outer = points[1] - points[0], ball.turn < 0.0
+    fine = points[1] - points[0]
     touched = path.arc[0] + path.contact * rolled.pace
     first, last = (np.rint((touched[cells + k] - points[0]) / fine).astype(np.int64) for k in (0, 1))
-    place = _highest_between(depth, first, last, arc - points[0], fine, *ball[:2], outer)
-    return between_points(surface, ball, arc, points[place], fine)
+    highest = _highest_between(ball, depth, first, last, arc - points[0], fine)
+    return between_points(surface, ball, arc, points[highest], fine)
 
 
 @njit
-def _highest_between(
-    depth: Array,
-    first: Index,
-    last: Index,
-    arc: Array,
-    step: float,
-    race_radius: float,
-    ball_radius: float,
-    outer: bool,
-) -> Index:
-    """The points (N,) of the surface, from `first` to `last` (N,) each, that hold balls at the arcs (N,), rad, from
-    point 0 highest."""
+def _highest_between(ball: Ball, depth: Array, first: Index, last: Index, arc: Array, step: float) -> Index:
+    """The points (N,) of the surface, from `first` to `last` (N,) each, that hold the `ball` at the arcs (N,), rad,
+    from point 0 highest."""
     highest = first.copy()
     for k in range(arc.size):
         least = math.inf
-        for place in range(first[k], last[k] + 1):
-            away = abs(step * place - arc[k])
-            found = drop_on(depth[place], math.cos(away), math.sin(away), race_radius, ball_radius, outer)
+        for point in range(first[k], last[k] + 1):
+            away = abs(step * point - arc[k])
+            found = drop_on(ball, depth[point], math.cos(away), math.sin(away))
             if found < least:
-                least, highest[k] = found, place
+                least, highest[k] = found, point
     return highest

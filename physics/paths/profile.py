@@ -13,8 +13,9 @@ from physics.bearing import Bearing
 from physics.imperfections import Waviness
 from physics.paths.corners import Branches
 from physics.paths.depth_path import Curve, DepthPath, hermite_path
+from physics.paths.held_ball import ball_of
 from physics.paths.path_nodes import bumpy_branches, gap_branches, table_branches
-from physics.paths.rolling import deep_gap_drop, hanging_reach, roll
+from physics.paths.rolling import roll
 from physics.paths.spall_surface import (
     floor_ends,
     gap_surface,
@@ -160,11 +161,10 @@ def _error_between_nodes(path: DepthPath, depth: Curve) -> float:
 
 def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
     """A gap with sharp edges in closed form: the ball hangs on the nearer edge until it reaches the floor."""
-    half = spall.extent / 2.0
-    race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
-    drop, drop_slope = deep_gap_drop(spall.race, race_radius, ball_radius)
-    bridged = bool(half < math.asin(min(1.0, ball_radius / race_radius)) and drop(np.array(half)) < spall.depth)
-    reach = half if bridged else min(half, hanging_reach(spall.race, race_radius, ball_radius, spall.depth))
+    half, ball = spall.extent / 2.0, ball_of(bearing, spall.race)
+    furthest = math.asin(min(1.0, ball.ball_radius / ball.race_radius))
+    bridged = bool(half < furthest and ball.drop_from_edge(np.array(half)) < spall.depth)
+    reach = half if bridged else min(half, ball.reach_from_edge(spall.depth))
     edges = np.array(_distinct([-half, -half + reach, half - reach, half]))
     on_floor = np.abs(edges[1:] + edges[:-1]) / 2.0 < half - reach
     cells = [1 if flat else CELLS_PER_TAPER for flat in on_floor]
@@ -173,11 +173,11 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
         return np.clip(half - np.abs(arc), 0.0, reach)
 
     def depth(arc: Array) -> Array:
-        return drop(nearer_edge(arc))
+        return ball.drop_from_edge(nearer_edge(arc))
 
     def slope(arc: Array) -> Array:
         hanging = half - np.abs(arc) < reach * (1.0 - 1e-12)
-        return np.where(hanging, -np.sign(arc) * drop_slope(nearer_edge(arc)), 0.0)
+        return np.where(hanging, -np.sign(arc) * ball.slope_from_edge(nearer_edge(arc)), 0.0)
 
     return hermite_path(edges, cells, depth, slope, bridged=bridged, bumps=False, rough=False)
 
@@ -185,12 +185,12 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
 def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     measured, lips = spall.profile == "table", table_arcs(spall)
     surface = table_surface(spall) if measured else gap_surface(spall)
-    race_radius, ball_radius = bearing.raceway_radius(spall.race), bearing.ball_radius
+    ball = ball_of(bearing, spall.race)
     rough = bool(spall.roughness_values)
     # The race ends where the table does, which may be within the spall: a ball can hang there.
     first, last = (lips[0], lips[-1]) if measured else (-spall.extent / 2.0, spall.extent / 2.0)
-    step = max(ROLLED_STEP / race_radius, (last - first) / MOST_STEPS)
-    rolled = roll(surface, (first, last), spall.race, race_radius, ball_radius, step, lips)
+    step = max(ROLLED_STEP / ball.race_radius, (last - first) / MOST_STEPS)
+    rolled = roll(surface, (first, last), ball, step, lips)
     rough = rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS
     path = rolled.path
     if rough:

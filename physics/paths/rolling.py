@@ -10,7 +10,6 @@ import numpy as np
 from physics._jit import njit, njit_inline, njit_lean
 from physics.arrays import Array, Index
 from physics.paths.corners import LEAP, RolledPath
-from physics.paths.depth_path import Curve
 from physics.paths.held_ball import (
     HEIGHT_ROUNDING,
     Ball,
@@ -19,7 +18,6 @@ from physics.paths.held_ball import (
     hold_as_neighbours,
     hold_between_points,
     hold_on_lips,
-    turn_of,
 )
 
 FEWEST_STEPS = 512
@@ -44,61 +42,25 @@ class Rolled(NamedTuple):
         return float(self.points[1] - self.points[0]) * POINTS_A_STEP
 
 
-def deep_gap_drop(race: str, race_radius: float, ball_radius: float) -> tuple[Curve, Curve]:
-    """Drop (m) and its slope (m/rad) of a ball hanging on one sharp edge at the arc ψ (rad) from it.
-
-    Outer race: Rb − √(Rb² − Ro² sin²ψ) − Ro (1 − cos ψ); inner race: the last term is + Ri (1 − cos ψ).
-    """
-    turn = turn_of(race)
-
-    def drop(arc: Array) -> Array:
-        lever = np.minimum(race_radius * np.sin(arc), ball_radius)
-        hanging = ball_radius - np.sqrt(ball_radius**2 - lever**2)
-        return np.asarray(hanging + turn * race_radius * (1.0 - np.cos(arc)))
-
-    def slope(arc: Array) -> Array:
-        lever = np.minimum(race_radius * np.sin(arc), ball_radius * (1.0 - 1e-12))
-        hanging = lever * race_radius * np.cos(arc) / np.sqrt(ball_radius**2 - lever**2)
-        return np.asarray(hanging + turn * race_radius * np.sin(arc))
-
-    return drop, slope
-
-
-def hanging_reach(race: str, race_radius: float, ball_radius: float, drop: float) -> float:
-    """Arc (rad) from a sharp edge at which a ball hanging on it has dropped by `drop` (m), the inverse of the above.
-
-    No more than the arc at which the ball slips past the edge.
-    """
-    turn = turn_of(race)
-    furthest = math.asin(min(1.0, ball_radius / race_radius))
-    drop = min(drop, ball_radius + turn * race_radius * (1.0 - math.cos(furthest)))
-    centre_radius = race_radius + turn * (ball_radius - drop)
-    half_sine = math.sqrt(drop * (2.0 * ball_radius - drop) / (4.0 * race_radius * centre_radius))
-    return min(furthest, 2.0 * math.asin(half_sine))
-
-
 def roll(
     surface: Surface,
     ends: tuple[float, float],
-    race: str,
-    race_radius: float,
-    ball_radius: float,
+    ball: Ball,
     step: float,
     lips: Array | None = None,
 ) -> Rolled:
-    """A ball rolled over the `surface` of a spall between its `ends` (rad), with the path of its centre.
+    """The `ball` rolled over the `surface` of a spall between its `ends` (rad), with the path of its centre.
 
     `step` is the wanted distance between the arcs of the path (rad); between its `lips` (L,), rad, rising, the surface
     has no corners. The arcs go beyond the spall if a bump that stands proud of the race lifts the ball there. Where the
     ball touches is looked for among points of the surface and then, exactly, between the neighbours of the point found.
     """
-    ball = Ball(race_radius, ball_radius, turn_of(race))
     lips = np.zeros(0) if lips is None else lips
     (start, stop), length = ends, ends[1] - ends[0]
     count = max(FEWEST_STEPS, math.ceil(length / step))
     fine = length / (count * POINTS_A_STEP)
     probe = surface(np.linspace(start, stop, count * POINTS_A_STEP + 1))
-    beyond, reach = _margins(np.concatenate([probe, surface(lips)]), race, ball, fine)
+    beyond, reach = _margins(np.concatenate([probe, surface(lips)]), ball, fine)
     first, last = -beyond * POINTS_A_STEP, (count + beyond) * POINTS_A_STEP
     points = start + fine * np.arange(first - reach, last + reach + 1, dtype=np.float64)
 
@@ -110,9 +72,9 @@ def roll(
     # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.
     corners = [reach - first, reach - first + count * POINTS_A_STEP]
     depth[corners] = np.minimum(probe[[0, -1]], 0.0)
-    drop, place = _roll(depth, reach, fine, race_radius, ball_radius, race == "outer")
+    drop, point = _roll(depth, reach, fine, ball)
     arc = points[reach : points.size - reach : POINTS_A_STEP]
-    held = Held(points[place], depth[place], drop)
+    held = Held(points[point], depth[point], drop)
     hold_on_lips(surface, ball, arc, held, lips, fine * reach)
     hold_between_points(inside, ball, arc, held, fine)
     hold_as_neighbours(inside, ball, arc, held, fine, LEAP * POINTS_A_STEP * fine)
@@ -121,22 +83,19 @@ def roll(
     return Rolled(path, ball, inside, points, depth)
 
 
-def _margins(depths: Array, race: str, ball: Ball, fine: float) -> tuple[int, int]:
+def _margins(depths: Array, ball: Ball, fine: float) -> tuple[int, int]:
     """By how many steps the path goes on beyond the edges of a surface of these `depths` (N,), m, as bumps that stand
     proud of the race lift the ball there; and how many points, `fine` (rad) apart, a contact is ahead of the ball at
     most."""
     proud, deepest = max(0.0, -float(depths.min())), float(depths.max(initial=0.0))
-    bump_radius = ball.race_radius + ball.turn * proud
-    lifted = hanging_reach(race, bump_radius, ball.ball_radius, proud)
-    hung = hanging_reach(race, bump_radius, ball.ball_radius, max(deepest + proud, 1e-9))
+    on_bump = ball._replace(race_radius=ball.race_radius + ball.turn * proud)
+    lifted, hung = on_bump.reach_from_edge(proud), on_bump.reach_from_edge(max(deepest + proud, 1e-9))
     # Whole steps, so that both edges stay on a point of the grid.
     return math.ceil(lifted / (fine * POINTS_A_STEP)), math.ceil(1.05 * hung / fine) + 2
 
 
 @njit
-def _roll(
-    depth: Array, reach: int, step: float, race_radius: float, ball_radius: float, outer: bool
-) -> tuple[Array, Index]:
+def _roll(depth: Array, reach: int, step: float, ball: Ball) -> tuple[Array, Index]:
     """Drop at every point of the path and the number of the surface's point that holds the ball, by trying each of the
     `reach` neighbours on both sides.
 
@@ -153,28 +112,29 @@ def _roll(
     drop, contact = np.empty(count), np.empty(count, dtype=np.int64)
     for k in range(count):
         centre = k * POINTS_A_STEP + reach
-        least, best = drop_on(depth[centre], 1.0, 0.0, race_radius, ball_radius, outer), centre
+        least, best = drop_on(ball, depth[centre], 1.0, 0.0), centre
         for block in range((centre - reach) // size, (centre + reach) // size + 1):
             first, last = max(block * size, centre - reach), min(block * size + size - 1, centre + reach)
             near = max(first - centre, centre - last, 0)
-            if _least_drop(highest[block], deepest, cosine[near], sine[near], race_radius, ball_radius, outer) > least:
+            if _least_drop(ball, highest[block], deepest, cosine[near], sine[near]) > least:
                 continue
-            for place in range(first, last + 1):
-                away = abs(place - centre)
-                found = drop_on(depth[place], cosine[away], sine[away], race_radius, ball_radius, outer)
+            for point in range(first, last + 1):
+                away = abs(point - centre)
+                found = drop_on(ball, depth[point], cosine[away], sine[away])
                 if found < least:
-                    least, best = found, place
+                    least, best = found, point
         drop[k], contact[k] = least, best
     return drop, contact
 
 
 @njit_inline
-def drop_on(depth: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool) -> float:
-    """Drop (m) of a ball that touches the surface at this `depth` (m); infinite if it is too far away to touch there.
+def drop_on(ball: Ball, depth: float, cosine: float, sine: float) -> float:
+    """Drop (m) of the `ball` that touches the surface at this `depth` (m); infinite if it is too far away for that.
 
     `cosine` and `sine` are of the angle between the ball's centre and the contact, not below 0. The same as
     `Ball.drop`, number by number.
     """
+    race_radius, ball_radius, outer = ball.race_radius, ball.ball_radius, ball.turn < 0.0
     radius = race_radius + depth if outer else race_radius - depth
     lever = radius * sine
     if lever >= ball_radius:
@@ -186,13 +146,12 @@ def drop_on(depth: float, cosine: float, sine: float, race_radius: float, ball_r
 
 
 @njit_lean
-def _least_drop(
-    highest: float, deepest: float, cosine: float, sine: float, race_radius: float, ball_radius: float, outer: bool
-) -> float:
+def _least_drop(ball: Ball, highest: float, deepest: float, cosine: float, sine: float) -> float:
     """A drop (m) below which no surface between the `highest` and the `deepest` depth (m) holds the ball.
 
     `cosine` and `sine` as in `drop_on`, of the least angle at which it may touch.
     """
+    race_radius, ball_radius, outer = ball.race_radius, ball.ball_radius, ball.turn < 0.0
     lever = (race_radius + highest if outer else race_radius - deepest) * sine
     if lever >= ball_radius:
         return math.inf

@@ -10,8 +10,9 @@ from measures import hanging
 from scipy.interpolate import CubicSpline
 
 from physics.paths.corners import branches
+from physics.paths.held_ball import Ball
 from physics.paths.path_nodes import bumpy_branches
-from physics.paths.rolling import deep_gap_drop, hanging_reach, roll
+from physics.paths.rolling import roll
 
 BALL = 3.56e-3
 RACE = {"outer": 22.935e-3, "inner": 15.815e-3}
@@ -21,6 +22,10 @@ STEP = 5e-6 / RACE["outer"]
 ROUNDING = 1e-15  # m: a few units in the last place of a race's radius
 
 
+def ball_on(race, radius=BALL):
+    return Ball(RACE[race], radius, -1.0 if race == "outer" else 1.0)
+
+
 def sloped(depth):
     """The surface of this depth, with a slope from differences."""
     apart = 1e-8
@@ -28,7 +33,7 @@ def sloped(depth):
 
 
 def rolled(depth, race, half=HALF, step=STEP):
-    return roll(sloped(depth), (-half, half), race, RACE[race], BALL, step).path[:2]
+    return roll(sloped(depth), (-half, half), ball_on(race), step).path[:2]
 
 
 def gap(depth):
@@ -77,12 +82,11 @@ def test_a_shallow_gap_is_crossed_on_the_edges_and_on_its_floor(race):
 @RACES
 @pytest.mark.parametrize("steps", [800, 801])  # the corner lies on a node, or in the middle between two
 def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slope(race, steps):
-    path = roll(sloped(gap(1e-3)), (-HALF, HALF), race, RACE[race], BALL, 2.0 * HALF / (steps - 0.5)).path
+    path = roll(sloped(gap(1e-3)), (-HALF, HALF), ball_on(race), 2.0 * HALF / (steps - 0.5)).path
     assert path.arc.size == steps + 1
     found = branches(path)
     assert found.edges[1:-1] == pytest.approx([0.0], abs=1e-9)
-    _, slope = deep_gap_drop(race, RACE[race], BALL)
-    here, steep = np.flatnonzero(found.arc == found.edges[1]), float(slope(np.array(HALF)))
+    here, steep = np.flatnonzero(found.arc == found.edges[1]), float(ball_on(race).slope_from_edge(np.array(HALF)))
     assert found.slope[here] == pytest.approx([steep, -steep], rel=1e-6)
     assert found.drop[here] == pytest.approx(float(hanging(race, RACE[race], BALL, HALF)), abs=1e-13)
 
@@ -90,7 +94,7 @@ def test_the_ball_changes_edges_at_a_corner_where_both_sides_keep_their_own_slop
 @RACES
 @pytest.mark.parametrize("seed", range(3))
 def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
-    path = roll(sloped(bumpy(seed, 8e-6)), (-HALF, HALF), race, RACE[race], BALL, STEP).path
+    path = roll(sloped(bumpy(seed, 8e-6)), (-HALF, HALF), ball_on(race), STEP).path
     found = branches(path)
     assert 2 < found.edges.size < 20
     width, rise = np.diff(found.arc), np.diff(found.drop)
@@ -104,16 +108,17 @@ def test_slopes_and_corners_of_a_bumpy_path_agree_with_its_drops(race, seed):
 
 @RACES
 def test_the_closed_form_s_slope_is_its_derivative(race):
-    drop, slope = deep_gap_drop(race, RACE[race], BALL)
+    ball = ball_on(race)
     psi, h = np.linspace(0.001, 0.15, 50), 1e-6
-    assert np.allclose((drop(psi + h) - drop(psi - h)) / (2 * h), slope(psi), rtol=1e-6)  # third derivative times h²
+    risen = ball.drop_from_edge(psi + h) - ball.drop_from_edge(psi - h)
+    assert np.allclose(risen / (2 * h), ball.slope_from_edge(psi), rtol=1e-6)  # third derivative times h²
 
 
 @RACES
 @given(depth=st.floats(1e-9, 3e-3))
 @settings(max_examples=50, deadline=None, derandomize=True)
 def test_the_reach_of_a_hanging_ball_inverts_the_closed_form(race, depth):
-    reach = hanging_reach(race, RACE[race], BALL, depth)
+    reach = ball_on(race).reach_from_edge(depth)
     dropped = float(hanging(race, RACE[race], BALL, reach))
     assert dropped == pytest.approx(depth, rel=1e-6, abs=1e-15)  # cancellation in Rb − √(…)
 
@@ -122,8 +127,8 @@ def test_the_reach_of_a_hanging_ball_inverts_the_closed_form(race, depth):
 def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
     furthest = math.asin(BALL / RACE[race])
     deepest = float(hanging(race, RACE[race], BALL, furthest - 1e-12))
-    assert hanging_reach(race, RACE[race], BALL, 1.5 * deepest) == pytest.approx(furthest, rel=1e-6)  # a square root
-    assert hanging_reach(race, RACE[race], BALL, 0.0) == 0.0
+    assert ball_on(race).reach_from_edge(1.5 * deepest) == pytest.approx(furthest, rel=1e-6)  # a square root
+    assert ball_on(race).reach_from_edge(0.0) == 0.0
 
 
 @RACES
@@ -131,8 +136,8 @@ def test_a_ball_hangs_no_further_from_an_edge_than_where_it_slips_past(race):
 def test_even_a_ball_nearly_as_large_as_its_race_finds_the_edges_it_hangs_on(race, ball_share):
     ball = ball_share * RACE[race]
     half = 0.98 * math.asin(ball_share)
-    arcs, drop, _, _ = roll(sloped(gap(5e-3)), (-half, half), race, RACE[race], ball, STEP).path
-    exact, _ = deep_gap_drop(race, RACE[race], ball)
+    arcs, drop, _, _ = roll(sloped(gap(5e-3)), (-half, half), ball_on(race, ball), STEP).path
+    exact = ball_on(race, ball).drop_from_edge
     assert np.max(np.abs(drop - np.minimum(exact(half - np.abs(arcs)), 5e-3))) < ROUNDING * 10  # steep: more rounding
 
 
@@ -191,7 +196,7 @@ def test_over_a_taper_the_ball_runs_on_the_curve_one_radius_off_it(race, taper):
             return depth * np.sin(0.5 * np.pi * into) ** 2
         return -np.sign(arc) * depth * 0.5 * np.pi / width * np.sin(np.pi * into)
 
-    arcs, drop, slope, _ = roll(surface, (-HALF, HALF), race, RACE[race], BALL, STEP).path
+    arcs, drop, slope, _ = roll(surface, (-HALF, HALF), ball_on(race), STEP).path
     # Points of the taper near its edge and the ball that lies on each of them, along the normal there.
     touched = -HALF + width * np.linspace(1e-5, 0.3, 4001)
     radius, tilt = RACE[race] + outward * surface(touched), outward * surface(touched, 1)
@@ -216,7 +221,7 @@ def test_a_ball_turns_around_a_lip_wherever_it_lies_between_points(race):
             return np.interp(arc, knots, depths)
         return np.concatenate([[0.0], np.diff(depths) / np.diff(knots), [0.0]])[np.searchsorted(knots, arc)]
 
-    arcs, drop, slope, _ = roll(surface, (-HALF, HALF), race, RACE[race], BALL, STEP, knots).path
+    arcs, drop, slope, _ = roll(surface, (-HALF, HALF), ball_on(race), STEP, knots).path
     near = np.abs(arcs - lip) < 1e-3
     radius, away = RACE[race] + outward * 2e-6, lip - arcs[near]
     hanging = np.sqrt(BALL**2 - (radius * np.sin(away)) ** 2)
@@ -241,12 +246,12 @@ def test_a_bump_that_holds_the_ball_over_less_than_a_step_is_not_passed_over(rac
 
         return surface
 
-    low = roll(sloped(crests(0.0)), (-half, half), race, RACE[race], BALL, STEP)
+    low = roll(sloped(crests(0.0)), (-half, half), ball_on(race), STEP)
     path, without = low.path, bumpy_branches(low)
     assert np.min(np.abs(path.arc - middle)) == pytest.approx(0.5 * step)
     corner = float(np.interp(middle, without.arc, without.drop))
     surface = crests(20e-6 - corner + 15e-9)  # holds the ball 15 nm higher than its neighbours, over a µm
-    found = bumpy_branches(roll(sloped(surface), (-half, half), race, RACE[race], BALL, STEP))
+    found = bumpy_branches(roll(sloped(surface), (-half, half), ball_on(race), STEP))
     near = np.abs(found.edges - middle) < 0.5 * step
     assert np.count_nonzero(near) == 2
     assert 0.0 < np.ptp(found.edges[near]) < 0.5 * step
@@ -267,7 +272,7 @@ def test_a_path_over_roughness_is_the_same_with_steps_eight_times_as_short(race,
         return rough(arc, order) + (10e-6 if order == 0 else 0.0)
 
     arcs = np.linspace(-half, half, 400_001)
-    long, short = (bumpy_branches(roll(surface, (-half, half), race, RACE[race], BALL, step / n)) for n in (1, 8))
+    long, short = (bumpy_branches(roll(surface, (-half, half), ball_on(race), step / n)) for n in (1, 8))
     assert long.edges.size > 100
     drops = [np.interp(arcs, found.arc, found.drop) for found in (long, short)]
     np.testing.assert_allclose(*drops, rtol=0, atol=2e-9)  # chords of 2 µm, and corners of bumps less than 6 µm apart
@@ -356,7 +361,8 @@ def test_the_path_of_a_lifted_ball_begins_and_ends_at_zero(race, height):
     arcs, drop = rolled(lambda arc: np.where(np.abs(arc) > HALF - 1e-4, -height, 0.0), race)
     assert arcs[0] == pytest.approx(-arcs[-1], rel=1e-12)
     assert max(abs(drop[0]), abs(drop[-1])) < ROUNDING
-    touch = hanging_reach(race, RACE[race] - height if race == "outer" else RACE[race] + height, BALL, height)
+    bump = RACE[race] - height if race == "outer" else RACE[race] + height
+    touch = ball_on(race)._replace(race_radius=bump).reach_from_edge(height)
     assert -HALF - touch - arcs[0] < 1.5 * (arcs[1] - arcs[0])
 
 
@@ -376,7 +382,7 @@ def test_a_ball_falls_to_the_floor_of_a_hole_deeper_than_itself_and_is_found_the
         bumps = 1e-6 * np.cos(4e2 * arc)
         return np.full_like(arc, floor) + bumps if order == 0 else -4e-4 * np.sin(4e2 * arc)
 
-    path = roll(surface, (-half, half), race, RACE[race], BALL, STEP).path
+    path = roll(surface, (-half, half), ball_on(race), STEP).path
     # A ball that touches neither edge from beside its centre rests on the floor, a little above its deepest points.
     free = np.abs(path.arc) < half - 1.05 * math.asin(BALL / RACE[race])
     assert free.sum() > 500

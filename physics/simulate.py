@@ -26,7 +26,7 @@ from physics.response.silence import silence
 from physics.response.single_march import respond_by_reference
 from physics.rms import rms
 from physics.scene import Scene
-from physics.statics.load_distribution import carried
+from physics.statics.load_distribution import require_equilibrium
 from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept, Trace
 
 # A response that is repeated must keep this share of its RMS where its rate is lowered.
@@ -147,7 +147,7 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
 def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSteps | Reference, keep: Kept) -> Trace:
     """By fixed steps, or by the slow reference method."""
     samples = _samples(scene, rate)
-    rest, factor = carried(scene, np.zeros(1)), oversampling(scene, rate, keep.fastest_path)
+    rest, factor = require_equilibrium(scene, np.zeros(1)), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
     raised = (rate * factor, marched)
     if isinstance(solution, Reference):

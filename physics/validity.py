@@ -66,40 +66,40 @@ def inertia_force(scene: Scene, spall: Spall) -> float:
     return element_mass(bearing) * 2.0 * way.drop * (relative / way.arc) ** 2
 
 
-class Way(NamedTuple):
+class Descent(NamedTuple):
     """A ball's way down, or up, by a `drop` (m) over an `arc` (rad) of the race."""
 
     drop: float
     arc: float
 
 
-def _steepest_way(spall: Spall, bearing: Bearing) -> Way:
+def _steepest_way(spall: Spall, bearing: Bearing) -> Descent:
     """The way that takes the largest force."""
     half = spall.extent / 2.0
     if is_rough(spall, bearing):
         return _steepest_rough_way(spall, bearing)
     if spall.profile == "tukey":
-        return Way(spall.depth, max(min(spall.entry_taper, spall.exit_taper), spall.extent / (PATH_SAMPLES - 1)))
+        return Descent(spall.depth, max(min(spall.entry_taper, spall.exit_taper), spall.extent / (PATH_SAMPLES - 1)))
     path = build_path(spall, bearing)
     first, last = path.breaks[[0, -1]].tolist()
     down, up = _way_from_edges(path, -half, half, 1.0), _way_from_edges(path, first, last, -1.0)
     return max(down, up, key=lambda way: way.drop / way.arc**2)
 
 
-def _way_from_edges(path: DepthPath, first: float, last: float, sense: float) -> Way:
+def _way_from_edges(path: DepthPath, first: float, last: float, sense: float) -> Descent:
     """The way from the nearer of two edges (rad) to where the path is deepest between them, or highest with a `sense`
     of −1; no drop over all of the arc if it goes nowhere."""
     arc = np.linspace(first, last, PATH_SAMPLES)
     away = sense * path.depth(arc)
     farthest = float(away.max())
     if farthest <= 0.0:
-        return Way(0.0, last - first)
+        return Descent(0.0, last - first)
     there = arc[away >= 0.999 * farthest]
     resolution = (last - first) / (PATH_SAMPLES - 1)
-    return Way(farthest, max(min(float(there[0]) - first, last - float(there[-1])), resolution))
+    return Descent(farthest, max(min(float(there[0]) - first, last - float(there[-1])), resolution))
 
 
-def _steepest_rough_way(spall: Spall, bearing: Bearing) -> Way:
+def _steepest_rough_way(spall: Spall, bearing: Bearing) -> Descent:
     """The way between the two neighbouring turning points whose drop over arc squared is largest."""
     samples = max(PATH_SAMPLES, SAMPLES_PER_KNOT * len(spall.roughness_values))
     arc = np.linspace(-spall.extent / 2.0, spall.extent / 2.0, samples)
@@ -108,7 +108,7 @@ def _steepest_rough_way(spall: Spall, bearing: Bearing) -> Way:
     turning = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1, [samples - 1]])
     drop, arcs = np.abs(np.diff(depth[turning])), np.diff(arc[turning])
     steepest = int(np.argmax(drop / arcs**2))
-    return Way(float(drop[steepest]), float(arcs[steepest]))
+    return Descent(float(drop[steepest]), float(arcs[steepest]))
 
 
 def peak_ball_load(scene: Scene) -> float:

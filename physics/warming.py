@@ -39,7 +39,7 @@ from physics.sensor.mode import SensorMode, mode_accelerations
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.ball_load import ball_load
-from physics.statics.load_distribution import carried
+from physics.statics.load_distribution import require_equilibrium
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
 from physics.trace import ACCELERATION_ALONE, ContactChanges, OuterMotion
@@ -59,7 +59,7 @@ def warm_up() -> None:
         with _march_compiled_beside():
             scene = _scene()
             # It shares nothing with the march, which meanwhile compiles what it has in common with the location.
-            carried(scene, np.zeros(1))
+            require_equilibrium(scene, np.zeros(1))
             compile_location()
             _use_kernels_beside_the_march(scene)
     try:
@@ -135,7 +135,7 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     contacts, flow, grid, memory, output = _before_a_march(scene)
     begin(contacts, flow, grid, memory, output)
     tables_for(flow, 1.0 / RATE)
-    carried(scene, time)
+    require_equilibrium(scene, time)
     read_at(still, time)
     read_repeated(still, 6, 1.0, 1)
     stretches_apart(still, 0, 0, 1)

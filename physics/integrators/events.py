@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from physics._jit import njit_inline, njit_inner, njit_pasted
+from physics._jit import njit_inline, njit_pasted
 from physics.arrays import Array
 from physics.contact.contact_set import contradicts
 from physics.contact.forces import ACTIVE, Contacts, compression_of, law_force, of_ball, press, set_time
-from physics.motion import MotionModel, outer_load, relative_acceleration
 
 SMALLEST_SHARE = 1e-9
 # Newton's method squares the error of a share this small away with its next correction.
@@ -34,18 +33,6 @@ class Way(NamedTuple):
     step: float
     begin: Array
     end: Array
-
-
-@njit_inner
-def relative_motion(
-    motion: MotionModel, time: float, step: float, state: Array, force: tuple[float, float], ends: Array
-) -> None:
-    """Fill `ends` (3, 2), one end of a `Way`, from the `state` (12,) and the net contact `force` (N) at `time` (s)."""
-    load = outer_load(motion, time)
-    for axis in range(2):
-        ends[0, axis] = state[axis] - state[2 + axis]
-        ends[1, axis] = step * (state[6 + axis] - state[8 + axis])
-        ends[2, axis] = step * step * relative_acceleration(motion, state, axis, load[axis], force[axis])
 
 
 @njit_inline

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from physics._jit import njit
+from physics._jit import njit, njit_inner
 from physics.arrays import Array
 from physics.contact.contact_set import reset_contact
 from physics.contact.forces import ACTIVE, Contacts, of_ball, press, set_time
-from physics.integrators.events import Way, earliest_change, relative_motion
+from physics.integrators.events import Way, earliest_change
 from physics.integrators.output import Output
 from physics.integrators.trial import Trial
-from physics.motion import MotionModel
+from physics.motion import MotionModel, outer_load, relative_acceleration
 
 
 @njit
@@ -34,6 +34,18 @@ def find_contact(contacts: Contacts, state: Array, output: Output) -> tuple[floa
     return press_state(contacts, state)
 
 
+@njit_inner
+def _relative_motion(
+    motion: MotionModel, time: float, step: float, state: Array, force: tuple[float, float], ends: Array
+) -> None:
+    """Fill `ends` (3, 2), one end of a `Way`, from the `state` (12,) and the net contact `force` (N) at `time` (s)."""
+    load = outer_load(motion, time)
+    for axis in range(2):
+        ends[0, axis] = state[axis] - state[2 + axis]
+        ends[1, axis] = step * (state[6 + axis] - state[8 + axis])
+        ends[2, axis] = step * step * relative_acceleration(motion, state, axis, load[axis], force[axis])
+
+
 @njit
 def locate(contacts: Contacts, motion: MotionModel, trial: Trial) -> tuple[float, int]:
     """Share of the step and ball of the first contact change in the `trial`; ball −1 if none.
@@ -41,8 +53,8 @@ def locate(contacts: Contacts, motion: MotionModel, trial: Trial) -> tuple[float
     `contacts` are as `press` left them at its end; leaves them somewhere inside it.
     """
     begin, end = np.empty((3, 2)), np.empty((3, 2))
-    relative_motion(motion, trial.time, trial.step, trial.now, trial.force, begin)
-    relative_motion(motion, trial.time + trial.step, trial.step, trial.then, trial.after, end)
+    _relative_motion(motion, trial.time, trial.step, trial.now, trial.force, begin)
+    _relative_motion(motion, trial.time + trial.step, trial.step, trial.then, trial.after, end)
     suspects = np.zeros((contacts.balls.shape[0], contacts.balls.shape[2]))
     share, ball, _ = earliest_change(contacts, Way(trial.time, trial.step, begin, end), trial.halfway > 0, suspects)
     return share, ball

@@ -26,7 +26,7 @@ from physics.paths.passages import passages
 from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
-from physics.statics.load_distribution import carried, instants_without_period
+from physics.statics.load_distribution import instants_without_period, require_equilibrium
 from physics.statics.stiffness import symmetric_matrices
 from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 
@@ -54,7 +54,7 @@ def _sound(scene: Scene) -> Scene:
 
 def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
     """Stiffness (2, 2) and film damping (2, 2) of the bearing without spalls, means over the record."""
-    rest = carried(_sound(scene), instants_without_period(scene.duration))
+    rest = require_equilibrium(_sound(scene), instants_without_period(scene.duration))
     return symmetric_matrices(rest.stiffness.mean(axis=0)), symmetric_matrices(rest.damping.mean(axis=0))
 
 
@@ -73,7 +73,7 @@ def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:
         longest = (arcs[-1] - arcs[0]) / speed
         crossed = passages(scene, index, -sign * arcs[0], -longest, scene.duration + longest)
         angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
-        position = carried(_sound(scene), crossed.time).displacement
+        position = require_equilibrium(_sound(scene), crossed.time).displacement
         radial = position[:, 0] * np.cos(angle) + position[:, 1] * np.sin(angle) - bearing.clearance
         before, inside = np.maximum(radial, 0.0), np.maximum(radial - path.largest_depth, 0.0)
         lost = (before * cos_alpha) ** bearing.exponent - (inside * cos_alpha) ** bearing.exponent

@@ -112,7 +112,7 @@ def _fill_loads(motion: MotionModel, time: Array, load: Array) -> None:
         load[k, 0], load[k, 1] = outer_load(motion, time[k])
 
 
-def carried(scene: Scene, time: Array) -> Equilibrium:
+def require_equilibrium(scene: Scene, time: Array) -> Equilibrium:
     """The `equilibrium` at the times (T,), s; raises SimulationFailed where no position carries the load."""
     rest = equilibrium(scene, time)
     lost = np.flatnonzero(rest.status == NO_EQUILIBRIUM)
@@ -141,9 +141,9 @@ def _solve_all(contacts: Contacts, time: Array, loads: Array, found: _Found) -> 
     dx, dy = 0.0, 0.0
     for k in range(time.size):
         set_time(contacts, time[k])
-        dx, dy, hold, found.status[k] = solve_at(contacts, loads[k, 0], loads[k, 1], dx, dy)
+        dx, dy, sums, found.status[k] = solve_at(contacts, loads[k, 0], loads[k, 1], dx, dy)
         found.displacement[k, 0], found.displacement[k, 1] = dx, dy
-        found.stiffness[k, 0], found.stiffness[k, 1], found.stiffness[k, 2] = hold.xx, hold.yy, hold.xy
+        found.stiffness[k, 0], found.stiffness[k, 1], found.stiffness[k, 2] = sums.xx, sums.yy, sums.xy
         found.damping[k, 0], found.damping[k, 1], found.damping[k, 2] = _film_damping(contacts)
         for ball in range(found.force.shape[1]):
             found.force[k, ball] = of_ball(contacts.balls, FORCE, ball)

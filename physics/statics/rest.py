@@ -45,8 +45,8 @@ SUFFICIENT_FALL, ENERGY_ROUNDING = 1e-4, 1e-14
 SHORTEST_AGAIN, LONGEST_AGAIN = 0.01, 0.9
 
 
-class Hold(NamedTuple):
-    """What the contacts do at one position of the shaft [P14 Eq. 22, 26].
+class ElasticSums(NamedTuple):
+    """What the springs of all contacts add up to at one position of the shaft [P14 Eq. 22, 26].
 
     Elastic `energy` (J), net force on the outer ring (N), `pressed`: sum of the ball loads (N), stiffness (N/m).
     """
@@ -61,7 +61,7 @@ class Hold(NamedTuple):
 
 
 @njit_inline
-def elastic(contacts: Contacts, dx: float, dy: float) -> Hold:
+def elastic(contacts: Contacts, dx: float, dy: float) -> ElasticSums:
     """What the contacts hold without damping at the displacement (dx, dy), m.
 
     `set_time` must have been called; leaves compression and elastic force of every ball in `contacts.balls`.
@@ -97,11 +97,13 @@ def elastic(contacts: Contacts, dx: float, dy: float) -> Hold:
         xx += both_along * cosine * cosine - twice + both_across * sine * sine
         yy += both_along * sine * sine + twice + both_across * cosine * cosine
         xy += (both_along - both_across) * cosine * sine + mixed * (cosine * cosine - sine * sine)
-    return Hold(energy, force_x, force_y, pressed, xx, yy, xy)
+    return ElasticSums(energy, force_x, force_y, pressed, xx, yy, xy)
 
 
 @njit_inner
-def solve_at(contacts: Contacts, load_x: float, load_y: float, dx: float, dy: float) -> tuple[float, float, Hold, int]:
+def solve_at(
+    contacts: Contacts, load_x: float, load_y: float, dx: float, dy: float
+) -> tuple[float, float, ElasticSums, int]:
     """Equilibrium position (m, m) under the load (N, N) from the guess (dx, dy), what holds there, and the status.
 
     Safeguarded Newton: a regularised step where the stiffness is singular, shortened until the energy falls.
@@ -109,55 +111,57 @@ def solve_at(contacts: Contacts, load_x: float, load_y: float, dx: float, dy: fl
     law, load = contacts.law, math.hypot(load_x, load_y)
     if load == 0.0:
         dx, dy = 0.0, 0.0
-    hold = elastic(contacts, dx, dy)
+    sums = elastic(contacts, dx, dy)
     for _ in range(MOST_ITERATIONS):
-        gx, gy = load_x - hold.force_x, load_y - hold.force_y
-        if _ends(hold, law, load, gx, gy, TOLERANCE):
+        gx, gy = load_x - sums.force_x, load_y - sums.force_y
+        if _ends(sums, law, load, gx, gy, TOLERANCE):
             break
-        step_x, step_y = _newton_step(hold, law, load, gx, gy, 0.5 * math.hypot(dx, dy))
-        x, y, hold = _descend(contacts, load_x, load_y, dx, dy, step_x, step_y, hold)
+        step_x, step_y = _newton_step(sums, law, load, gx, gy, 0.5 * math.hypot(dx, dy))
+        x, y, sums = _descend(contacts, load_x, load_y, dx, dy, step_x, step_y, sums)
         stuck = math.hypot(x - dx, y - dy) <= 1e-15 * math.hypot(x, y)
         dx, dy = x, y
         if stuck or math.hypot(dx, dy) > LARGEST_MOVE:
             break
-    status = _status(hold, law, load, load_x - hold.force_x, load_y - hold.force_y)
+    status = _status(sums, law, load, load_x - sums.force_x, load_y - sums.force_y)
     status = NO_EQUILIBRIUM if math.hypot(dx, dy) > LARGEST_MOVE else status
     if status in (NO_EQUILIBRIUM, NOT_LOADED):
         dx, dy = 0.0, 0.0
-        hold = elastic(contacts, dx, dy)
-    return dx, dy, hold, status
+        sums = elastic(contacts, dx, dy)
+    return dx, dy, sums, status
 
 
 @njit_inner
-def _ends(hold: Hold, law: Law, load: float, gx: float, gy: float, share: float) -> bool:
+def _ends(sums: ElasticSums, law: Law, load: float, gx: float, gy: float, share: float) -> bool:
     """Whether the unbalanced force (gx, gy) is a small `share` of the load, or there is no load and no ball pressed."""
     # Under preload the balls press each other harder than the load, and rounding grows with that.
-    return _is_free(hold, law, load) or math.hypot(gx, gy) <= share * (load + PRESSED_SHARE * hold.pressed)
+    return _is_free(sums, law, load) or math.hypot(gx, gy) <= share * (load + PRESSED_SHARE * sums.pressed)
 
 
 @njit_inner
-def _is_free(hold: Hold, law: Law, load: float) -> bool:
-    return load == 0.0 and hold.pressed <= law.stiffness * NEGLIGIBLE_COMPRESSION**law.exponent
+def _is_free(sums: ElasticSums, law: Law, load: float) -> bool:
+    return load == 0.0 and sums.pressed <= law.stiffness * NEGLIGIBLE_COMPRESSION**law.exponent
 
 
 @njit_inner
-def _status(hold: Hold, law: Law, load: float, gx: float, gy: float) -> int:
-    if not _ends(hold, law, load, gx, gy, ACCEPTABLE):
+def _status(sums: ElasticSums, law: Law, load: float, gx: float, gy: float) -> int:
+    if not _ends(sums, law, load, gx, gy, ACCEPTABLE):
         return NO_EQUILIBRIUM
-    if _is_free(hold, law, load):
+    if _is_free(sums, law, load):
         return NOT_LOADED
-    return NOT_UNIQUE if _singular(hold) else LOADED
+    return NOT_UNIQUE if _singular(sums) else LOADED
 
 
 @njit_inner
-def _newton_step(hold: Hold, law: Law, load: float, gx: float, gy: float, least_room: float) -> tuple[float, float]:
+def _newton_step(
+    sums: ElasticSums, law: Law, load: float, gx: float, gy: float, least_room: float
+) -> tuple[float, float]:
     """Step (m, m) against the unbalanced force; softened where the stiffness is singular, and never very long."""
-    force = max(load, hold.pressed)
+    force = max(load, sums.pressed)
     typical = (force / law.stiffness) ** (1.0 / law.exponent)
-    extra = SINGULAR * max(hold.xx + hold.yy, force / typical) if _singular(hold) else 0.0
-    xx, yy = hold.xx + extra, hold.yy + extra
-    determinant = xx * yy - hold.xy * hold.xy
-    x, y = (yy * gx - hold.xy * gy) / determinant, (xx * gy - hold.xy * gx) / determinant
+    extra = SINGULAR * max(sums.xx + sums.yy, force / typical) if _singular(sums) else 0.0
+    xx, yy = sums.xx + extra, sums.yy + extra
+    determinant = xx * yy - sums.xy * sums.xy
+    x, y = (yy * gx - sums.xy * gy) / determinant, (xx * gy - sums.xy * gx) / determinant
     share = min(1.0, (LONGEST_STEP * typical + least_room) / math.hypot(x, y))
     return share * x, share * y
 
@@ -171,28 +175,28 @@ def _descend(
     dy: float,
     step_x: float,
     step_y: float,
-    hold: Hold,
-) -> tuple[float, float, Hold]:
+    sums: ElasticSums,
+) -> tuple[float, float, ElasticSums]:
     """The position (m, m) along the step at which the energy has fallen enough, and what holds there."""
-    objective = hold.energy - load_x * dx - load_y * dy
-    descent = (load_x - hold.force_x) * step_x + (load_y - hold.force_y) * step_y
+    objective = sums.energy - load_x * dx - load_y * dy
+    descent = (load_x - sums.force_x) * step_x + (load_y - sums.force_y) * step_y
     share = 1.0
     for _ in range(MOST_SHORTENINGS):
         x, y = dx + share * step_x, dy + share * step_y
-        hold = elastic(contacts, x, y)
+        sums = elastic(contacts, x, y)
         enough = objective - SUFFICIENT_FALL * share * descent + ENERGY_ROUNDING * abs(objective)
-        if hold.energy - load_x * x - load_y * y <= enough:
+        if sums.energy - load_x * x - load_y * y <= enough:
             break
         # Past the lowest point along the step: the slope of the energy there and its stiffness say how far.
-        slope = (hold.force_x - load_x) * step_x + (hold.force_y - load_y) * step_y
-        bend = hold.xx * step_x * step_x + 2.0 * hold.xy * step_x * step_y + hold.yy * step_y * step_y
+        slope = (sums.force_x - load_x) * step_x + (sums.force_y - load_y) * step_y
+        bend = sums.xx * step_x * step_x + 2.0 * sums.xy * step_x * step_y + sums.yy * step_y * step_y
         if bend > 0.0:
             share = min(max(share - slope / bend, SHORTEST_AGAIN * share), LONGEST_AGAIN * share)
         else:
             share *= 0.5
-    return x, y, hold
+    return x, y, sums
 
 
 @njit_inner
-def _singular(hold: Hold) -> bool:
-    return hold.xx * hold.yy - hold.xy * hold.xy <= SINGULAR * (hold.xx + hold.yy) ** 2
+def _singular(sums: ElasticSums) -> bool:
+    return sums.xx * sums.yy - sums.xy * sums.xy <= SINGULAR * (sums.xx + sums.yy) ** 2

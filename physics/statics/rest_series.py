@@ -129,8 +129,8 @@ def _solve(
 
     If instants `between` may be interpolated, its mark says more than which balls are pressed.
     """
-    row[PLACE_X], row[PLACE_Y], hold, carried = rest_at(contacts, motion, time, x, y, tolerance)
-    row[XX], row[YY], row[XY] = hold.xx, hold.yy, hold.xy
+    row[PLACE_X], row[PLACE_Y], sums, carried = rest_at(contacts, motion, time, x, y, tolerance)
+    row[XX], row[YY], row[XY] = sums.xx, sums.yy, sums.xy
     row[MARK] = _mark(contacts, time) if between else mark_of(contacts.balls, FORCE)
     return carried
 

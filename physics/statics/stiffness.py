@@ -37,8 +37,8 @@ def _follow(
     lost = time.size
     for k in range(time.size):
         x, y = expected(place, k, 1)
-        place[k, 0], place[k, 1], hold, carried = rest_at(contacts, motion, time[k], x, y, tolerance)
-        stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = hold.xx, hold.yy, hold.xy
+        place[k, 0], place[k, 1], sums, carried = rest_at(contacts, motion, time[k], x, y, tolerance)
+        stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = sums.xx, sums.yy, sums.xy
         lost = lost if carried else min(lost, k)
     return lost
 
@@ -54,8 +54,8 @@ def _stiffness_at(contacts: Contacts, time: Array, displacement: Array) -> Array
     stiffness = np.zeros((time.size, 3))
     for k in range(time.size):
         set_time(contacts, time[k])
-        hold = elastic(contacts, displacement[k, 0], displacement[k, 1])
-        stiffness[k] = hold.xx, hold.yy, hold.xy
+        sums = elastic(contacts, displacement[k, 0], displacement[k, 1])
+        stiffness[k] = sums.xx, sums.yy, sums.xy
     return stiffness
 
 

@@ -6,7 +6,7 @@ from physics._jit import njit_inline, njit_lean
 from physics.arrays import Array
 from physics.contact.forces import Contacts, stand_at
 from physics.motion import MotionModel, outer_load
-from physics.statics.rest import LARGEST_MOVE, NO_EQUILIBRIUM, Hold, elastic, solve_at
+from physics.statics.rest import LARGEST_MOVE, NO_EQUILIBRIUM, ElasticSums, elastic, solve_at
 
 # A shaft that moved by less than this share of its displacement is expected to move on as far.
 NEARBY = 0.05
@@ -20,7 +20,7 @@ NEAR, REGULAR, MOST_STEPS = 1e-2, 1e-6, 4
 @njit_inline
 def rest_at(
     contacts: Contacts, motion: MotionModel, time: float, x: float, y: float, tolerance: float
-) -> tuple[float, float, Hold, bool]:
+) -> tuple[float, float, ElasticSums, bool]:
     """Where the shaft rests (m, m) at `time` (s), what the contacts hold there, and whether any position carries the
     load.
 
@@ -35,27 +35,27 @@ def rest_at(
 @njit_inline
 def _settle(
     contacts: Contacts, load_x: float, load_y: float, x: float, y: float, tolerance: float
-) -> tuple[float, float, Hold, bool]:
+) -> tuple[float, float, ElasticSums, bool]:
     """What `rest_at` gives, under the load (N, N).
 
     If (x, y) is nearly right, a few steps of Newton's method without safeguards lead to where less than `tolerance` of
     the load is unbalanced; otherwise the whole search is made from there.
     """
     load = load_x * load_x + load_y * load_y
-    hold = elastic(contacts, x, y)
+    sums = elastic(contacts, x, y)
     for _ in range(MOST_STEPS):
-        gx, gy = load_x - hold.force_x, load_y - hold.force_y
+        gx, gy = load_x - sums.force_x, load_y - sums.force_y
         missing = gx * gx + gy * gy
         if missing <= tolerance**2 * load and load > 0.0 and x * x + y * y <= LARGEST_MOVE**2:
-            return x, y, hold, True
-        determinant = hold.xx * hold.yy - hold.xy * hold.xy
-        if not (missing <= NEAR**2 * load and determinant > REGULAR * (hold.xx + hold.yy) ** 2):
+            return x, y, sums, True
+        determinant = sums.xx * sums.yy - sums.xy * sums.xy
+        if not (missing <= NEAR**2 * load and determinant > REGULAR * (sums.xx + sums.yy) ** 2):
             break
-        x += (hold.yy * gx - hold.xy * gy) / determinant
-        y += (hold.xx * gy - hold.xy * gx) / determinant
-        hold = elastic(contacts, x, y)
-    x, y, hold, status = solve_at(contacts, load_x, load_y, x, y)
-    return x, y, hold, status != NO_EQUILIBRIUM
+        x += (sums.yy * gx - sums.xy * gy) / determinant
+        y += (sums.xx * gy - sums.xy * gx) / determinant
+        sums = elastic(contacts, x, y)
+    x, y, sums, status = solve_at(contacts, load_x, load_y, x, y)
+    return x, y, sums, status != NO_EQUILIBRIUM
 
 
 @njit_lean

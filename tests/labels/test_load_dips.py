@@ -10,7 +10,7 @@ from physics.imperfections import Imperfections, Waviness
 from physics.paths.passages import passages
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.statics.load_distribution import carried
+from physics.statics.load_distribution import require_equilibrium
 
 DURATION = 0.3
 
@@ -91,7 +91,8 @@ def test_short_waves_under_a_long_spall_are_part_of_the_due_load(make_scene, mon
 def searched(scene, ball, entry, leave):
     """Time of the first fall and the last rise of the load of `ball` of row 1, of all balls' loads at 4001 instants."""
     time = np.linspace(entry, leave, 4001)
-    pressed, due = (carried(one, time).ball_load[:, 0, ball - 1] for one in (scene, replace(scene, spalls=())))
+    scenes = (scene, replace(scene, spalls=()))
+    pressed, due = (require_equilibrium(one, time).ball_load[:, 0, ball - 1] for one in scenes)
     loaded = due > 0.0
     time, enough = time[loaded], (pressed > 0.5 * due)[loaded]
     falls, rises = (time[1:][enough[:-1] & ~enough[1:]], time[1:][~enough[:-1] & enough[1:]])

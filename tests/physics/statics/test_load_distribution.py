@@ -14,7 +14,13 @@ from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed, StaticOutcome
 from physics.spall import Spall
 from physics.statics.ball_load import ball_load
-from physics.statics.load_distribution import OUTCOMES, carried, equilibrium, load_range, load_vector
+from physics.statics.load_distribution import (
+    OUTCOMES,
+    equilibrium,
+    load_range,
+    load_vector,
+    require_equilibrium,
+)
 from physics.statics.rest import NO_EQUILIBRIUM
 from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
@@ -218,7 +224,7 @@ QUASI_STATIC = {
     "trace": stiffness_trace,
     "series": lambda scene, time: stiffness_series(scene, time[1], time.size),
     "load of a ball": lambda scene, time: ball_load(scene, time, 1, np.ones(time.size, dtype=np.int64)),
-    "equilibrium": carried,
+    "equilibrium": require_equilibrium,
 }
 
 

@@ -55,8 +55,8 @@ def ball_numbers(scene: Scene) -> tuple[Index, Index]:
     size = bearing.balls * (bearing.rows if cages == 1 else 1)
     row, ball = np.full((2, cages, size + -size % WHOLE_VECTOR), -1)
     for r in range(bearing.rows):
-        cage, place = (0, r) if cages == 1 else (r, 0)
-        here = slice(place * bearing.balls, (place + 1) * bearing.balls)
+        cage, part = (0, r) if cages == 1 else (r, 0)
+        here = slice(part * bearing.balls, (part + 1) * bearing.balls)
         row[cage, here], ball[cage, here] = r, np.arange(bearing.balls)
     return row.ravel(), ball.ravel()
 
@@ -140,10 +140,10 @@ def _wave_cells(waves: tuple[Waviness, ...], balls: int) -> Array:
     value, slope, bend = np.zeros((3, 2, count + 1))
     for wave in waves:
         race = 0 if wave.race == "outer" else 1
-        turn, place = 2.0 * np.pi * wave.order / count, wave.order * nodes + wave.phase
-        value[race] += wave.amplitude * np.cos(place)
-        slope[race] -= wave.amplitude * turn * np.sin(place)
-        bend[race] -= wave.amplitude * turn**2 * np.cos(place)
+        turn, phase = 2.0 * np.pi * wave.order / count, wave.order * nodes + wave.phase
+        value[race] += wave.amplitude * np.cos(phase)
+        slope[race] -= wave.amplitude * turn * np.sin(phase)
+        bend[race] -= wave.amplitude * turn**2 * np.cos(phase)
     rise, d0, d1, s0, s1 = np.diff(value), slope[:, :-1], slope[:, 1:], bend[:, :-1], bend[:, 1:]
     cells = np.stack(
         [

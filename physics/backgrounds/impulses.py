@@ -88,8 +88,8 @@ def impulses(generator: np.random.Generator, layer: Impulses, samples: int, rate
     share = share / share.sum(axis=1, keepdims=True)
     strength = height[:, None] * np.column_stack([np.cos(direction), np.sin(direction)])
     total = np.zeros((samples, 2))
-    for place, resonance in enumerate(layer.resonances):
-        total += _ringing(resonance, instant, strength * share[:, place, None], samples, rate)
+    for number, resonance in enumerate(layer.resonances):
+        total += _ringing(resonance, instant, strength * share[:, number, None], samples, rate)
     return total
 
 

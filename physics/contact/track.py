@@ -65,10 +65,10 @@ def cage_at(track: Track, cage: int, time: float) -> tuple[float, float]:
 
 
 @njit_inline
-def waviness_at(track: Track, place: float, speed: float, time: float) -> tuple[float, float]:
-    """Depth (m) of both races' waves under a ball at the angle `place`, and its rate (m/s)."""
-    outer, outer_slope = wave_at(track, 0, place)
-    inner, inner_slope = wave_at(track, 1, place - track.shaft_speed * time)
+def waviness_at(track: Track, angle: float, speed: float, time: float) -> tuple[float, float]:
+    """Depth (m) of both races' waves under a ball at the `angle` (rad), and its rate (m/s)."""
+    outer, outer_slope = wave_at(track, 0, angle)
+    inner, inner_slope = wave_at(track, 1, angle - track.shaft_speed * time)
     return outer + inner, outer_slope * speed + inner_slope * (speed - track.shaft_speed)
 
 
@@ -96,9 +96,9 @@ def wave_cell(track: Track, angle: float) -> tuple[int, int, float]:
     cells, turns = track.waviness.shape[1], angle * TURNS_PER_RADIAN
     spacings = (turns - math.floor(turns)) * track.row_size
     spacing = min(int(spacings), track.row_size - 1)
-    place = (spacings - spacing) * cells
-    cell = min(int(place), cells - 1)
-    return cell, spacing, place - cell
+    passed = (spacings - spacing) * cells
+    cell = min(int(passed), cells - 1)
+    return cell, spacing, passed - cell
 
 
 @njit_inline

@@ -37,7 +37,7 @@ def cosine_sine(angle: float) -> tuple[float, float]:
     low = (C2 + square * C3) + fourth * (C4 + square * C5)
     high = (C6 + square * C7) + fourth * (C8 + square * C9)
     cosine = 1.0 - 0.5 * square + fourth * (low + fourth * fourth * high)
-    place = int(quarter) & 3
-    swapped = (place & 1) == 1
+    quadrant = int(quarter) & 3
+    swapped = (quadrant & 1) == 1
     c, s = (sine, cosine) if swapped else (cosine, sine)
-    return -c if place == 1 or place == 2 else c, -s if place >= 2 else s
+    return -c if quadrant == 1 or quadrant == 2 else c, -s if quadrant >= 2 else s

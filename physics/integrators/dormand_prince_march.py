@@ -158,14 +158,14 @@ def march_dormand_prince(
     _widen(work, start_state, now, fastest)
     if not record(contacts.balls, motion, now, force, 0, output):
         return NOT_FINITE
-    time, step, place, sample, tried, rejected = 0.0, FIRST_STEP_SHARE * period, 0, 1, 0, False
+    time, step, ahead, sample, tried, rejected = 0.0, FIRST_STEP_SHARE * period, 0, 1, 0, False
     steps_left = MOST_STEPS_PER_SAMPLE * grid.substeps * grid.samples + SPARE_STEPS
     while sample < grid.samples:
         steps_left -= 1
         if steps_left < 0:
             return OUT_OF_STEPS
-        place = passed_kinks(stops, place, time + smallest)
-        kink = next_kink(contacts.balls, stops, place, min(time + step, finish) + smallest)
+        ahead = passed_kinks(stops, ahead, time + smallest)
+        kink = next_kink(contacts.balls, stops, ahead, min(time + step, finish) + smallest)
         meets = kink < min(time + step, finish) + smallest
         length = kink - nudge - time if meets else min(step, finish + smallest - time)
         trial = attempt(contacts, motion, time, length, now, force, work.then, work.rates)

@@ -118,12 +118,12 @@ def _approach(
 
 @njit
 def _end_of_part(
-    balls: Array, stops: Stops, place: int, time: float, finish: float, pace: float, full_step: float
+    balls: Array, stops: Stops, ahead: int, time: float, finish: float, pace: float, full_step: float
 ) -> tuple[float, float]:
     """Where the next step ends (s): at `finish`, at the `pace` or before a kink; and where to go on (s)."""
     smallest, nudge = SMALLEST_STEP_SHARE * full_step, KINK_NUDGE_SHARE * full_step
     target, beyond = finish, finish
-    kink = next_kink(balls, stops, place, finish - smallest)
+    kink = next_kink(balls, stops, ahead, finish - smallest)
     if kink < finish - smallest:
         target, beyond = kink - nudge, kink + nudge
     if target - time > pace + smallest:
@@ -147,11 +147,11 @@ def _cross(
     `pace` (1,) is the longest step allowed (s): short after contact was made, then doubling with every step.
     """
     work, then = workspace(), np.empty(now.size)
-    time, place, tried = span.start, span.kink, 0
+    time, ahead, tried = span.start, span.kink, 0
     smallest = SMALLEST_STEP_SHARE * series.step
     while span.finish - time > smallest:
-        place = passed_kinks(stops, place, time + smallest)
-        target, beyond = _end_of_part(contacts.balls, stops, place, time, span.finish, pace[0], series.step)
+        ahead = passed_kinks(stops, ahead, time + smallest)
+        target, beyond = _end_of_part(contacts.balls, stops, ahead, time, span.finish, pace[0], series.step)
         trial = attempt(contacts, motion, series, work, time, target - time, now, force, then)
         changed = count_changes(contacts)
         settled = changed + trial.halfway == 0 and beyond == target
@@ -189,7 +189,7 @@ def _march(
     now, then, work = start_state.copy(), np.empty(start_state.size), workspace()
     set_step(series, work.weights, 1.0)
     force = find_contact(contacts, now, output)
-    place, pace = 0, np.full(1, grid.step)
+    ahead, pace = 0, np.full(1, grid.step)
     for sample in range(grid.samples):
         if not record(contacts.balls, motion, now, force, sample, output):
             return NOT_FINITE
@@ -198,15 +198,15 @@ def _march(
         for substep in range(grid.substeps):
             start = (sample * grid.substeps + substep) * grid.step
             finish = (sample * grid.substeps + substep + 1) * grid.step
-            place = passed_kinks(stops, place, start)
-            if pace[0] >= grid.step and next_kink(contacts.balls, stops, place, finish) >= finish:
+            ahead = passed_kinks(stops, ahead, start)
+            if pace[0] >= grid.step and next_kink(contacts.balls, stops, ahead, finish) >= finish:
                 contradicted = step_pasted(contacts, motion, work, start, grid.step, now, force, then)
                 after = press_state(contacts, then)
                 if contradicted + count_changes(contacts) == 0:
                     now, then = then, now
                     force = after
                     continue
-            force = cross(contacts, motion, series, stops, Span(start, finish, place), now, force, pace, output)
+            force = cross(contacts, motion, series, stops, Span(start, finish, ahead), now, force, pace, output)
             if output.tally[LOGGED] >= output.change_time.size:
                 return LOG_FULL
     return DONE

@@ -54,11 +54,11 @@ def toggle(balls: Array, ball: int, time: float, output: Output) -> None:
     """Move `ball` to the other side of the contact set and log it."""
     made = of_ball(balls, ACTIVE, ball) < 0.5
     balls[ball // balls.shape[2], ACTIVE, ball % balls.shape[2]] = 1.0 if made else 0.0
-    place = output.tally[LOGGED]
-    if place < output.change_time.size:
-        output.change_time[place] = time
-        output.change_ball[place] = ball
-        output.change_made[place] = made
+    entry = output.tally[LOGGED]
+    if entry < output.change_time.size:
+        output.change_time[entry] = time
+        output.change_ball[entry] = ball
+        output.change_made[entry] = made
         output.tally[LOGGED] += 1
 
 

@@ -32,24 +32,24 @@ def has_ridges(stops: Stops) -> bool:
 
 
 @njit_lean
-def passed_kinks(stops: Stops, place: int, time: float) -> int:
-    """Index of the first kink after `time`, counting on from `place`."""
-    while place < stops.time.size and stops.time[place] <= time:
-        place += 1
-    return place
+def passed_kinks(stops: Stops, ahead: int, time: float) -> int:
+    """Index of the first kink after `time`, counting on from the one that was `ahead`."""
+    while ahead < stops.time.size and stops.time[ahead] <= time:
+        ahead += 1
+    return ahead
 
 
 @njit_lean
-def next_kink(balls: Array, stops: Stops, place: int, finish: float) -> float:
-    """Time (s) of the first kink from `place` on that a ball in contact, or ANY_BALL, crosses before `finish`, or
-    `finish`.
+def next_kink(balls: Array, stops: Stops, ahead: int, finish: float) -> float:
+    """Time (s) of the first kink, from the one `ahead` on, that a ball in contact, or ANY_BALL, crosses before
+    `finish`, or `finish`.
 
     A ball out of contact feels a kink only where it makes contact there, which is located like any other change; as it
     may make contact before a later one, none is dropped here.
     """
-    while place < stops.time.size and stops.time[place] < finish:
-        ball = stops.ball[place]
+    while ahead < stops.time.size and stops.time[ahead] < finish:
+        ball = stops.ball[ahead]
         if ball == ANY_BALL or of_ball(balls, ACTIVE, ball) > 0.5:
-            return stops.time[place]
-        place += 1
+            return stops.time[ahead]
+        ahead += 1
     return finish

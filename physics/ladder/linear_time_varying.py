@@ -49,7 +49,7 @@ COLUMNS = 9
 FORCE_X, FORCE_Y, K_XX, K_XY, K_YX, K_YY, C_XX, C_XY, C_YY = range(COLUMNS)
 
 
-class Place(NamedTuple):
+class TableAxis(NamedTuple):
     """Where in the table a time lies: cage angle over `period` (rad) if that is above zero, else time, per `width`."""
 
     track: Track
@@ -92,19 +92,19 @@ class LinearContacts(NamedTuple):
     """What takes the place of the nonlinear model's contacts: the `table` (N, 9) and its `row` (9,) at some time."""
 
     table: Array
-    place: Place
+    axis: TableAxis
     row: Array
 
 
 @njit_inline
 def _look_up(contacts: LinearContacts, time: float) -> None:
     """Bring the row to `time` (s), on straight lines between the nodes of the table."""
-    table, place, row = contacts.table, contacts.place, contacts.row
+    table, axis, row = contacts.table, contacts.axis, contacts.row
     where = time
-    if place.period > 0.0:
-        angle = cage_at(place.track, 0, time)[0]
-        where = angle - place.period * math.floor(angle / place.period)
-    position = where / place.width
+    if axis.period > 0.0:
+        angle = cage_at(axis.track, 0, time)[0]
+        where = angle - axis.period * math.floor(angle / axis.period)
+    position = where / axis.width
     node = min(max(int(position), 0), table.shape[0] - 2)
     share = position - node
     for column in range(row.size):
@@ -138,7 +138,7 @@ _step = specialise(
 @njit
 def _march(
     table: Array,
-    place: Place,
+    axis: TableAxis,
     motion: MotionModel,
     series: PowerSeries,
     substeps: int,
@@ -148,7 +148,7 @@ def _march(
 ) -> None:
     """Fill the `acceleration` (T, 2), and the `state` (T or 0, 12), from the state `start`."""
     now, then, work = start.copy(), np.empty(12), workspace()
-    contacts = LinearContacts(table, place, np.empty(COLUMNS))
+    contacts = LinearContacts(table, axis, np.empty(COLUMNS))
     set_step(series, work.weights, 1.0)
     _look_up(contacts, 0.0)
     for sample in range(acceleration.shape[0]):
@@ -196,8 +196,8 @@ def _changes(scene: Scene, touching: Flags, samples: int, rate: float) -> Contac
     moved = (np.diff(number[node]) != 0) | (np.diff(passed) != 0)
     sample = np.concatenate([[0], 1 + np.flatnonzero(moved)])
     # After `passed` spacings a ball stands where, in the table, the one that many places further on does.
-    place = (np.arange(bearing.balls) + passed[sample, None]) % bearing.balls
-    seen = np.stack([real[node[sample, None], row, place] for row in range(bearing.rows)], axis=1)
+    stands_as = (np.arange(bearing.balls) + passed[sample, None]) % bearing.balls
+    seen = np.stack([real[node[sample, None], row, stands_as] for row in range(bearing.rows)], axis=1)
     return changes_between_samples(seen, sample, rate)
 
 
@@ -215,11 +215,11 @@ def linear_response(scene: Scene, rate: float, keep: Kept) -> Trace:
     time, table, touching = _table(scene, samples, rate)
     repeats = repeats_with_the_balls(scene)
     width = scene.rig.bearing.spacing / NODES_PER_SPACING if repeats else float(time[1])
-    place = Place(contacts.track, scene.rig.bearing.spacing if repeats else 0.0, width)
+    axis = TableAxis(contacts.track, scene.rig.bearing.spacing if repeats else 0.0, width)
     acceleration, state = np.zeros((samples, 2)), np.zeros((samples if keep.state else 0, 12))
     series = power_series(motion, 1.0 / (rate * substeps))
     start = starting_state(motion, rest.displacement[0])
-    _march(table, place, motion, series, substeps, start, acceleration, state)
+    _march(table, axis, motion, series, substeps, start, acceleration, state)
     if not np.isfinite(acceleration).all():
         raise SimulationFailed(
             Outcome.NOT_FINITE, f"the response stopped being finite with steps of {series.step:.3g} s"

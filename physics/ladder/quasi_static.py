@@ -57,28 +57,29 @@ def quasi_static_response(scene: Scene, rate: float, keep: Kept) -> Trace:
     )
 
 
-def _ball_loads(scene: Scene, time: Array, place: Array) -> Array:
-    """Normal load (T, rows, balls), N, of every ball at the times (T,), s, with the shaft at each `place` (T, 2), m."""
+def _ball_loads(scene: Scene, time: Array, position: Array) -> Array:
+    """Normal load (T, rows, balls), N, of every ball at the times (T,), s, the shaft being at each `position`
+    (T, 2), m."""
     bearing, (_, ball) = scene.rig.bearing, ball_numbers(scene)
     radial = np.zeros((time.size, ball.size))
-    _read_loads(assemble(scene), time, place, radial)
+    _read_loads(assemble(scene), time, position, radial)
     return radial[:, ball >= 0].reshape(time.size, bearing.rows, bearing.balls) / math.cos(bearing.contact_angle)
 
 
 @njit_lean
-def _read_loads(contacts: Contacts, time: Array, place: Array, load: Array) -> None:
+def _read_loads(contacts: Contacts, time: Array, position: Array, load: Array) -> None:
     """Fill the radial `load` (T, M), N, of M balls."""
     for k in range(time.size):
         set_time(contacts, time[k])
-        elastic(contacts, place[k, 0], place[k, 1])
+        elastic(contacts, position[k, 0], position[k, 1])
         for ball in range(load.shape[1]):
             load[k, ball] = of_ball(contacts.balls, FORCE, ball)
 
 
-def _state(outer: Array, place: Array, rate: float) -> Array:
-    """State (T, 12) of an `outer` ring (T, 2), m, which carries the resonator along, and the shaft at its `place` from
-    there (T, 2), m."""
-    position = np.hstack([outer + place, outer, outer])
+def _state(outer: Array, shaft: Array, rate: float) -> Array:
+    """State (T, 12) of an `outer` ring (T, 2), m, which carries the resonator along, and the `shaft` as far from there
+    (T, 2), m."""
+    position = np.hstack([outer + shaft, outer, outer])
     velocity = np.gradient(position, 1.0 / rate, axis=0) if position.shape[0] > 1 else np.zeros_like(position)
     return np.hstack([position, velocity])
 

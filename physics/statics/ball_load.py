@@ -29,21 +29,21 @@ def ball_load(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) ->
     column = np.zeros((bearing.rows, bearing.balls), dtype=np.int64)
     real = np.flatnonzero(balls >= 0)
     column[rows[real], balls[real]] = real
-    load, place = np.zeros(time.size), np.zeros((time.size, 2))
+    load, position = np.zeros(time.size), np.zeros((time.size, 2))
     columns = column[row - 1, ball - 1]
-    lost = _follow(assemble(scene), motion_model(scene), np.ascontiguousarray(time), columns, place, load)
+    lost = _follow(assemble(scene), motion_model(scene), np.ascontiguousarray(time), columns, position, load)
     require_carried(scene, time, lost)
     return load / math.cos(bearing.contact_angle)
 
 
 @njit_lean
-def _follow(contacts: Contacts, motion: MotionModel, time: Array, ball: Index, place: Array, load: Array) -> int:
-    """Fill `load` (K,), N in radial direction, along the way of the shaft, `place` (K, 2), m; the first instant at
+def _follow(contacts: Contacts, motion: MotionModel, time: Array, ball: Index, position: Array, load: Array) -> int:
+    """Fill `load` (K,), N in radial direction, along the way of the shaft, `position` (K, 2), m; the first instant at
     which no position carries the load, or K."""
     lost = time.size
     for k in range(time.size):
-        x, y = expected(place, k, 1)
-        place[k, 0], place[k, 1], _, carried = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
+        x, y = expected(position, k, 1)
+        position[k, 0], position[k, 1], _, carried = rest_at(contacts, motion, time[k], x, y, TOLERANCE)
         load[k] = of_ball(contacts.balls, FORCE, ball[k])
         lost = lost if carried else min(lost, k)
     return lost

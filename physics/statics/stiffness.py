@@ -23,21 +23,21 @@ def stiffness_trace(scene: Scene, time: Array, tolerance: float = EXACT) -> Arra
     where no position carries the load.
     """
     time = np.ascontiguousarray(time, dtype=np.float64)
-    stiffness, place = np.zeros((time.size, 3)), np.zeros((time.size, 2))
-    require_carried(scene, time, _follow(assemble(scene), motion_model(scene), time, tolerance, place, stiffness))
+    stiffness, position = np.zeros((time.size, 3)), np.zeros((time.size, 2))
+    require_carried(scene, time, _follow(assemble(scene), motion_model(scene), time, tolerance, position, stiffness))
     return stiffness
 
 
 @njit_lean
 def _follow(
-    contacts: Contacts, motion: MotionModel, time: Array, tolerance: float, place: Array, stiffness: Array
+    contacts: Contacts, motion: MotionModel, time: Array, tolerance: float, position: Array, stiffness: Array
 ) -> int:
-    """Fill `stiffness` (T, 3), N/m, along the way of the shaft, `place` (T, 2), m; the first instant at which no
+    """Fill `stiffness` (T, 3), N/m, along the way of the shaft, `position` (T, 2), m; the first instant at which no
     position carries the load, or T."""
     lost = time.size
     for k in range(time.size):
-        x, y = expected(place, k, 1)
-        place[k, 0], place[k, 1], sums, carried = rest_at(contacts, motion, time[k], x, y, tolerance)
+        x, y = expected(position, k, 1)
+        position[k, 0], position[k, 1], sums, carried = rest_at(contacts, motion, time[k], x, y, tolerance)
         stiffness[k, 0], stiffness[k, 1], stiffness[k, 2] = sums.xx, sums.yy, sums.xy
         lost = lost if carried else min(lost, k)
     return lost

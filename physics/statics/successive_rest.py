@@ -59,17 +59,17 @@ def _settle(
 
 
 @njit_lean
-def expected(place: Array, k: int, stride: int) -> tuple[float, float]:
-    """Where the shaft may be expected (m, m) at instant `k`: on the parabola through the last three of `place` (T, 2 or
-    more), m, a `stride` apart, or where it was last if it moved far since the one before."""
+def expected(position: Array, k: int, stride: int) -> tuple[float, float]:
+    """Where the shaft may be expected (m, m) at instant `k`: on the parabola through the last three of `position` (T, 2
+    or more), m, a `stride` apart, or where it was last if it moved far since the one before."""
     if k < stride:
         return 0.0, 0.0
-    x, y = place[k - stride, 0], place[k - stride, 1]
+    x, y = position[k - stride, 0], position[k - stride, 1]
     if k < 2 * stride:
         return x, y
-    before_x, before_y = place[k - 2 * stride, 0], place[k - 2 * stride, 1]
+    before_x, before_y = position[k - 2 * stride, 0], position[k - 2 * stride, 1]
     if (x - before_x) ** 2 + (y - before_y) ** 2 >= NEARBY**2 * (x * x + y * y):
         return x, y
     if k < 3 * stride:
         return 2.0 * x - before_x, 2.0 * y - before_y
-    return 3.0 * (x - before_x) + place[k - 3 * stride, 0], 3.0 * (y - before_y) + place[k - 3 * stride, 1]
+    return 3.0 * (x - before_x) + position[k - 3 * stride, 0], 3.0 * (y - before_y) + position[k - 3 * stride, 1]

@@ -14,6 +14,7 @@ from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import SMALLEST_ACCURACY, Accurate, FixedSteps, HalvedSteps, LeadIn, Reference, Simpler, Solution
 from physics.response.adaptive import respond_accurately
+from physics.response.asked import Asked
 from physics.response.fixed_steps import respond_by_fixed_steps
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.lowered import respond_lowered
@@ -127,14 +128,13 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
     alone = keep == ACCELERATION_ALONE
     repeated = solution.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
 
-    def respond(asked: float) -> tuple[Trace, float]:
-        least = solution.least_error
-        case = (longer, rest, rate * factor, marched, max(asked, SMALLEST_ACCURACY), least)
-        trace = respond_until_repeated(*case) if repeated else respond_accurately(*case, keep)
+    def respond(sought: float) -> tuple[Trace, float]:
+        asked = Asked(longer, rest, rate * factor, marched, max(sought, SMALLEST_ACCURACY), solution.least_error)
+        trace = respond_until_repeated(asked) if repeated else respond_accurately(asked, keep)
         lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
         if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * size:
             # What repeating leaves out lies at low frequencies, where hardly anything of the signal is.
-            trace = respond_accurately(*case, keep)
+            trace = respond_accurately(asked, keep)
             lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
         return lowered, size
 

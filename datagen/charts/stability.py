@@ -19,13 +19,13 @@ from physics.integrators.output import Grid
 from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.response.adaptive import respond_accurately
+from physics.response.asked import Asked
 from physics.response.modal_case import resting
 from physics.response.single_march import respond
 from physics.response.stability import longest_stable_step, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene
 from physics.statics.load_distribution import equilibrium
-from physics.trace import Kept
 
 RATE, DURATION = 65536.0, 0.04
 # Steps of 8 samples to 1/16 of one: samples a step above one, steps a sample below.
@@ -193,16 +193,7 @@ def _cell(scene: Scene, method: str, row: float, exact: Array | None) -> tuple[f
         return math.nan, NOT_CONVERGED
     try:
         if method == MODAL:
-            samples = round(scene.duration * RATE)
-            trace = respond_accurately(
-                scene=scene,
-                rest=resting(scene),
-                rate=RATE,
-                samples=samples,
-                accuracy=row,
-                least=0.0,
-                kept=Kept(),
-            )
+            trace = respond_accurately(Asked(scene, resting(scene), RATE, round(scene.duration * RATE), row))
             return relative_error(trace.acceleration, exact), VALUE
         found = _response(scene, method, row)
     except SimulationFailed as failure:

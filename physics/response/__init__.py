@@ -1,8 +1,8 @@
 """The response of a scene, by way of one or several marches.
 
 - by a method of fixed steps: `single_march` (once), `fixed_steps` (how many a sample), `stability` (how long they are)
-- by the default method: `modal_case` (a march that can be gone on with), `adaptive` (to a stated accuracy), with `goal`
-  (tolerance and error) and `attempts` (made again, or confirmed by a finer one)
+- by the default method: `modal_case` (a march that can be gone on with), `adaptive` (to the accuracy that is `asked`
+  for), with `goal` (tolerance and error) and `attempts` (made again, or confirmed by a finer one)
 - `periodic`: only until the response repeats itself; `lead_in`: begun before the record
 - `silence`: what is too small to be more than rounding
 - `kinks`: known instants at which steps have to end; `change_log`: room for changes of contact; `march_output`: what

@@ -10,6 +10,7 @@ import numpy as np
 
 from physics.integrators.method_table import MODAL
 from physics.integrators.output import STEPS, Grid, Output
+from physics.response.asked import Asked
 from physics.response.attempts import confirm_doubtful, to_accuracy
 from physics.response.goal import (
     AIM,
@@ -25,8 +26,6 @@ from physics.response.goal import (
 from physics.response.march_output import trace_of
 from physics.response.modal_case import March, case_of
 from physics.rms import rms
-from physics.scene import Scene
-from physics.statics.load_distribution import Equilibrium
 from physics.trace import ACCELERATION_ALONE, Kept, Trace
 
 PILOT_SAMPLES = 2048
@@ -44,30 +43,21 @@ LOUDER = 30.0
 
 
 def respond_accurately(
-    scene: Scene,
-    rest: Equilibrium,
-    rate: float,
-    samples: int,
-    accuracy: float,
-    least: float,
-    kept: Kept = ACCELERATION_ALONE,
-    go_on: GoOn = March.go_on,
-    pilot: int = PILOT_SAMPLES,
+    asked: Asked, keep: Kept = ACCELERATION_ALONE, *, go_on: GoOn = March.go_on, pilot: int = PILOT_SAMPLES
 ) -> Trace:
-    """Trace of `scene` at k / rate from the first of its positions at `rest` (modal_case.resting), to the relative RMS
-    `accuracy` with its estimate.
+    """Trace of the response that is `asked` for, with the estimate of its error and with what it is to `keep`.
 
-    `least` (m/s², RMS) is an error that is always allowed. `go_on` may end a march before all samples. A coarse
-    `pilot` of some samples and the beginning of the response say how large the signal is and how much this scene makes
-    of the errors of its steps; where that is much, a finer response says it again. A response that no finer one
-    confirms is chaotic: two are as far apart as two records of the same machine, and the estimate is 1. Raises
-    SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps become
-    too many.
+    `go_on` may end a march before all samples. A coarse `pilot` of some samples and the beginning of the response say
+    how large the signal is and how much this scene makes of the errors of its steps; where that is much, a finer
+    response says it again. A response that no finer one confirms is chaotic: two are as far apart as two records of the
+    same machine, and the estimate is 1. Raises SimulationFailed if the response stops being finite, contact changes
+    more often than can be logged, or steps become too many.
     """
-    goal = Goal(case_of(scene, rest, rate), samples, accuracy, least, kept, go_on)
+    case = case_of(asked.scene, asked.rest, asked.rate)
+    goal = Goal(case, asked.samples, asked.accuracy, asked.least_error, keep, go_on)
     output, error, sensitivity = _response(goal, pilot)
-    size, marched, interval = rms(output.acceleration), output.acceleration.shape[0], 1.0 / rate
-    trace = trace_of(scene, Grid(marched, 1, interval), output, MODAL)
+    size, marched, interval = rms(output.acceleration), output.acceleration.shape[0], 1.0 / asked.rate
+    trace = trace_of(asked.scene, Grid(marched, 1, interval), output, MODAL)
     step = (marched - 1) * interval / max(1, int(output.tally[STEPS]))
     chaotic = math.isinf(error)
     estimate = 1.0 if chaotic else error / size if size > 0.0 else 0.0
@@ -138,7 +128,7 @@ def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
     if case.memory > 0.0:
         # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
         coarse = perturbed_response(case, steady(case, length, COARSE, size))
-    wanted = AIM * min(max(goal.accuracy, goal.least / size), COARSE)
+    wanted = AIM * min(max(goal.accuracy, goal.least_error / size), COARSE)
     fine = march.go_on(steady(case, length, wanted, size, spending=1.0))
     pushed = case.pushed(coarse)
     distance = rms(coarse.acceleration - fine.acceleration[:length])

@@ -31,7 +31,7 @@ def respond_by_fixed_steps(
     method: str,
     substeps: int | None,
     accuracy: float | None,
-    kept: Kept,
+    keep: Kept,
 ) -> Trace:
     """Trace of `scene` at k / rate from its `rest` at t = 0 by `substeps` steps a sample of `method`.
 
@@ -46,7 +46,7 @@ def respond_by_fixed_steps(
     require_stable(METHODS[method], rate, steps, least)
 
     def response(steps: int) -> Trace:
-        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method, kept)
+        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method, keep)
 
     if accuracy is None:
         return response(steps)

@@ -42,19 +42,19 @@ UNLIMITED = 1e9
 
 @dataclass(frozen=True)
 class Goal:
-    """Responses of a `case` over `samples`, wanted to the relative RMS `accuracy`, or to `least` (m/s², RMS) if that is
-    more; `kept` of them is what March keeps, and `go_on` may end them before all samples."""
+    """Responses of a `case` over `samples`, wanted to the relative RMS `accuracy`, or to `least_error` (m/s², RMS) if
+    that is more; `keep` is what a March is to keep of them, and `go_on` may end them before all samples."""
 
     case: Case
     samples: int
     accuracy: float
-    least: float
-    kept: Kept
+    least_error: float
+    keep: Kept
     go_on: GoOn
 
     def begin(self) -> March:
         """A march that has not set out."""
-        return March(self.case, self.samples, self.kept)
+        return March(self.case, self.samples, self.keep)
 
     def anew(self, grid: Stride) -> Output:
         """A response from the start, on `grid`."""
@@ -68,7 +68,7 @@ class Goal:
 
     def allowed(self, size: float) -> float:
         """The error (m/s², RMS) that is allowed of a signal of this `size` (m/s², RMS)."""
-        return max(self.accuracy * size, self.least)
+        return max(self.accuracy * size, self.least_error)
 
     def error(self, output: Output, sensitivity: float) -> float:
         """Estimated error (m/s², RMS) of the `output` of a scene of this sensitivity."""
@@ -78,7 +78,7 @@ class Goal:
         """A grid whose tolerance is this `aim` of the accuracy at first, of a signal whose mean square may be `seen`
         (m²/s⁴), and then what leaves the estimated error within it."""
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * safety_factor(sensitivity) * aim)) ** 2
-        return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least, seen, GUESSED, spending)
+        return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least_error, seen, GUESSED, spending)
 
 
 def steady(case: Case, samples: int, share: float, size: float, spending: float = UNLIMITED) -> Stride:

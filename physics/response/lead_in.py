@@ -17,17 +17,18 @@ from physics.trace import ContactChanges, Trace
 NEXT_SHARE, MOST_ATTEMPTS = 0.9, 3
 
 
-def respond_behind(respond: Callable[[float], Trace], before: int, accuracy: float, least: float) -> Trace:
+def respond_behind(respond: Callable[[float], Trace], before: int, accuracy: float, least_error: float) -> Trace:
     """The trace that `respond` gives, to a relative RMS `accuracy` of the part behind its first `before` samples.
 
     That part may be far quieter than the start: `respond` is called with smaller and smaller accuracies until the error
-    is within the `accuracy` of that part, or within `least` (m/s², RMS). The error estimate is relative to that part.
+    is within the `accuracy` of that part, or within `least_error` (m/s², RMS). The error estimate is relative to that
+    part.
     """
     asked = accuracy
     for _ in range(MOST_ATTEMPTS):
         trace = respond(asked)
         error, size = trace.error_estimate * rms(trace.acceleration), rms(trace.acceleration[before:])
-        allowed = max(accuracy * size, least)
+        allowed = max(accuracy * size, least_error)
         if trace.chaotic or error <= allowed:
             break
         asked *= NEXT_SHARE * allowed / error

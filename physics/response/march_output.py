@@ -34,14 +34,14 @@ def require_done(status: int, steps: str, out_of_steps: str) -> None:
         raise SimulationFailed(Outcome.TOO_MANY_STEPS, out_of_steps)
 
 
-def empty_output(contacts: Contacts, samples: int, capacity: int, kept: Kept) -> Output:
-    """Arrays for a march of `samples` instants with what is `kept`, and room for `capacity` changes of contact."""
+def empty_output(contacts: Contacts, samples: int, capacity: int, keep: Kept) -> Output:
+    """Arrays for a march of `samples` instants, what it is to `keep`, and room for `capacity` changes of contact."""
     balls = contacts.balls.shape[0] * contacts.balls.shape[2]
     return Output(
         acceleration=np.zeros((samples, 2)),
-        state=np.zeros((samples if kept.state else 0, 12)),
-        force=np.zeros((samples if kept.force else 0, balls)),
-        outer=np.zeros((3 if kept.outer else 0, samples, 2)),
+        state=np.zeros((samples if keep.state else 0, 12)),
+        force=np.zeros((samples if keep.force else 0, balls)),
+        outer=np.zeros((3 if keep.outer else 0, samples, 2)),
         change_time=np.zeros(capacity),
         change_ball=np.zeros(capacity, dtype=np.int64),
         change_made=np.zeros(capacity, dtype=np.bool_),

@@ -107,7 +107,7 @@ class March:
 
     case: Case
     samples: int
-    kept: Kept = ACCELERATION_ALONE
+    keep: Kept = ACCELERATION_ALONE
     push: float = 0.0
     output: Output = field(init=False)
     _contacts: Contacts = field(init=False)
@@ -117,7 +117,7 @@ class March:
         shared = self.case.contacts
         self._contacts = shared._replace(balls=shared.balls.copy(), frames=shared.frames.copy())
         capacity = room_for_changes(0, self.case.scene.duration)
-        self.output = empty_output(shared, self.samples, capacity, self.kept)
+        self.output = empty_output(shared, self.samples, capacity, self.keep)
 
     def go_on(self, grid: Stride) -> Output:
         """The output, filled up to the samples of `grid`.

@@ -19,11 +19,11 @@ from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model
 from physics.paths.profile import is_rough
 from physics.response.adaptive import PILOT_SAMPLES, respond_accurately
+from physics.response.asked import Asked
 from physics.response.modal_case import March
 from physics.response.resampling import read_at, read_repeated
 from physics.rms import rms, stretches_apart
 from physics.scene import Scene
-from physics.statics.load_distribution import Equilibrium
 from physics.trace import ContactChanges, Trace
 
 METHOD = "modal, repeated"
@@ -63,32 +63,29 @@ def worth_repeating(scene: Scene, duration: float, accuracy: float) -> bool:
     return fewest * period_of(scene) <= duration and accuracy >= FINEST_ACCURACY
 
 
-def respond_until_repeated(
-    scene: Scene, rest: Equilibrium, rate: float, samples: int, accuracy: float, least: float
-) -> Trace:
-    """As `respond_accurately`, of a `scene` that has a period; what comes after the march repeats its last period.
+def respond_until_repeated(asked: Asked) -> Trace:
+    """As `respond_accurately`, of a scene that has a period; what comes after the march repeats its last period.
 
     Step and share of tension are those of the march. Where repeating would not keep the accuracy, it is marched to the
     end.
     """
+    scene, rate, samples = asked.scene, asked.rate, asked.samples
     if any(spall.extent * rate < FEWEST_SAMPLES_A_PASS * scene.cage.mean_speed for spall in scene.spalls):
-        return respond_accurately(scene, rest, rate, samples, accuracy, least)
+        return respond_accurately(asked)
     period, fineness, duration = period_of(scene), _fineness(scene, rate), samples / rate
     cells = math.ceil(fineness * rate * period)
-    marching = _Repeating(cells, REPEATED * accuracy, REPEATED * least)
-    marched = respond_accurately(
-        scene,
-        rest,
-        cells / period,
-        cells * math.ceil(duration / period),
-        MARCHED * accuracy,
-        MARCHED * least,
-        go_on=marching.go_on,
-        pilot=fineness * PILOT_SAMPLES,
+    marching = _Repeating(cells, REPEATED * asked.accuracy, REPEATED * asked.least_error)
+    finer = replace(
+        asked,
+        rate=cells / period,
+        samples=cells * math.ceil(duration / period),
+        accuracy=MARCHED * asked.accuracy,
+        least_error=MARCHED * asked.least_error,
     )
+    marched = respond_accurately(finer, go_on=marching.go_on, pilot=fineness * PILOT_SAMPLES)
     trace = _read_again(scene, marched, marching, rate, samples)
-    if trace.error_estimate > accuracy and trace.error_estimate * rms(trace.acceleration) > least:
-        return respond_accurately(scene, rest, rate, samples, accuracy, least)
+    if trace.error_estimate > asked.accuracy and trace.error_estimate * rms(trace.acceleration) > asked.least_error:
+        return respond_accurately(asked)
     return trace
 
 
@@ -127,10 +124,10 @@ def _reading_error(signal: Array) -> float:
 
 class _Repeating:
     """Goes on with a march of `cells` samples a period until its periods are alike: to the `share` of their RMS, or to
-    `least` (m/s², RMS)."""
+    `least_error` (m/s², RMS)."""
 
-    def __init__(self, cells: int, share: float, least: float) -> None:
-        self.cells, self.share, self.least, self._decay = cells, share, least, 0.0
+    def __init__(self, cells: int, share: float, least_error: float) -> None:
+        self.cells, self.share, self.least_error, self._decay = cells, share, least_error, 0.0
 
     def go_on(self, march: March, grid: Stride) -> Output:
         """The output, up to the last period that was needed."""
@@ -140,7 +137,7 @@ class _Repeating:
             output = march.go_on(grid._replace(samples=marched))
             output = output._replace(acceleration=output.acceleration[:marched])
             size = rms(output.acceleration[-self.cells :])
-            if self.away(output.acceleration) <= max(self.share * size, self.least):
+            if self.away(output.acceleration) <= max(self.share * size, self.least_error):
                 break
         return output
 

@@ -22,8 +22,9 @@ from physics.trace import ACCELERATION_ALONE, ContactChanges, Kept, Trace
 LOGGED_CHANGES_PER_STEP = 4
 
 
-def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = ACCELERATION_ALONE) -> Trace:
-    """Trace of `scene` on `grid` from the state `start` (12,) at t = 0 with what is `kept`, without an error estimate.
+def respond(scene: Scene, start: Array, grid: Grid, method: str, keep: Kept = ACCELERATION_ALONE) -> Trace:
+    """Trace of `scene` on `grid` from the state `start` (12,) at t = 0, with what it is to `keep`, and no error
+    estimate.
 
     Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or steps
     become too many.
@@ -34,7 +35,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, kept: Kept = AC
     status = LOG_FULL
     while status == LOG_FULL:
         capacity = room_for_changes(capacity, scene.duration, most)
-        output = empty_output(contacts, grid.samples, capacity, kept)
+        output = empty_output(contacts, grid.samples, capacity, keep)
         status = MARCHES[method](contacts, motion, series, grid, stops, start, output)
     require_done(status, f"of {grid.step:.3g} s", f"the method {method} used up its steps within {scene.duration:g} s")
     return trace_of(scene, grid, output, method)

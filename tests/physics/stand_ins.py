@@ -54,8 +54,8 @@ def an_output(acceleration, pushed=0.0, steps=100, initial=(1.0, 1.0, 0.0), made
     )
 
 
-def a_goal(go_on=None, accuracy=1e-3, least=0.0):
-    return Goal(a_case(), SAMPLES, accuracy, least, ACCELERATION_ALONE, go_on)
+def a_goal(go_on=None, accuracy=1e-3, least_error=0.0):
+    return Goal(a_case(), SAMPLES, accuracy, least_error, ACCELERATION_ALONE, go_on)
 
 
 def tolerance(grid):

@@ -10,6 +10,7 @@ from datagen.scenarios.sampling import draw_scenario
 from labels.description import label_values
 from physics.request import FixedSteps
 from physics.response.adaptive import respond_accurately
+from physics.response.asked import Asked
 from physics.response.modal_case import resting
 from physics.response.oversampling import oversampling
 from physics.rms import rms
@@ -56,7 +57,7 @@ def respond(record):
 
     scene, factor = drawn.scene, oversampling(drawn.scene, drawn.rate)
     rate, samples = drawn.rate * factor, drawn.samples * factor
-    return respond_accurately(scene, resting(scene), rate, samples, 1e-3, 0.0, go_on=counted), len(made)
+    return respond_accurately(Asked(scene, resting(scene), rate, samples, 1e-3), go_on=counted), len(made)
 
 
 @pytest.mark.parametrize(

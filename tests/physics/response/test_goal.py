@@ -12,8 +12,8 @@ ONES = np.ones((SAMPLES, 2))
 
 
 def test_the_error_allowed_is_a_share_of_the_signal_or_the_least_error():
-    assert a_goal(accuracy=0.01, least=0.05).allowed(2.0) == 0.05
-    assert a_goal(accuracy=0.01, least=0.05).allowed(20.0) == pytest.approx(0.2, rel=1e-12)
+    assert a_goal(accuracy=0.01, least_error=0.05).allowed(2.0) == 0.05
+    assert a_goal(accuracy=0.01, least_error=0.05).allowed(20.0) == pytest.approx(0.2, rel=1e-12)
 
 
 def test_a_scene_counts_as_tame_until_six_times_its_sensitivity_exceeds_the_usual_factor():
@@ -40,7 +40,7 @@ def test_steps_that_spend_what_the_grid_grants_leave_three_quarters_of_the_error
 def test_no_tolerance_is_below_the_least_error_nor_below_what_forces_are_known_to():
     floor = 0.1 * 0.01 * 1e-8 * LOAD / MASS  # of the acceleration of the load
     assert a_goal(accuracy=0.01).aimed(1.0, 0.1, 0.0).least == pytest.approx(PUSH * floor, rel=1e-12)
-    assert a_goal(accuracy=0.01, least=0.5).aimed(1.0, 0.1, 0.0).least == pytest.approx(PUSH * 0.05, rel=1e-12)
+    assert a_goal(accuracy=0.01, least_error=0.5).aimed(1.0, 0.1, 0.0).least == pytest.approx(PUSH * 0.05, rel=1e-12)
     assert a_goal(accuracy=1e-9).aimed(1.0, 0.1, 0.0).least == pytest.approx(1e-13 * (LOAD + PRELOAD) / RATE, rel=1e-12)
 
 

@@ -1,0 +1,21 @@
+"""What is asked of a response to a stated accuracy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A response of `scene` at k / `rate` (Hz), so many `samples`, from the first of its positions at `rest`
+    (modal_case.resting), to the relative RMS `accuracy` or to `least_error` (m/s², RMS), which is always allowed."""
+
+    scene: Scene
+    rest: Equilibrium
+    rate: float
+    samples: int
+    accuracy: float
+    least_error: float = 0.0

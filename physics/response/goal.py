@@ -78,7 +78,15 @@ class Goal:
         """A grid whose tolerance is this `aim` of the accuracy at first, of a signal whose mean square may be `seen`
         (m²/s⁴), and then what leaves the estimated error within it."""
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * safety_factor(sensitivity) * aim)) ** 2
-        return _grid(self.case, self.samples, aim * self.accuracy, aim * self.least_error, seen, GUESSED, spending)
+        return _grid(
+            self.case,
+            self.samples,
+            share=aim * self.accuracy,
+            least_error=aim * self.least_error,
+            seen=seen,
+            weight=GUESSED,
+            spending=spending,
+        )
 
 
 def steady(case: Case, samples: int, share: float, size: float, spending: float = UNLIMITED) -> Stride:
@@ -86,19 +94,21 @@ def steady(case: Case, samples: int, share: float, size: float, spending: float 
 
     As these do not use up an unlimited `spending`, it grows to four times that within 1536 samples (`set_tolerance`).
     """
-    return _grid(case, samples, share, 0.0, size**2, KNOWN, spending)
+    return _grid(case, samples, share=share, least_error=0.0, seen=size**2, weight=KNOWN, spending=spending)
 
 
-def _grid(case: Case, samples: int, share: float, least: float, seen: float, weight: float, spending: float) -> Stride:
-    """A grid for errors of this `share` of the signal, or `least` (m/s², RMS) if that is more; `seen` (m²/s⁴) is what
-    to take for the signal's mean square, with the `weight` of so many samples, and `spending` as in Stride."""
+def _grid(
+    case: Case, samples: int, *, share: float, least_error: float, seen: float, weight: float, spending: float
+) -> Stride:
+    """A grid for errors of this `share` of the signal, or `least_error` (m/s², RMS) if that is more; `seen` (m²/s⁴) is
+    what to take for the signal's mean square, with the `weight` of so many samples, and `spending` as in Stride."""
     floor = share * SMALLEST_SHARE * abs(case.scene.operation.load) / case.scene.rig.outer_mass
     return Stride(
         samples=samples,
         interval=1.0 / case.rate,
         levels=len(STRIDES),
         share=share * case.push * math.sqrt(0.5),
-        least=max(case.push * max(least, floor), ROUND_OFF * largest_forces(case.scene) / case.rate),
+        least=max(case.push * max(least_error, floor), ROUND_OFF * largest_forces(case.scene) / case.rate),
         seen=2.0 * seen,
         seen_samples=weight,
         spending=spending,

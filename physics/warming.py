@@ -21,7 +21,7 @@ from physics.contact.forces import Contacts
 from physics.contact_events import contact_events
 from physics.integrators.modal.changes import look
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
-from physics.integrators.modal.memory import STRIDES, Memory, Stride, memory_for
+from physics.integrators.modal.memory import STRIDES, Memory, ModalGrid, memory_for
 from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
@@ -92,10 +92,10 @@ def compile_location() -> None:
     compile_for(look, contacts, flow, grid, memory, 1, trial, True, True, output)
 
 
-def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, Stride, Memory, Output]:
+def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, ModalGrid, Memory, Output]:
     """What a march of a single sample is given, made without a kernel that the march does not need."""
     contacts, flow = assemble(scene), linear_flow(motion_model(scene), (1e8, 1e8), (1.0, 1.0))
-    grid = Stride(
+    grid = ModalGrid(
         samples=1,
         interval=1.0 / RATE,
         levels=len(STRIDES),

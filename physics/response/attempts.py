@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from physics.integrators.modal.memory import Stride
+from physics.integrators.modal.memory import ModalGrid
 from physics.integrators.output import STEPS, Output
 from physics.outcome import SimulationFailed
 from physics.response.goal import (
@@ -49,7 +49,7 @@ SOON = (0.15, 0.4)
 MUCH_FINER = 1.0 / 256.0
 
 
-def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tuple[Output, Stride]:
+def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tuple[Output, ModalGrid]:
     """The response of a scene of this `sensitivity` with an estimated error within the goal, and the grid that gave it.
 
     The first attempt goes on with the `march` that may have begun, unless steps are to be more exact; more begin anew.
@@ -71,7 +71,7 @@ def to_accuracy(goal: Goal, march: March, seen: float, sensitivity: float) -> tu
     return output, grid
 
 
-def confirm_doubtful(goal: Goal, output: Output, grid: Stride, sensitivity: float) -> tuple[Output, float, float]:
+def confirm_doubtful(goal: Goal, output: Output, grid: ModalGrid, sensitivity: float) -> tuple[Output, float, float]:
     """The response made again with a smaller tolerance than that of the `output`'s grid; its estimated error (m/s²,
     RMS), infinite if no trajectory is known, and the sensitivity that follows from both.
 
@@ -120,7 +120,7 @@ def _pair(coarse: Output, fine: Output, share: float) -> Pair:
     return Pair(coarse, fine, share, rms_distance(coarse, fine), rms(fine.acceleration))
 
 
-def _confirmed(goal: Goal, pair: Pair, grid: Stride) -> tuple[Output, float]:
+def _confirmed(goal: Goal, pair: Pair, grid: ModalGrid) -> tuple[Output, float]:
     """The fine response of the `pair`, which is on `grid`, or the first finer one, that is well within the goal of the
     one before; and the error (m/s², RMS) that follows from this.
 

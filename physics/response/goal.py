@@ -14,14 +14,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from physics.integrators.modal.memory import STRIDES, Stride
+from physics.integrators.modal.memory import STRIDES, ModalGrid
 from physics.integrators.output import LOGGED, Output
 from physics.response.modal_case import USUAL_PUSHES, Case, March
 from physics.response.silence import largest_forces
 from physics.rms import rms
 from physics.trace import Kept
 
-GoOn = Callable[[March, Stride], Output]
+GoOn = Callable[[March, ModalGrid], Output]
 
 # Errors are up to this many times what the errors of the steps add up to, or SENSITIVE times what a short pilot made of
 # them if that is more: measured on the reference scenes and on scenes of the wide corpus that are not chaotic.
@@ -56,7 +56,7 @@ class Goal:
         """A march that has not set out."""
         return March(self.case, self.samples, self.keep)
 
-    def anew(self, grid: Stride) -> Output:
+    def anew(self, grid: ModalGrid) -> Output:
         """A response from the start, on `grid`."""
         return self.go_on(self.begin(), grid)
 
@@ -74,7 +74,7 @@ class Goal:
         """Estimated error (m/s², RMS) of the `output` of a scene of this sensitivity."""
         return ERROR_FACTOR * safety_factor(sensitivity) * self.case.pushed(output)
 
-    def aimed(self, seen: float, aim: float, sensitivity: float) -> Stride:
+    def aimed(self, seen: float, aim: float, sensitivity: float) -> ModalGrid:
         """A grid whose tolerance is this `aim` of the accuracy at first, of a signal whose mean square may be `seen`
         (m²/s⁴), and then what leaves the estimated error within it."""
         spending = 2.0 * USUAL_PUSHES * (MARGIN / (ERROR_FACTOR * safety_factor(sensitivity) * aim)) ** 2
@@ -89,7 +89,7 @@ class Goal:
         )
 
 
-def steady(case: Case, samples: int, share: float, size: float, spending: float = UNLIMITED) -> Stride:
+def steady(case: Case, samples: int, share: float, size: float, spending: float = UNLIMITED) -> ModalGrid:
     """A grid whose tolerance is this `share` of a signal of known `size` (m/s², RMS), whatever errors it leaves.
 
     As these do not use up an unlimited `spending`, it grows to four times that within 1536 samples (`set_tolerance`).
@@ -99,11 +99,11 @@ def steady(case: Case, samples: int, share: float, size: float, spending: float 
 
 def _grid(
     case: Case, samples: int, *, share: float, least_error: float, seen: float, weight: float, spending: float
-) -> Stride:
+) -> ModalGrid:
     """A grid for errors of this `share` of the signal, or `least_error` (m/s², RMS) if that is more; `seen` (m²/s⁴) is
-    what to take for the signal's mean square, with the `weight` of so many samples, and `spending` as in Stride."""
+    what to take for the signal's mean square, with the `weight` of so many samples, and `spending` as in ModalGrid."""
     floor = share * SMALLEST_SHARE * abs(case.scene.operation.load) / case.scene.rig.outer_mass
-    return Stride(
+    return ModalGrid(
         samples=samples,
         interval=1.0 / case.rate,
         levels=len(STRIDES),
@@ -115,7 +115,7 @@ def _grid(
     )
 
 
-def perturbed_response(case: Case, grid: Stride, go_on: GoOn = March.go_on) -> Output:
+def perturbed_response(case: Case, grid: ModalGrid, go_on: GoOn = March.go_on) -> Output:
     """A response on a `steady` grid that starts with a deliberate error, as large as one step may make, and counts it.
 
     Otherwise two responses that happen to take the same steps make the same errors, and hide how errors grow.
@@ -126,7 +126,7 @@ def perturbed_response(case: Case, grid: Stride, go_on: GoOn = March.go_on) -> O
     return output
 
 
-def finer(grid: Stride, share: float) -> Stride:
+def finer(grid: ModalGrid, share: float) -> ModalGrid:
     """A grid with this share of the tolerance."""
     return grid._replace(share=share * grid.share, least=share * grid.least)
 

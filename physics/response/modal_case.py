@@ -13,7 +13,7 @@ from physics.assembly import assemble
 from physics.contact.forces import Contacts
 from physics.integrators.modal.error_growth import memory_of_errors, ringing
 from physics.integrators.modal.flow import LinearFlow, amplitudes_of, linear_flow
-from physics.integrators.modal.memory import RETUNE, SHORTEST, STRIDES, UNITS, Memory, Stride, memory_for
+from physics.integrators.modal.memory import RETUNE, SHORTEST, STRIDES, UNITS, Memory, ModalGrid, memory_for
 from physics.integrators.modal.modal_march import MOST_STEPS_PER_SAMPLE, begin, march_modal
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, Output
@@ -119,7 +119,7 @@ class March:
         capacity = room_for_changes(0, self.case.scene.duration)
         self.output = empty_output(shared, self.samples, capacity, self.keep)
 
-    def go_on(self, grid: Stride) -> Output:
+    def go_on(self, grid: ModalGrid) -> Output:
         """The output, filled up to the samples of `grid`.
 
         Raises SimulationFailed if the response stops being finite, contact changes more often than can be logged, or

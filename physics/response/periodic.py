@@ -13,7 +13,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.integrators.modal.flow import slowest_decay
-from physics.integrators.modal.memory import Stride
+from physics.integrators.modal.memory import ModalGrid
 from physics.integrators.output import Output
 from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model
@@ -129,7 +129,7 @@ class _Repeating:
     def __init__(self, cells: int, share: float, least_error: float) -> None:
         self.cells, self.share, self.least_error, self._decay = cells, share, least_error, 0.0
 
-    def go_on(self, march: March, grid: Stride) -> Output:
+    def go_on(self, march: March, grid: ModalGrid) -> Output:
         """The output, up to the last period that was needed."""
         self._decay = slowest_decay(march.case.flow) * self.cells / march.case.rate
         for count in range(FEWEST_MARCHED, grid.samples // self.cells + 1):

@@ -30,7 +30,7 @@ from physics.integrators.modal.memory import (
     TRIED,
     UNITS,
     Memory,
-    Stride,
+    ModalGrid,
 )
 from physics.integrators.stops import KINK_NUDGE_SHARE
 from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
@@ -54,7 +54,7 @@ def graded_length(law: Law, speed: float, tolerance: float) -> float:
 
 @njit_inner
 def meet_change(
-    law: Law, grid: Stride, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
+    law: Law, grid: ModalGrid, memory: Memory, left: float, ball: int, losing: bool, speed: float, step: float
 ) -> None:
     """Head for the contact change of `ball`, `left` (s) ahead, met at `speed` (m/s) of compression.
 
@@ -76,7 +76,7 @@ def meet_change(
 
 
 @njit_inner
-def leads_astray(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
+def leads_astray(contacts: Contacts, grid: ModalGrid, memory: Memory, step: float) -> bool:
     """Whether a `step` (s) on the way to a contact change has to be taken back: it is too coarse, or some ball is past
     its change.
 

@@ -23,7 +23,7 @@ from physics.integrators.modal.memory import (
     TRIED,
     UNITS,
     Memory,
-    Stride,
+    ModalGrid,
 )
 from physics.integrators.output import Output, change_unlocated, toggle
 from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
@@ -71,7 +71,7 @@ def left_out(contacts: Contacts, step: float) -> float:
 def look(
     contacts: Contacts,
     flow: LinearFlow,
-    grid: Stride,
+    grid: ModalGrid,
     memory: Memory,
     units: int,
     trial: Trial,

@@ -25,7 +25,7 @@ from physics.integrators.modal.memory import (
     TIME,
     UNITS,
     Memory,
-    Stride,
+    ModalGrid,
 )
 from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink
 from physics.integrators.trial import SMALLEST_STEP_SHARE
@@ -47,7 +47,7 @@ class Choice(NamedTuple):
 
 
 @njit_pasted
-def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> int:
+def stride_level(balls: Array, grid: ModalGrid, stops: Stops, memory: Memory) -> int:
     """How many of the `STRIDES` may be taken from here, as a number from 1; 0 if the step is a sample or less."""
     clock, marks = memory.clock, memory.marks
     if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0 or marks[CELL] < marks[CAREFUL]:
@@ -69,7 +69,9 @@ def stride_level(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> in
 
 
 @njit_inline
-def up_to_kink(balls: Array, grid: Stride, stops: Stops, memory: Memory, row: int, units: int, target: float) -> Choice:
+def up_to_kink(
+    balls: Array, grid: ModalGrid, stops: Stops, memory: Memory, row: int, units: int, target: float
+) -> Choice:
     """The step to `target` (s), or to the first kink before it.
 
     A kink may also be where the step would end anyway: halves of a step that was taken back add up to it.
@@ -95,7 +97,7 @@ def even_share(left: int, longest: int) -> int:
 
 
 @njit_pasted
-def next_step(balls: Array, grid: Stride, stops: Stops, memory: Memory) -> Choice:
+def next_step(balls: Array, grid: ModalGrid, stops: Stops, memory: Memory) -> Choice:
     """The step to try next."""
     clock, marks = memory.clock, memory.marks
     unit, time = grid.interval / UNITS, clock[TIME]

@@ -20,7 +20,7 @@ from physics.integrators.modal.memory import (
     TOLERANCE,
     UNITS,
     Memory,
-    Stride,
+    ModalGrid,
 )
 
 # A step is carried by the one before if that was at least this share as long.
@@ -39,7 +39,7 @@ REJECTED, DOUBLED, LONGER, LESS = 4.0, 1.0 / 32.0, 1.5**-5, 0.75
 
 
 @njit_inline
-def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
+def set_tolerance(grid: ModalGrid, memory: Memory, samples: int) -> None:
     """Let the tolerance follow the acceleration of `samples` samples, and what their errors have left of the budget."""
     clock = memory.clock
     square = (grid.seen * grid.seen_samples + clock[SQUARES]) / (grid.seen_samples + samples)
@@ -50,13 +50,13 @@ def set_tolerance(grid: Stride, memory: Memory, samples: int) -> None:
 
 
 @njit_pasted
-def may_shrink(grid: Stride, step: float) -> bool:
+def may_shrink(grid: ModalGrid, step: float) -> bool:
     """Whether `step` (s) is long enough to be taken back for a shorter one."""
     return step > SHORTEST * grid.interval / UNITS
 
 
 @njit_pasted
-def dipped(contacts: Contacts, grid: Stride, memory: Memory, step: float, contradicted: bool) -> bool:
+def dipped(contacts: Contacts, grid: ModalGrid, memory: Memory, step: float, contradicted: bool) -> bool:
     """Whether some ball changes sides and back within the step, which is then to be halved.
 
     If `contradicted`, another one changes sides, and those that only seem to are left until it has.
@@ -133,7 +133,7 @@ def error_of(contacts: Contacts, memory: Memory, step: float) -> float:
 
 
 @njit_pasted
-def judge(contacts: Contacts, grid: Stride, memory: Memory, step: float) -> bool:
+def judge(contacts: Contacts, grid: ModalGrid, memory: Memory, step: float) -> bool:
     """Set the pace by the error of the step; False to take it back."""
     clock, tolerance = memory.clock, memory.clock[TOLERANCE]
     error = error_of(contacts, memory, step)

@@ -85,7 +85,7 @@ class Memory(NamedTuple):
     fastest: float
 
 
-class Stride(NamedTuple):
+class ModalGrid(NamedTuple):
     """`samples` instants, `interval` (s) apart; steps of at most a sample, or the first `levels` of the `STRIDES`.
 
     One step may be wrong by the momentum (N s) `share` times the root mean square of the resonator's acceleration

@@ -47,7 +47,7 @@ from physics.integrators.modal.memory import (
     TRIED,
     UNITS,
     Memory,
-    Stride,
+    ModalGrid,
 )
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.modal.rk4 import step_modal_rk4
@@ -74,7 +74,7 @@ TUNED_EVERY = 32
 
 
 @njit_lean
-def begin(contacts: Contacts, flow: LinearFlow, grid: Stride, memory: Memory, output: Output) -> None:
+def begin(contacts: Contacts, flow: LinearFlow, grid: ModalGrid, memory: Memory, output: Output) -> None:
     """Find the first contact set and write sample 0."""
     clock, marks = memory.clock, memory.marks
     state, rest = memory.states[0], memory.rest
@@ -95,7 +95,7 @@ def begin(contacts: Contacts, flow: LinearFlow, grid: Stride, memory: Memory, ou
 
 
 @njit_pasted
-def land(grid: Stride, memory: Memory, units: int, beyond: float) -> None:
+def land(grid: ModalGrid, memory: Memory, units: int, beyond: float) -> None:
     """Move the clock to the end of a step of `units`, or off the grid to `beyond` (s)."""
     clock, marks = memory.clock, memory.marks
     unit = grid.interval / UNITS
@@ -113,7 +113,7 @@ def land(grid: Stride, memory: Memory, units: int, beyond: float) -> None:
 def write_sample(
     balls: Array,
     flow: LinearFlow,
-    grid: Stride,
+    grid: ModalGrid,
     memory: Memory,
     state: Array,
     force: tuple[float, float],
@@ -137,7 +137,7 @@ def write_sample(
 
 @njit_pasted
 def arrive(
-    contacts: Contacts, grid: Stride, memory: Memory, choice: Choice, step: float, ridges: bool, output: Output
+    contacts: Contacts, grid: ModalGrid, memory: Memory, choice: Choice, step: float, ridges: bool, output: Output
 ) -> bool:
     """What follows a `step` (s) that was taken as the `choice` says; True if it changes the contact force.
 
@@ -203,7 +203,7 @@ def try_step(
 def consider(
     contacts: Contacts,
     flow: LinearFlow,
-    grid: Stride,
+    grid: ModalGrid,
     memory: Memory,
     units: int,
     trial: Trial,
@@ -238,7 +238,7 @@ def take_back(contacts: Contacts, flow: LinearFlow, memory: Memory, trial: Trial
 
 @njit_lean
 def march_modal(
-    contacts: Contacts, flow: LinearFlow, grid: Stride, stops: Stops, memory: Memory, output: Output
+    contacts: Contacts, flow: LinearFlow, grid: ModalGrid, stops: Stops, memory: Memory, output: Output
 ) -> int:
     """Fill `output` up to the samples of `grid` from where `begin`, or the march before, has left `memory`.
 

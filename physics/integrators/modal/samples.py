@@ -20,7 +20,7 @@ from physics.integrators.modal.flow import (
     weigh,
 )
 from physics.integrators.modal.layout import INSIDE_KICKS, INSIDE_OTHER, INSIDE_READINGS, INSIDE_TURN
-from physics.integrators.modal.memory import CELL, FIRST_INSIDE, UNITS, Memory, Stride
+from physics.integrators.modal.memory import CELL, FIRST_INSIDE, UNITS, Memory, ModalGrid
 from physics.integrators.modal.reading import push, read_inside, turn
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.output import Output
@@ -116,7 +116,7 @@ def keep_outer_inside(
 def keep_state_inside(
     contacts: Contacts,
     flow: LinearFlow,
-    grid: Stride,
+    grid: ModalGrid,
     memory: Memory,
     choice: Choice,
     trial: Trial,
@@ -156,7 +156,7 @@ def record(flow: LinearFlow, state: Array, rest: Array, sample: int, output: Out
 def write_inside(
     contacts: Contacts,
     flow: LinearFlow,
-    grid: Stride,
+    grid: ModalGrid,
     memory: Memory,
     choice: Choice,
     trial: Trial,

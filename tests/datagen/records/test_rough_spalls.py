@@ -6,7 +6,7 @@ import numpy as np
 
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
-from physics.integrators.modal.memory import STRIDES, Stride
+from physics.integrators.modal.memory import STRIDES, ModalGrid
 from physics.request import Accurate, FixedSteps
 from physics.response.modal_case import March, case_of, resting
 from physics.rms import relative_error
@@ -59,7 +59,7 @@ def test_a_step_whose_halves_add_up_to_a_corner_of_the_path_ends_there():
     case = case_of(scene, resting(scene), drawn.rate)
     coarse, fine = (
         March(case, samples).go_on(
-            Stride(samples, 1.0 / drawn.rate, len(STRIDES), 0.0, share * size * case.push, 0.0, 1.0, 1e9)
+            ModalGrid(samples, 1.0 / drawn.rate, len(STRIDES), 0.0, share * size * case.push, 0.0, 1.0, 1e9)
         )
         for share in (1e-10, 1e-12)
     )

@@ -17,7 +17,7 @@ from physics.integrators.modal.memory import (
     STRIDES,
     TIME,
     UNITS,
-    Stride,
+    ModalGrid,
     memory_for,
 )
 from physics.integrators.modal.tables import tables_for
@@ -43,7 +43,7 @@ def choose(fan, build_scene):
         memory.marks[CELL] = int(time / UNIT + 1e-3)
         memory.marks[ON_GRID] = abs(time - memory.marks[CELL] * UNIT) < NEAR
         stops = Stops(np.array([kink]), np.zeros(1, dtype=np.int64))
-        grid = Stride(1000, INTERVAL, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
+        grid = ModalGrid(1000, INTERVAL, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
         return next_step(balls, grid, stops, memory)
 
     return step

@@ -54,7 +54,7 @@ from physics.integrators.modal.layout import (
     STEP_WEIGHTS,
     TURN,
 )
-from physics.integrators.modal.memory import STRIDES, Stride, memory_for
+from physics.integrators.modal.memory import STRIDES, ModalGrid, memory_for
 from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import tables_for
 from physics.integrators.modal.weights import set_inside, set_step
@@ -243,7 +243,7 @@ def marched(scene, samples, interval):
     """Acceleration (samples, 2) by carried steps of one `interval` (s) throughout, from the static equilibrium."""
     contacts, motion = assemble(scene), motion_model(scene)
     flow = mean_flow(motion, resting(scene))
-    grid = Stride(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
+    grid = ModalGrid(samples, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9)
     start = amplitudes_of(flow, starting_state(motion, equilibrium(scene, np.zeros(1)).displacement[0]))
     output = empty_output(contacts, samples, 64, ACCELERATION_ALONE)
     memory = memory_for(flow, start, tables_for(flow, interval), contacts.balls.shape)
@@ -286,7 +286,7 @@ def test_a_step_that_knows_none_before_it_is_of_order_four(flight):
     for interval in (1.0 / RATE, 0.5 / RATE, 0.25 / RATE):
         case, state = case_on(interval), np.empty(12)
         march = March(case, 2)
-        march.go_on(Stride(2, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9))
+        march.go_on(ModalGrid(2, interval, 0, 0.0, 1e9, 0.0, 1.0, 1e9))
         physical_state(case.flow, interval, march._memory.states[0], state)
         errors.append(abs(state[7] - exact(interval)[1]))
     assert -np.diff(np.log2(errors)) == pytest.approx(5.0, abs=0.2)  # of one step, one more than of many
@@ -297,7 +297,7 @@ def test_steps_in_which_no_ball_touches_are_as_exact_as_was_asked_for(flight, fa
     case_on, exact = flight
     read = np.array([0, 0, fan.resonator_stiffness, fan.resonator_damping, -fan.resonator_stiffness,
                      -fan.resonator_damping, 0]) / fan.resonator_mass  # fmt: skip
-    output = March(case_on(1.0 / RATE), 10).go_on(Stride(10, 1.0 / RATE, len(STRIDES), 0.0, push, 0.0, 1.0, 1e9))
+    output = March(case_on(1.0 / RATE), 10).go_on(ModalGrid(10, 1.0 / RATE, len(STRIDES), 0.0, push, 0.0, 1.0, 1e9))
     assert output.tally[LOGGED] == 0  # no ball has touched
     # What one such push (N s) of the outer ring leaves in the resonator's acceleration at most.
     most = push / fan.outer_mass * math.sqrt(fan.resonator_stiffness / fan.resonator_mass)
@@ -307,7 +307,7 @@ def test_steps_in_which_no_ball_touches_are_as_exact_as_was_asked_for(flight, fa
 
 def test_a_march_that_pauses_goes_on_as_if_it_had_not(reference_scene, reference_trace):
     scene, samples = reference_scene("F1", 0.1), round(0.1 * RATE)
-    grid = Stride(samples, 1.0 / RATE, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
+    grid = ModalGrid(samples, 1.0 / RATE, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
     once, paused = (March(case_of(scene, resting(scene), RATE), samples) for _ in range(2))
     once.go_on(grid)
     for until in (1, 700, 701, 2048, samples):
@@ -561,7 +561,7 @@ def test_a_smooth_path_has_no_relief_and_is_not_searched(reference_scene):
 
 
 def test_no_step_is_taken_back_for_ever():
-    grid = Stride(100, 1.0 / RATE, 3, 1e-9, 1e-9, 1.0, 512.0, 1.0)
+    grid = ModalGrid(100, 1.0 / RATE, 3, 1e-9, 1e-9, 1.0, 512.0, 1.0)
     step, halvings = 8.0 / RATE, 0
     while may_shrink(grid, step):
         step, halvings = 0.5 * step, halvings + 1

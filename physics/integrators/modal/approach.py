@@ -17,7 +17,6 @@ from physics.integrators.modal.memory import (
     AT_WALL,
     BALL,
     BUDGET,
-    CELL,
     EXACT,
     GRADED,
     LEFT,
@@ -25,6 +24,7 @@ from physics.integrators.modal.memory import (
     ON_GRID,
     ON_WAY,
     PACE,
+    PASSED,
     TIME,
     TOLERANCE,
     TRIED,
@@ -67,7 +67,7 @@ def meet_change(
     clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
     clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
-    if losing and marks[ON_GRID] == 1 and marks[CELL] >= marks[EXACT] and jump < allowed and clock[GRADED] > unit:
+    if losing and marks[ON_GRID] == 1 and marks[PASSED] >= marks[EXACT] and jump < allowed and clock[GRADED] > unit:
         left = unit * max(1, int(left / unit + 0.5))
     marks[BALL], clock[LEFT], clock[ON_WAY] = ball, left, left
     if not losing:
@@ -96,10 +96,10 @@ def leads_astray(contacts: Contacts, grid: ModalGrid, memory: Memory, step: floa
         size = contacts.balls.shape[2]
         cage, place = marks[BALL] // size, marks[BALL] % size
         if not _changes_at_zero(contacts, memory, cage, place) or _wrong_by(contacts, cage, place, step) <= tolerance:
-            if marks[CELL] < marks[EXACT] or not _is_past(contacts, step, tolerance, marks[BALL]):
+            if marks[PASSED] < marks[EXACT] or not _is_past(contacts, step, tolerance, marks[BALL]):
                 return False
             # Put on the grid, the change would be taken behind that of another ball.
-            marks[BALL], marks[EXACT] = NO_BALL, marks[CELL] + 1
+            marks[BALL], marks[EXACT] = NO_BALL, marks[PASSED] + 1
             clock[PACE] = min(clock[PACE], step)
             return True
         late, then = _late(contacts, cage, place), clock[TIME] + step
@@ -108,7 +108,7 @@ def leads_astray(contacts: Contacts, grid: ModalGrid, memory: Memory, step: floa
             return False
         if abs(late) <= ONE_INSTANT * then:
             return False
-        next_sample = (marks[CELL] // UNITS + 1) * grid.interval
+        next_sample = (marks[PASSED] // UNITS + 1) * grid.interval
         if abs(late) <= MOST_MISSED * step and then - late < next_sample:
             marks[TRIED] += 1
             clock[LEFT] = step - late

@@ -15,10 +15,10 @@ from physics.integrators.modal.memory import (
     BEFORE,
     BUDGET,
     CAREFUL,
-    CELL,
     LEFT,
     NO_BALL,
     PACE,
+    PASSED,
     TIME,
     TRIED,
     UNITS,
@@ -85,7 +85,7 @@ def look(
     """
     clock, marks, balls = memory.clock, memory.marks, contacts.balls
     if units > UNITS and contradicted:
-        marks[CAREFUL] = marks[CELL] + units
+        marks[CAREFUL] = marks[PASSED] + units
         return AGAIN
     if marks[TRIED] >= MOST_CHANGES_PER_STEP:
         if contradicted:
@@ -101,7 +101,7 @@ def look(
         set_time(contacts, trial.time + trial.step)
         return TAKE
     if units > UNITS:
-        marks[CAREFUL] = marks[CELL] + units
+        marks[CAREFUL] = marks[PASSED] + units
         return AGAIN
     marks[TRIED] += 1
     losing = of_ball(balls, ACTIVE, ball) > 0.5

@@ -12,7 +12,6 @@ from physics.integrators.modal.memory import (
     BALL,
     BETWEEN,
     CAREFUL,
-    CELL,
     GRADED,
     LEFT,
     NEARLY,
@@ -20,6 +19,7 @@ from physics.integrators.modal.memory import (
     ON_GRID,
     ON_WAY,
     PACE,
+    PASSED,
     STOP,
     STRIDES,
     TIME,
@@ -50,7 +50,7 @@ class Choice(NamedTuple):
 def stride_level(balls: Array, grid: ModalGrid, stops: Stops, memory: Memory) -> int:
     """How many of the `STRIDES` may be taken from here, as a number from 1; 0 if the step is a sample or less."""
     clock, marks = memory.clock, memory.marks
-    if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0 or marks[CELL] < marks[CAREFUL]:
+    if marks[ON_GRID] == 0 or marks[PASSED] % UNITS != 0 or marks[PASSED] < marks[CAREFUL]:
         return 0
     level = grid.levels
     while level > 0:
@@ -59,7 +59,7 @@ def stride_level(balls: Array, grid: ModalGrid, stops: Stops, memory: Memory) ->
         behind = clock[TIME] + length + SMALLEST_STEP_SHARE * grid.interval
         if (
             clock[PACE] >= length
-            and marks[CELL] + UNITS * size <= (grid.samples - 1) * UNITS
+            and marks[PASSED] + UNITS * size <= (grid.samples - 1) * UNITS
             and next_kink(balls, stops, marks[STOP], behind) >= behind
             and count_ahead(balls, LOOK_AHEAD * length) == 0
         ):
@@ -112,16 +112,16 @@ def next_step(balls: Array, grid: ModalGrid, stops: Stops, memory: Memory) -> Ch
     level = stride_level(balls, grid, stops, memory)
     if level > 0:
         units = UNITS * STRIDES[level - 1]
-        return Choice(UNITS + level, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit)
-    next_line = (marks[CELL] + 1) * unit
+        return Choice(UNITS + level, units, (marks[PASSED] + units) * unit, (marks[PASSED] + units) * unit)
+    next_line = (marks[PASSED] + 1) * unit
     if clock[PACE] < SHORT * unit and next_line - time > (1.0 + SHORT) * clock[PACE]:
         return up_to_kink(balls, grid, stops, memory, BETWEEN, 0, time + clock[PACE])
-    left = (marks[CELL] // UNITS + 1) * UNITS - marks[CELL]
-    units = min(left, max(1, int((time + clock[PACE]) / unit + NEARLY) - marks[CELL]))
+    left = (marks[PASSED] // UNITS + 1) * UNITS - marks[PASSED]
+    units = min(left, max(1, int((time + clock[PACE]) / unit + NEARLY) - marks[PASSED]))
     row = units if marks[ON_GRID] == 1 else BETWEEN
-    choice = up_to_kink(balls, grid, stops, memory, row, units, (marks[CELL] + units) * unit)
+    choice = up_to_kink(balls, grid, stops, memory, row, units, (marks[PASSED] + units) * unit)
     if not 0 < left - units < LEAST_RATIO * units or choice.beyond > choice.end:
         return choice
     units = even_share(left, units)
     row = units if marks[ON_GRID] == 1 else BETWEEN
-    return Choice(row, units, (marks[CELL] + units) * unit, (marks[CELL] + units) * unit)
+    return Choice(row, units, (marks[PASSED] + units) * unit, (marks[PASSED] + units) * unit)

@@ -39,7 +39,7 @@ CLOCK_ENTRIES = 9
 # Entries of `marks`.
 MARKS_ENTRIES = 11
 (
-    CELL,  # units passed
+    PASSED,  # units passed
     CAREFUL,  # unit before which no stride starts
     STOP,  # number of the next kink
     TRIED,  # changes located in this sample

@@ -35,11 +35,11 @@ from physics.integrators.modal.memory import (
     BETWEEN,
     BUDGET,
     BUMPY,
-    CELL,
     LEFT,
     NO_BALL,
     ON_GRID,
     PACE,
+    PASSED,
     RETUNE,
     SQUARES,
     STOP,
@@ -100,13 +100,13 @@ def land(grid: ModalGrid, memory: Memory, units: int, beyond: float) -> None:
     clock, marks = memory.clock, memory.marks
     unit = grid.interval / UNITS
     if units > 0:
-        marks[CELL] += units
+        marks[PASSED] += units
         marks[ON_GRID] = 1
     else:
         near = int(beyond / unit + 0.5)
         marks[ON_GRID] = abs(beyond - near * unit) < SMALLEST_STEP_SHARE * grid.interval
-        marks[CELL] = near if marks[ON_GRID] == 1 else int(beyond / unit)
-    clock[TIME] = marks[CELL] * unit if marks[ON_GRID] == 1 else beyond
+        marks[PASSED] = near if marks[ON_GRID] == 1 else int(beyond / unit)
+    clock[TIME] = marks[PASSED] * unit if marks[ON_GRID] == 1 else beyond
 
 
 @njit_pasted
@@ -122,10 +122,10 @@ def write_sample(
 ) -> bool:
     """Write the sample at which a step of `units` has ended, if there is one; False if it is no longer finite."""
     clock, marks = memory.clock, memory.marks
-    if marks[ON_GRID] == 0 or marks[CELL] % UNITS != 0:
+    if marks[ON_GRID] == 0 or marks[PASSED] % UNITS != 0:
         return True
     marks[TRIED] = 0
-    sample, weight = marks[CELL] // UNITS, max(1, units // UNITS)
+    sample, weight = marks[PASSED] // UNITS, max(1, units // UNITS)
     square = record(flow, state, memory.rest, sample, output)
     keep(balls, flow, memory.rest, clock[TIME], state, force, sample, output)
     clock[SQUARES] += weight * square
@@ -253,7 +253,7 @@ def march_modal(
     most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
     room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
     bumps, ridges = has_bumps(contacts.track), has_ridges(stops)
-    while marks[CELL] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
+    while marks[PASSED] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
         if output.tally[STEPS] > most:
             return OUT_OF_STEPS
         marks[STOP] = passed_kinks(stops, marks[STOP], clock[TIME] + smallest)

@@ -20,7 +20,7 @@ from physics.integrators.modal.flow import (
     weigh,
 )
 from physics.integrators.modal.layout import INSIDE_KICKS, INSIDE_OTHER, INSIDE_READINGS, INSIDE_TURN
-from physics.integrators.modal.memory import CELL, FIRST_INSIDE, UNITS, Memory, ModalGrid
+from physics.integrators.modal.memory import FIRST_INSIDE, PASSED, UNITS, Memory, ModalGrid
 from physics.integrators.modal.reading import push, read_inside, turn
 from physics.integrators.modal.remainder import remaining_force
 from physics.integrators.output import Output
@@ -136,7 +136,7 @@ def keep_state_inside(
         if output.force.shape[0] > 0:
             set_time(contacts, time)
             remaining_force(contacts, flow, between, rest)
-        keep_state(contacts.balls, flow, time, between, memory.marks[CELL] // UNITS + 1 + k, output)
+        keep_state(contacts.balls, flow, time, between, memory.marks[PASSED] // UNITS + 1 + k, output)
     set_rest(flow, trial.time + count * grid.interval, rest)
     set_time(contacts, trial.time + count * grid.interval)
     remaining_force(contacts, flow, trial.then, rest)
@@ -166,7 +166,7 @@ def write_inside(
 
     The memory's `rest` is of its end, and its `course` the contact force.
     """
-    rest, course, sample = memory.rest, memory.course, memory.marks[CELL] // UNITS
+    rest, course, sample = memory.rest, memory.course, memory.marks[PASSED] // UNITS
     first, count = FIRST_INSIDE[choice.row - UNITS - 1], choice.units // UNITS
     for k in range(count - 1):
         w = memory.inside[first + k]

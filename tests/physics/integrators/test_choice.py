@@ -10,10 +10,10 @@ from physics.integrators.modal.flow import linear_flow
 from physics.integrators.modal.judgement import LEAST_RATIO
 from physics.integrators.modal.memory import (
     BALL,
-    CELL,
     NO_BALL,
     ON_GRID,
     PACE,
+    PASSED,
     STRIDES,
     TIME,
     UNITS,
@@ -40,8 +40,8 @@ def choose(fan, build_scene):
     def step(time, pace, kink):
         memory = memory_for(flow, np.zeros(12), tables_for(flow, INTERVAL), balls.shape)
         memory.clock[TIME], memory.clock[PACE], memory.marks[BALL] = time, pace, NO_BALL
-        memory.marks[CELL] = int(time / UNIT + 1e-3)
-        memory.marks[ON_GRID] = abs(time - memory.marks[CELL] * UNIT) < NEAR
+        memory.marks[PASSED] = int(time / UNIT + 1e-3)
+        memory.marks[ON_GRID] = abs(time - memory.marks[PASSED] * UNIT) < NEAR
         stops = Stops(np.array([kink]), np.zeros(1, dtype=np.int64))
         grid = ModalGrid(1000, INTERVAL, len(STRIDES), 0.0, 1e-9, 0.0, 1.0, 1e9)
         return next_step(balls, grid, stops, memory)

@@ -13,6 +13,8 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, LAW, Contacts, 
 # cut to 52 bits, so that a float holds it exactly, with room to add to it. The number's powers up to the 2^50th differ
 # in these bits.
 MARK_BASE, MARK_BITS = 6364136223846793005, (1 << 52) - 1
+# Rows of what is noted of the balls: compression (m), and its rate (m/s).
+NOTED_COMPRESSION, NOTED_RATE = range(2)
 
 
 @njit_inline
@@ -72,8 +74,8 @@ def note_motion(balls: Array, noted: Array) -> None:
     """Keep in `noted` (G, 2, M) the compression (m) and its rate (m/s) of every ball."""
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            noted[cage, 0, j] = balls[cage, COMPRESSION, j]
-            noted[cage, 1, j] = balls[cage, CLOSING, j]
+            noted[cage, NOTED_COMPRESSION, j] = balls[cage, COMPRESSION, j]
+            noted[cage, NOTED_RATE, j] = balls[cage, CLOSING, j]
 
 
 @njit_inline
@@ -81,8 +83,8 @@ def restore_motion(balls: Array, noted: Array) -> None:
     """Bring back what `note_motion` kept in `noted` (G, 2, M)."""
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            balls[cage, COMPRESSION, j] = noted[cage, 0, j]
-            balls[cage, CLOSING, j] = noted[cage, 1, j]
+            balls[cage, COMPRESSION, j] = noted[cage, NOTED_COMPRESSION, j]
+            balls[cage, CLOSING, j] = noted[cage, NOTED_RATE, j]
 
 
 @njit_inline
@@ -95,8 +97,8 @@ def count_dips(balls: Array, noted: Array, step: float) -> int:
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
             side = 2.0 * balls[cage, ACTIVE, j] - 1.0
-            away, back = side * noted[cage, 1, j], side * balls[cage, CLOSING, j]
-            room = side * (noted[cage, 0, j] + balls[cage, COMPRESSION, j]) * (back - away)
+            away, back = side * noted[cage, NOTED_RATE, j], side * balls[cage, CLOSING, j]
+            room = side * (noted[cage, NOTED_COMPRESSION, j] + balls[cage, COMPRESSION, j]) * (back - away)
             dips += (away < 0.0) & (back > 0.0) & (room < 0.5 * step * (away * away + back * back))
     return dips
 
@@ -111,7 +113,7 @@ def count_brushes(balls: Array, noted: Array) -> int:
     brushes = 0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            came = (noted[cage, 0, j] < 0.0) & (balls[cage, COMPRESSION, j] > 0.0)
+            came = (noted[cage, NOTED_COMPRESSION, j] < 0.0) & (balls[cage, COMPRESSION, j] > 0.0)
             brushes += came & (balls[cage, ACTIVE, j] < 0.5) & (balls[cage, LAW, j] <= 0.0)
     return brushes
 
@@ -126,7 +128,7 @@ def count_lapses(contacts: Contacts, noted: Array, step: float) -> int:
     balls, law, lapses = contacts.balls, contacts.law, 0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            start, rate = noted[cage, 0, j], noted[cage, 1, j]
+            start, rate = noted[cage, NOTED_COMPRESSION, j], noted[cage, NOTED_RATE, j]
             end, end_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
             if balls[cage, ACTIVE, j] > 0.5 and min(rate, end_rate) < 0.0 and min(start, end) > 0.0:
                 halfway = 0.5 * (start + end) + 0.125 * step * (rate - end_rate)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from physics._jit import njit_inline, njit_inner, njit_pasted
-from physics.contact.contact_set import contradicts, count_changes
+from physics.contact.contact_set import NOTED_COMPRESSION, contradicts, count_changes
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FLOOR, LAW, Contacts, Law, compression_of
 from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may_shrink
 from physics.integrators.modal.memory import (
@@ -157,7 +157,7 @@ def _changes_at_zero(contacts: Contacts, memory: Memory, cage: int, place: int) 
     """Whether the ball changes sides at zero compression. Without tension it does not where it is let go of or taken
     hold of again while it is compressed: there its force is zero, or jumps past zero at a corner of the path."""
     losing = contacts.balls[cage, ACTIVE, place] > 0.5
-    return not contacts.law.no_tension or not (losing or memory.noted[cage, 0, place] > 0.0)
+    return not contacts.law.no_tension or not (losing or memory.noted[cage, NOTED_COMPRESSION, place] > 0.0)
 
 
 @njit_inline

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
+from physics.contact.contact_set import NOTED_COMPRESSION
 from physics.contact.forces import ACTIVE, COMPRESSION, Contacts, law_power
 from physics.contact.track import CAGE, RELIEF, Track, passage, path_under, place_of
 from physics.paths.depth_path import PIECES
@@ -57,7 +58,7 @@ def passed_over(contacts: Contacts, noted: Array, time: float, step: float) -> f
                 final, final_slope = path_under(track, spall, arc + travel)
                 film = final - begin - travel / 6.0 * (slope + 4.0 * middle_slope + final_slope)
                 astray = middle - 0.5 * (begin + final) - 0.125 * travel * (slope - final_slope)
-                pressed = law_power(law, max(noted[cage, 0, place], balls[cage, COMPRESSION, place]))
+                pressed = law_power(law, max(noted[cage, NOTED_COMPRESSION, place], balls[cage, COMPRESSION, place]))
                 stiffness = law.stiffness * law.exponent * pressed
                 total += abs(law.damping * film) + HERMITE_ERROR * step * stiffness * abs(astray)
             arc += track.spacing

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
-from physics.contact.contact_set import contradicts, touches
+from physics.contact.contact_set import NOTED_COMPRESSION, contradicts, touches
 from physics.contact.forces import ACTIVE, LAW, Contacts, of_ball, set_time
 from physics.integrators.modal.approach import meet_change
 from physics.integrators.modal.flow import LinearFlow
@@ -48,7 +48,7 @@ def land_on_ridge(contacts: Contacts, memory: Memory, output: Output) -> bool:
     balls, noted, landed = contacts.balls, memory.noted, False
     for cage in range(balls.shape[0]):
         for place in range(balls.shape[2]):
-            free = balls[cage, ACTIVE, place] < 0.5 and noted[cage, 0, place] < 0.0
+            free = balls[cage, ACTIVE, place] < 0.5 and noted[cage, NOTED_COMPRESSION, place] < 0.0
             if free and touches(contacts, cage, place):
                 toggle(balls, cage * balls.shape[2] + place, memory.clock[TIME], output)
                 landed = True

@@ -15,6 +15,7 @@ import numpy as np
 
 from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
+from physics.contact.contact_set import NOTED_COMPRESSION, NOTED_RATE
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_force
 from physics.contact.track import (
     CAGE,
@@ -76,7 +77,7 @@ def mark_grazing(contacts: Contacts, noted: Array, time: float, step: float, sus
             level += 1
         while arc <= leave:
             place = place_of(track, spall, turns)
-            begin, final = noted[cage, 0, place], balls[cage, COMPRESSION, place]
+            begin, final = noted[cage, NOTED_COMPRESSION, place], balls[cage, COMPRESSION, place]
             near = min(abs(final), abs(begin)) < row[RELIEF + level]
             # A ball that is compressed and yet free, as the film would have to pull it, may be pressed at any corner.
             let_go = contacts.law.no_tension and balls[cage, ACTIVE, place] < 0.5 and max(begin, final) > 0.0
@@ -102,7 +103,8 @@ def _first_contradiction(
     balls, track = contacts.balls, contacts.track
     cage = int(track.spalls[spall, CAGE])
     depth, slope = path_under(track, spall, arc)
-    begin, begin_rate = noted[cage, 0, place] + depth, step * noted[cage, 1, place] + slope * travel
+    begin = noted[cage, NOTED_COMPRESSION, place] + depth
+    begin_rate = step * noted[cage, NOTED_RATE, place] + slope * travel
     depth, slope = path_under(track, spall, arc + travel)
     end, end_rate = balls[cage, COMPRESSION, place] + depth, step * balls[cage, CLOSING, place] + slope * travel
     c2 = 3.0 * (end - begin) - 2.0 * begin_rate - end_rate
@@ -110,7 +112,7 @@ def _first_contradiction(
     ride = Ride(spall, step, arc, travel, (c3, c2, begin_rate, begin))
     held = balls[cage, ACTIVE, place] > 0.5
     corner = _first_corner(contacts, ride) if contacts.law.no_tension and not held else LATER
-    before, rate_before = 0.0, step * noted[cage, 1, place]
+    before, rate_before = 0.0, step * noted[cage, NOTED_RATE, place]
     for look in range(1, looks + 1):
         share = look / looks
         if before >= corner:

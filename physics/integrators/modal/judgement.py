@@ -6,7 +6,7 @@ import math
 
 from physics._jit import njit_inline, njit_pasted
 from physics.arrays import Array
-from physics.contact.contact_set import count_brushes, count_dips, count_lapses
+from physics.contact.contact_set import NOTED_COMPRESSION, NOTED_RATE, count_brushes, count_dips, count_lapses
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_power
 from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
 from physics.integrators.modal.memory import (
@@ -83,8 +83,8 @@ def resolution_error(contacts: Contacts, noted: Array, midway: Array, step: floa
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
             if balls[cage, ACTIVE, j] > 0.5:
-                start, rate = noted[cage, 0, j], noted[cage, 1, j]
-                middle, middle_rate = midway[cage, 0, j], midway[cage, 1, j]
+                start, rate = noted[cage, NOTED_COMPRESSION, j], noted[cage, NOTED_RATE, j]
+                middle, middle_rate = midway[cage, NOTED_COMPRESSION, j], midway[cage, NOTED_RATE, j]
                 end, end_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
                 film = end - start - step / 6.0 * (rate + 4.0 * middle_rate + end_rate)
                 root, end_root = law_power(law, start), law_power(law, end)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inner, njit_pasted
 from physics.arrays import Array
+from physics.contact.contact_set import NOTED_COMPRESSION, NOTED_RATE
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FORCE, Contacts, Law, law_force
 from physics.integrators.modal.memory import PULLING, Memory
 from physics.integrators.output import HELD, PULLED, Output
@@ -34,15 +35,14 @@ def pulled_share(balls: Array, law: Law, noted: Array, step: float) -> float:
         for j in range(balls.shape[2]):
             if balls[cage, ACTIVE, j] < 0.5:
                 continue
-            starts = law_force(law, noted[cage, 0, j], noted[cage, 1, j]) < 0.0
+            first, first_rate = noted[cage, NOTED_COMPRESSION, j], noted[cage, NOTED_RATE, j]
+            starts = law_force(law, first, first_rate) < 0.0
             ends = balls[cage, FORCE, j] < 0.0
             if starts and ends:
                 total += 1.0
             elif starts or ends:
-                turn = sign_change(
-                    law, step, noted[cage, 0, j], noted[cage, 1, j], balls[cage, COMPRESSION, j],
-                    balls[cage, CLOSING, j], starts,
-                )  # fmt: skip
+                last, last_rate = balls[cage, COMPRESSION, j], balls[cage, CLOSING, j]
+                turn = sign_change(law, step, first, first_rate, last, last_rate, starts)
                 total += turn if starts else 1.0 - turn
     return total
 

@@ -18,7 +18,7 @@ LOGGED, UNLOCATED, STEPS = range(3)
 TALLY_ENTRIES = 3
 # Entries of `touched`: how long balls were in contact and in tension, summed over the balls; in seconds, or in samples
 # where a method looks at samples alone. Only the share of one in the other is used.
-HELD, PULLED = range(2)
+TOUCHED, PULLED = range(2)
 
 
 class Grid(NamedTuple):
@@ -90,12 +90,12 @@ def record(
     if output.force.shape[0] > 0:
         for ball in range(output.force.shape[1]):
             output.force[sample, ball] = of_ball(balls, FORCE, ball)
-    held, pulled = 0, 0
+    touching, pulled = 0, 0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            held += balls[cage, ACTIVE, j] > 0.5
+            touching += balls[cage, ACTIVE, j] > 0.5
             pulled += balls[cage, FORCE, j] < 0.0
-    output.touched[HELD] += held
+    output.touched[TOUCHED] += touching
     output.touched[PULLED] += pulled
     size = abs(output.acceleration[sample, 0]) + abs(output.acceleration[sample, 1])
     return size < LARGEST_ACCELERATION

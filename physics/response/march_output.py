@@ -9,12 +9,12 @@ import numpy as np
 from physics.assembly import ball_numbers
 from physics.contact.forces import Contacts
 from physics.integrators.output import (
-    HELD,
     LOGGED,
     NOT_FINITE,
     OUT_OF_STEPS,
     PULLED,
     TALLY_ENTRIES,
+    TOUCHED,
     UNLOCATED,
     Grid,
     Output,
@@ -65,7 +65,7 @@ def trace_of(scene: Scene, grid: Grid, output: Output, method: str) -> Trace:
             # Inside a step a ball that is just not let go of would pull by as little as the step may be wrong.
             normal = np.maximum(normal, 0.0)
         force = normal.reshape(-1, bearing.rows, bearing.balls)
-    held, pulled = float(output.touched[HELD]), float(output.touched[PULLED])
+    touched, pulled = float(output.touched[TOUCHED]), float(output.touched[PULLED])
     rate = 1.0 / (grid.substeps * grid.step)
     return Trace(
         rate=rate,
@@ -82,7 +82,7 @@ def trace_of(scene: Scene, grid: Grid, output: Output, method: str) -> Trace:
         method=method,
         step=grid.step,
         error_estimate=math.nan,
-        tension_share=pulled / held if held else 0.0,
+        tension_share=pulled / touched if touched else 0.0,
         unlocated_changes=int(output.tally[UNLOCATED]),
         state=output.state if output.state.shape[0] else None,
         contact_force=force,

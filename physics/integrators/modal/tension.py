@@ -7,7 +7,7 @@ from physics.arrays import Array
 from physics.contact.contact_set import NOTED_COMPRESSION, NOTED_RATE
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FORCE, Contacts, Law, law_force
 from physics.integrators.modal.memory import PULLING, Memory
-from physics.integrators.output import HELD, PULLED, Output
+from physics.integrators.output import PULLED, TOUCHED, Output
 
 # The instant at which a force changes its sign is found to 2^-12 of a step.
 HALVINGS = 12
@@ -16,12 +16,12 @@ HALVINGS = 12
 @njit_pasted
 def add_contact_time(contacts: Contacts, memory: Memory, step: float, output: Output) -> None:
     """Add a `step` (s), at whose end `press` has left the `contacts`, to the time in contact and in tension."""
-    balls, law, held, pulling = contacts.balls, contacts.law, 0, 0
+    balls, law, touching, pulling = contacts.balls, contacts.law, 0, 0
     for cage in range(balls.shape[0]):
         for j in range(balls.shape[2]):
-            held += balls[cage, ACTIVE, j] > 0.5
+            touching += balls[cage, ACTIVE, j] > 0.5
             pulling += balls[cage, FORCE, j] < 0.0
-    output.touched[HELD] += held * step
+    output.touched[TOUCHED] += touching * step
     if not law.no_tension and pulling + memory.marks[PULLING] > 0:
         output.touched[PULLED] += step * pulled_share(balls, law, memory.noted, step)
     memory.marks[PULLING] = pulling

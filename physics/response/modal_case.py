@@ -29,6 +29,9 @@ from physics.trace import ACCELERATION_ALONE, Kept
 
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
+# Share of the shortest wave of a race that a ball covers in a step at most. Over an eighth of it the parabola through
+# the rates at both ends (count_dips) is 1e-3 of the wave's amplitude off.
+WAVE_SHARE = 1.0 / 8.0
 # N/m; the modes need a spring between the rings even where no ball is pressed: one so soft that a kilogram on it swings
 # at 5 Hz.
 SMALLEST_STIFFNESS = 1e3
@@ -63,6 +66,15 @@ class Case:
     def tables(self) -> tuple[Array, Array]:
         """Weights of the steps of whole units."""
         return tables_for(self.flow, 1.0 / self.rate)
+
+    @cached_property
+    def longest(self) -> float:
+        """Longest step (s): a free ball that meets a crest of a wavy race is seen by its motion at both ends."""
+        scene, fastest = self.scene, 0.0  # rad/s, of the waves under the balls
+        for wave in scene.imperfections.waviness:
+            for cage in scene.cages:
+                fastest = max(fastest, wave.order * abs(cage.mean_speed - scene.race_speed(wave.race)))
+        return WAVE_SHARE * 2.0 * math.pi / fastest if fastest > 0.0 else math.inf
 
     @property
     def push(self) -> float:
@@ -128,7 +140,7 @@ class March:
         case, contacts = self.case, self._contacts
         if self._memory is None:
             start = case.amplitudes(self.push)
-            self._memory = memory_for(case.flow, start, case.tables, contacts.balls.shape)
+            self._memory = memory_for(case.flow, start, case.tables, contacts.balls.shape, case.longest)
             begin(contacts, case.flow, grid, self._memory, self.output)
         self._memory.marks[RETUNE] = 0  # the grid may be another one than before
         status = LOG_FULL

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -65,7 +66,8 @@ class Memory(NamedTuple):
     - `suspects` (G, M): share of the step at which a ball was seen to contradict the contact set, 0 if it was not
     - `past` (2, 2): contact force (N) at the beginning and in the middle of the step before
     - `noted`, `midway` (G, 2, M): compression (m) and its rate (m/s) of the balls at the step's beginning and midway
-    - `clock`, `marks`: the entries named above; `fastest` (1/s): the largest size of an eigenvalue
+    - `clock`, `marks`: the entries named above; `fastest` (1/s): the largest size of an eigenvalue;
+      `longest` (s): that of any step
     """
 
     states: Array
@@ -83,6 +85,7 @@ class Memory(NamedTuple):
     clock: Array
     marks: Index
     fastest: float
+    longest: float
 
 
 class ModalGrid(NamedTuple):
@@ -104,8 +107,11 @@ class ModalGrid(NamedTuple):
     spending: float
 
 
-def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shape: tuple[int, ...]) -> Memory:
-    """Memory for a march from the amplitudes `start` (12,) of contacts whose balls are an array of this `shape`.
+def memory_for(
+    flow: LinearFlow, start: Array, tables: tuple[Array, Array], shape: tuple[int, ...], longest: float = math.inf
+) -> Memory:
+    """Memory for a march from the amplitudes `start` (12,) of contacts whose balls are an array of this `shape`, in
+    steps of `longest` (s) at most.
 
     `tables` (modal/tables.py) may serve several marches at once: the row BETWEEN is the memory's own.
     """
@@ -126,4 +132,5 @@ def memory_for(flow: LinearFlow, start: Array, tables: tuple[Array, Array], shap
         clock=np.zeros(CLOCK_ENTRIES),
         marks=np.zeros(MARKS_ENTRIES, dtype=np.int64),
         fastest=flow.fastest,
+        longest=longest,
     )

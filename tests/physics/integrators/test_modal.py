@@ -23,6 +23,7 @@ from kernels import (
 from scipy.linalg import expm
 
 from physics.assembly import assemble
+from physics.cage import CagePath
 from physics.contact.forces import ACTIVE, COMPRESSION
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.modal.error_growth import ringing
@@ -458,6 +459,15 @@ def test_a_ball_that_changes_sides_and_back_within_a_step_is_not_passed_over(nam
     here, there = (np.lexsort((changes.time, changes.ball, changes.row)) for changes in (found, fine))
     assert np.array_equal(found.ball[here], fine.ball[there])
     assert np.abs(found.time[here] - fine.time[there]).max() < 0.1 / RATE  # of changes, not of their pairs
+
+
+def test_the_crest_of_a_wave_shorter_than_a_sample_is_not_passed_over(fan, build_scene):
+    speed = 20000.0 * math.pi / 30.0
+    operation, waves = {"shaft_speed": speed, "load": 100.0}, (Waviness("inner", 500, 1e-6),)
+    cage = CagePath(nominal_speed=fan.bearing.cage_speed(speed), duration=0.05)
+    scene = build_scene(fan, operation=operation, cage=cage, imperfections=Imperfections(waves))
+    trace, fine = simulate(scene, RATE), simulate(scene, RATE, FixedSteps(32, "dormand_prince"))
+    assert rms(trace.acceleration - fine.acceleration) < 1e-3 * rms(fine.acceleration)
 
 
 def test_a_ball_that_touches_between_two_looks_at_a_rough_path_is_seen(reference_scene):

@@ -84,7 +84,7 @@ def confirm_doubtful(goal: Goal, output: Output, grid: ModalGrid, sensitivity: f
     again = goal.anew(grid)
     sensitivity = max(sensitivity, observed_sensitivity(goal.case, output, again))
     if sensitivity > CHAOTIC or fewest_touching(again) == 0:
-        return *_confirmed(goal, _pair(output, again, share), grid), sensitivity
+        return *_confirmed(goal, _pair(output, again, share), grid, sensitivity), sensitivity
     size = rms(again.acceleration)
     if goal.error(again, sensitivity) > goal.allowed(size):
         again, _ = to_accuracy(goal, goal.begin(), size**2, sensitivity)
@@ -120,17 +120,19 @@ def _pair(coarse: Output, fine: Output, share: float) -> Pair:
     return Pair(coarse, fine, share, rms_distance(coarse, fine), rms(fine.acceleration))
 
 
-def _confirmed(goal: Goal, pair: Pair, grid: ModalGrid) -> tuple[Output, float]:
+def _confirmed(goal: Goal, pair: Pair, grid: ModalGrid, sensitivity: float) -> tuple[Output, float]:
     """The fine response of the `pair`, which is on `grid`, or the first finer one, that is well within the goal of the
     one before; and the error (m/s², RMS) that follows from this.
 
-    Where they are LOST too SOON for the attempts that are left, the error is infinite.
+    Two that erred alike are near to each other all the same: what a scene of this `sensitivity` makes of the errors of
+    the fine one's steps counts too. Where they are LOST too SOON for the attempts that are left, the error is infinite.
     """
     most, power = MUCH_WORK * int(pair.coarse.tally[STEPS]), LATE
     for attempt in range(MOST_CONFIRMATIONS):
         allowed = goal.allowed(pair.size)
-        if pair.error <= allowed:
-            return pair.fine, pair.error
+        error = max(pair.error, goal.error(pair.fine, sensitivity))
+        if error <= allowed:
+            return pair.fine, error
         if pair.lost and (attempt >= len(SOON) or pair.lost_within(SOON[attempt])):
             break
         if int(pair.fine.tally[STEPS]) > most:
@@ -142,7 +144,7 @@ def _confirmed(goal: Goal, pair: Pair, grid: ModalGrid) -> tuple[Output, float]:
         except SimulationFailed:
             break  # no finer one can be made
         power, pair = _observed_power(pair, following), following
-    return pair.fine, math.inf if pair.lost else pair.error
+    return pair.fine, math.inf if pair.lost else max(pair.error, goal.error(pair.fine, sensitivity))
 
 
 def _next_share(pair: Pair, allowed: float, power: float) -> float:
@@ -150,13 +152,13 @@ def _next_share(pair: Pair, allowed: float, power: float) -> float:
     with tolerances to this `power`."""
     if pair.lost:
         return MUCH_FINER
-    wanted = allowed / (CONFIRMED * pair.distance * pair.share**power)
-    return min(max(wanted ** (1.0 / power), MUCH_FINER), SURE)
+    expected = CONFIRMED * pair.distance * pair.share**power
+    return min(max((allowed / expected) ** (1.0 / power), MUCH_FINER), SURE) if expected > 0.0 else SURE
 
 
 def _observed_power(pair: Pair, following: Pair) -> float:
     """The power of the tolerance with which the distance has shrunk from one pair to the following, LATE to 1."""
     distance = max(following.distance, ROUND_OFF * following.size)
-    if distance == 0.0:
+    if distance == 0.0 or pair.distance == 0.0:
         return 1.0
     return min(max(math.log(distance / pair.distance) / math.log(pair.share), LATE), 1.0)

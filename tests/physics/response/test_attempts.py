@@ -103,13 +103,12 @@ def test_a_chaotic_response_is_confirmed_by_one_so_much_finer_as_their_distance_
     assert sensitivity == 60.0
 
 
-def test_a_response_that_finer_ones_leave_nothing_of_is_confirmed_without_error():
+def test_a_response_that_finer_ones_leave_nothing_of_ends_as_nothing():
     late = np.arange(SAMPLES)[:, None] >= 0.9 * SAMPLES
     vanishing = World(lambda asked, number: an_output(np.where(late, asked, 0.0) * [1.0, 1.0] * (asked > 2e-5), asked))
     fine, error, _ = confirm_doubtful(*coarse_of(vanishing, 60.0))
-    assert len(vanishing.asked) == 2
     assert not fine.acceleration.any()
-    assert error == 0.0
+    assert error == pytest.approx(6.0 * 60.0 * vanishing.asked[-1], rel=1e-9)  # of the steps: both are alike
 
 
 def test_a_response_of_exactly_zero_is_not_asked_for_again_and_again():
@@ -117,6 +116,15 @@ def test_a_response_of_exactly_zero_is_not_asked_for_again_and_again():
     goal, march = begun(nothing)
     to_accuracy(goal, march, 1.0, 0.0)
     assert len(nothing.asked) == 1
+
+
+def test_one_near_to_the_one_before_whose_steps_erred_as_much_confirms_nothing():
+    near = [1.0 + 1e-5 * number for number in range(3)]
+    pushed = [1e-4, 1e-4, 1e-7]
+    world = World(lambda asked, number: an_output(np.full((SAMPLES, 2), near[number]), pushed[number]))
+    fine, error, _ = confirm_doubtful(*coarse_of(world, 60.0))
+    assert fine.acceleration[0, 0] == near[2]  # 6 · 60 · 1e-4 is 36 times the accuracy, 6 · 60 · 1e-7 is within it
+    assert error == pytest.approx(6.0 * 60.0 * 1e-7, rel=1e-3)
 
 
 def test_rings_that_part_are_confirmed_however_little_sensitive():

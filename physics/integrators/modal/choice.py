@@ -109,7 +109,6 @@ def next_step(balls: Array, grid: ModalGrid, stops: Stops, memory: Memory) -> Ch
         if marks[ON_GRID] == 1 and units > 0 and whole:
             return Choice(units, units, time + units * unit, time + units * unit)
         return Choice(BETWEEN, 0, time + length, time + length)
-    clock[PACE] = min(clock[PACE], memory.longest)
     level = stride_level(balls, grid, stops, memory)
     if level > 0:
         units = UNITS * STRIDES[level - 1]

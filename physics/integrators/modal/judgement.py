@@ -151,6 +151,7 @@ def judge(contacts: Contacts, grid: ModalGrid, memory: Memory, step: float) -> b
         clock[PACE] = 1.5 * step
     elif step < clock[PACE]:
         clock[PACE] = step
+    clock[PACE] = min(clock[PACE], memory.longest)
     return True
 
 

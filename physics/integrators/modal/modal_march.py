@@ -87,7 +87,7 @@ def begin(contacts: Contacts, flow: LinearFlow, grid: ModalGrid, memory: Memory,
     force = remaining_force(contacts, flow, state, rest)
     clock[:] = 0.0
     marks[:] = 0
-    clock[PACE], marks[BALL], marks[ON_GRID] = grid.interval, NO_BALL, 1
+    clock[PACE], marks[BALL], marks[ON_GRID] = min(grid.interval, memory.longest), NO_BALL, 1
     marks[BUMPY] = int(is_bumpy(contacts.track))
     clock[SQUARES] = record(flow, state, rest, 0, output)
     set_tolerance(grid, memory, 1)

@@ -7,6 +7,7 @@
 - `silence`: what is too small to be more than rounding
 - `kinks`: known instants at which steps have to end; `change_log`: room for changes of contact; `march_output`: what
   a march writes into, and the trace that comes of it
-- `oversampling`: how finely to sample a response; `resampling`: other samples of what came out; `lowered`: to the
-  accuracy of what is left of it at a lower rate
+- `oversampling`: how finely to sample a response; `resampling`: other samples of what came out
+- `part`: made again until a part of it is exact enough: what comes behind a lead-in, or what is left at a lower rate
+  (`lowered`)
 """

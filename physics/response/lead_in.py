@@ -9,29 +9,24 @@ from dataclasses import replace
 import numpy as np
 
 from physics.cage import CagePath
+from physics.response.part import Part, exact_in_part
 from physics.rms import rms
 from physics.scene import Scene
 from physics.trace import ContactChanges, Trace
 
-# Of the accuracy that would just do, what a response that was not exact enough is made to next; how many are made.
-NEXT_SHARE, MOST_ATTEMPTS = 0.9, 3
-
 
 def respond_behind(respond: Callable[[float], Trace], before: int, accuracy: float, least_error: float) -> Trace:
-    """The trace that `respond` gives, to a relative RMS `accuracy` of the part behind its first `before` samples.
+    """The trace that `respond` gives when called with an accuracy, to a relative RMS `accuracy` of the part behind its
+    first `before` samples, or to `least_error` (m/s², RMS).
 
-    That part may be far quieter than the start: `respond` is called with smaller and smaller accuracies until the error
-    is within the `accuracy` of that part, or within `least_error` (m/s², RMS). The error estimate is relative to that
-    part.
+    That part may be far quieter than the start. The error estimate is relative to it.
     """
-    asked = accuracy
-    for _ in range(MOST_ATTEMPTS):
+
+    def behind(asked: float) -> Part:
         trace = respond(asked)
-        error, size = trace.error_estimate * rms(trace.acceleration), rms(trace.acceleration[before:])
-        allowed = max(accuracy * size, least_error)
-        if trace.chaotic or error <= allowed:
-            break
-        asked *= NEXT_SHARE * allowed / error
+        return Part(trace, trace.error_estimate * rms(trace.acceleration), rms(trace.acceleration[before:]))
+
+    trace, error, size = exact_in_part(behind, accuracy, least_error)
     return trace if trace.chaotic or size == 0.0 else replace(trace, error_estimate=error / size)
 
 

@@ -1,11 +1,11 @@
-"""A response whose rate is lowered: far less may be left of the signal than of its error."""
+"""A response whose rate is lowered behind it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
 
-from physics.response.lead_in import MOST_ATTEMPTS, NEXT_SHARE
+from physics.response.part import Part, exact_in_part
 from physics.rms import rms
 from physics.trace import Trace
 
@@ -15,18 +15,16 @@ def respond_lowered(
 ) -> Trace:
     """The trace that `respond` gives, to a relative RMS `accuracy` of what is left of it at the lower rate.
 
-    `respond` is called with smaller and smaller accuracies, and gives a trace at the lower rate and the RMS (m/s²) that
-    it had before. Of its error the `share` is left, until that is within the `accuracy` of the trace, or within
-    `least_error` (m/s², RMS). The error estimate is never below that of the trace before.
+    `respond` is called with an accuracy, and gives a trace at the lower rate and the RMS (m/s²) that it had before. Of
+    its error the `share` is left; `least_error` (m/s², RMS) of that is always allowed. The error estimate is never
+    below that of the trace before.
     """
-    asked = accuracy
-    for _ in range(MOST_ATTEMPTS):
+
+    def left(asked: float) -> Part:
         trace, before = respond(asked)
-        error, size = share * trace.error_estimate * before, rms(trace.acceleration)
-        allowed = max(accuracy * size, least_error)
-        if trace.chaotic or error <= allowed:
-            break
-        asked *= NEXT_SHARE * allowed / error
+        return Part(trace, share * trace.error_estimate * before, rms(trace.acceleration))
+
+    trace, error, size = exact_in_part(left, accuracy, least_error)
     if trace.chaotic or size == 0.0:
         return trace
     return replace(trace, error_estimate=max(trace.error_estimate, error / size))

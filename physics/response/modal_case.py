@@ -30,8 +30,8 @@ from physics.trace import ACCELERATION_ALONE, Kept
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
 USUAL_PUSHES = 0.3
 # Share of the shortest wave of a race that a ball covers in a step at most. Over more of it the rates at both ends
-# (count_dips) say nothing of a crest between. Over an eighth at most, coarse and fine responses of common races would
-# take the same steps, which hides how their errors grow.
+# (count_dips) say nothing of a crest between. A far smaller share would bind on common races too: their coarse and fine
+# responses would take the same steps, which hides how errors grow.
 WAVE_SHARE = 0.5
 # N/m; the modes need a spring between the rings even where no ball is pressed: one so soft that a kilogram on it swings
 # at 5 Hz.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from physics.arrays import Array
 from physics.integrators.modal.flow import DISPLACEMENT, OUTPUT, LinearFlow, complex_modes
@@ -14,24 +15,13 @@ from physics.integrators.modal.flow import DISPLACEMENT, OUTPUT, LinearFlow, com
 # scenes in five have a ratio above 4.
 FEEDING = 4.0
 
-# Lines of a spectrum on the way up to a frequency, and round each mode.
-SPECTRUM_LINES = 801
-
 
 def ringing(flow: LinearFlow, duration: float) -> float:
     """What a push of 1 N s between the rings leaves in the resonator's acceleration: ∫ a² dt, m²/s³ per (N s)².
 
     The larger of both directions. A mode that rings on for longer than `duration` (s) counts as if it did not.
     """
-    sums = []
-    for axis in range(2):
-        rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[OUTPUT]), axis)
-        rate, share = np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
-        # Re(s e^λt) Re(s' e^λ't), integrated from 0 to ∞, for all pairs of modes.
-        same = share[:, None] * share / (rate[:, None] + rate)
-        mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())
-        sums.append(-0.5 * float((same + mixed).sum().real))
-    return max(sums)
+    return max(_energy(*_left_by_a_push(flow, duration, axis)) for axis in range(2))
 
 
 def share_below(flow: LinearFlow, duration: float, frequency: float) -> float:
@@ -41,20 +31,35 @@ def share_below(flow: LinearFlow, duration: float, frequency: float) -> float:
     """
     shares = []
     for axis in range(2):
-        rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[OUTPUT]), axis)
-        rate, share = np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
-        # Dense where a mode rings, of whatever width.
-        round_modes = rate.imag[:, None] - rate.real[:, None] * np.tan(np.linspace(-1.57, 1.57, SPECTRUM_LINES))
-        end = 2.0 * math.pi * frequency
-        lines = np.unique(
-            np.clip(np.concatenate([round_modes.ravel(), np.linspace(0.0, end, SPECTRUM_LINES)]), 0.0, None)
-        )
-        turning = 1j * lines[:, None]
-        answer = 0.5 * (share / (turning - rate) + share.conj() / (turning - rate.conj())).sum(axis=1)
-        power = np.abs(answer) ** 2
-        below = lines <= end
-        shares.append(math.sqrt(np.trapezoid(power[below], lines[below]) / np.trapezoid(power, lines)))
+        rate, share = _left_by_a_push(flow, duration, axis)
+        below = _spectral_energy(rate, share, 2.0 * math.pi * frequency) / math.pi  # Parseval
+        shares.append(math.sqrt(max(below, 0.0) / _energy(rate, share)))
     return max(shares)
+
+
+def _left_by_a_push(flow: LinearFlow, duration: float, axis: int) -> tuple[NDArray[np.complex128], ...]:
+    """Eigenvalues λ (1/s) and amplitudes s (m/s² per N s) of the modes in what a push of 1 N s leaves in the
+    resonator's acceleration along an `axis`: Re Σ s e^λt, decaying within the `duration` (s) at least."""
+    rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[OUTPUT]), axis)
+    return np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
+
+
+def _energy(rate: NDArray[np.complex128], share: NDArray[np.complex128]) -> float:
+    """∫ (Re Σ s e^λt)² dt from 0 to ∞, of all pairs of modes."""
+    same = share[:, None] * share / (rate[:, None] + rate)
+    mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())
+    return -0.5 * float((same + mixed).sum().real)
+
+
+def _spectral_energy(rate: NDArray[np.complex128], share: NDArray[np.complex128], end: float) -> float:
+    """∫ |H(iω)|² dω from 0 to `end` (rad/s), of the Laplace transform H of Re Σ s e^λt.
+
+    Of two of its terms, s/2 over iω − λ each, one with the other's conjugate, the product is their sum over −(λ + λ̄').
+    """
+    poles, half = np.concatenate([rate, rate.conj()]), 0.5 * np.concatenate([share, share.conj()])
+    term = -1j * (np.log(1j * end - poles) - np.log(-poles))  # ∫ dω / (iω − λ); no branch is met, as Re λ < 0
+    pairs = half[:, None] * half.conj() * (term[:, None] + term.conj()) / -(poles[:, None] + poles.conj())
+    return float(pairs.sum().real)
 
 
 def memory_of_errors(flow: LinearFlow, swing: Array) -> float:

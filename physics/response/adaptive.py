@@ -75,6 +75,8 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
         # One that is to be made again anyway need not be as exact as its sensitivity asks for.
         output, grid = to_accuracy(goal, march, begun.square, sensitivity if sensitivity <= DOUBTFUL else 0.0)
     size = rms(output.acceleration)
+    if size == 0.0:
+        return output, 0.0, sensitivity  # no load and no preload: balls that just touch the rings move nothing
     # Nothing may hold the rings beside a single direction of contact: they swing, and errors grow, at any time.
     loose = not growing and fewest_touching(output) <= goal.case.scene.rig.bearing.rows
     whole = growing or loose or _louder_later(output, pilot)

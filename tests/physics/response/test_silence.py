@@ -2,14 +2,17 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from physics.imperfections import Imperfections, Waviness
+from physics.paths.roughness import draw_roughness
 from physics.reference_scenes import reference_scene
 from physics.request import FixedSteps, LeadIn
 from physics.response.silence import largest_forces, silence
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
+from physics.spall import Spall
 
 RATE, LEAD_IN = 32768.0, LeadIn(0.5)
 
@@ -58,6 +61,17 @@ def test_nothing_at_all_is_exact_and_no_rounding():
     trace = simulate(preloaded("G0", 0.0, clearance=0.0), RATE)
     assert not trace.acceleration.any()
     assert not trace.silent
+    assert trace.error_estimate == 0.0
+
+
+@pytest.mark.parametrize("seed", [0, 5])
+def test_unloaded_balls_that_just_touch_a_rough_spall_move_nothing(seed):
+    scene = preloaded("G0", 0.0, clearance=0.0)
+    heights = draw_roughness(np.random.default_rng(seed), scene.rig.bearing, "outer", 0.68, 1e-6, None)
+    spall = Spall("outer", 1, 4.71, 0.68, 3e-6, profile="ball_path", roughness=1e-6, roughness_values=heights)
+    trace = simulate(replace(scene, spalls=(spall,)), RATE)
+    assert trace.changes.time.size > 0
+    assert not trace.acceleration.any()
     assert trace.error_estimate == 0.0
 
 

@@ -73,7 +73,7 @@ def test_a_shard_that_may_not_be_read_is_named(copy: Path, monkeypatch: pytest.M
     monkeypatch.setattr("netCDF4.Dataset", forbidden)
     with pytest.raises(BadInput, match=r"shard_000000\.nc: this shard cannot be read for lack of permission"):
         Corpus(copy).waveform(0)
-    monkeypatch.setattr("datagen.inspection.check.file_hash", forbidden)
+    monkeypatch.setattr("datagen.inspection.shard_check.file_hash", forbidden)
     verdict = check_corpus(copy)
     assert (
         "shards/shard_000000.nc: it cannot be read for lack of permission; change its permissions" in verdict.problems

@@ -112,6 +112,14 @@ def test_a_missing_shard_and_one_without_sidecar_are_found(copy: Path) -> None:
     assert "records asked for are missing" in problems
 
 
+def test_a_record_that_two_shards_hold_is_found(copy: Path) -> None:
+    shard_path(copy, 99).write_bytes(shard_path(copy, 0).read_bytes())
+    sidecar = json.loads(sidecar_path(copy, 0).read_text())
+    sidecar_path(copy, 99).write_text(json.dumps(sidecar | {"shard": 99}))
+    problem = f"shards/shard_000099.nc: record {min(sidecar['records'])} is in another shard too"
+    assert problem in check_corpus(copy).problems
+
+
 def test_a_copy_of_a_sidecar_under_another_name_is_found(copy: Path) -> None:
     content = (copy / "shards" / "shard_000000.json").read_bytes()
     (copy / "shards" / "shard_000000 (1).json").write_bytes(content)

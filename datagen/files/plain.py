@@ -1,4 +1,4 @@
-"""Results as JSON text for other programs."""
+"""Results as plain data, and as JSON text, for other programs."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ from typing import Any
 
 def plain_json(result: Any) -> str:
     """JSON text of dataclasses, mappings, sequences, arrays, numbers; NaN and infinities, which it lacks, are null."""
-    return json.dumps(_plain(result), indent=1, allow_nan=False) + "\n"
+    return json.dumps(plain(result), indent=1, allow_nan=False) + "\n"
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
+    """The same as what JSON knows: dictionaries, lists, numbers, None for NaN and infinities; all else as it is."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
     if isinstance(value, Mapping):
-        return {str(key): _plain(held) for key, held in value.items()}
+        return {str(key): plain(held) for key, held in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(held) for held in value]
+        return [plain(held) for held in value]
     if hasattr(value, "tolist"):  # of NumPy
-        return _plain(value.tolist())
+        return plain(value.tolist())
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.files.plain import plain
 from datagen.versions import program_versions
 
 NAME = "scored_runs.jsonl"
@@ -20,14 +21,14 @@ def log_path(folder: Path) -> Path:
 
 
 def write_line(folder: Path, said: dict[str, Any]) -> None:
-    """Append a line to the log of a corpus: what is `said`, when, and by which versions.
+    """Append a line of JSON to the log of a corpus: what is `said` (null for NaN), when, and by which versions.
 
     Raises BadInput if it cannot be written: no run may score recordings without leaving a trace.
     """
     line = {"time": datetime.now(UTC).isoformat(timespec="seconds"), **said, "versions": program_versions()}
     try:
         with log_path(folder).open("a", encoding="utf-8") as file:
-            file.write(json.dumps(line, default=str) + "\n")
+            file.write(json.dumps(plain(line), default=str, allow_nan=False) + "\n")
     except OSError as problem:
         raise no_log(folder, f": {problem.strerror}") from None
 

@@ -19,7 +19,7 @@ from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machi
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_scores import SizeScores
 from datagen.sizing.size_summary import StatedSizes
-from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records
+from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records, without_load
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 
 NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
@@ -49,8 +49,12 @@ def score_sizes(
     if logged:
         options = {"split": chosen, "load_known": load_known, "known_sizes": dict(sizes)}
         write_line(folder, {"began": options, "sizes_by": name})
-    known = known_sizes(folder, sizes, sizer, load_known)
-    records = sized_records(folder, load_known=load_known, splits=splits)
+
+    def told(records: Iterator[SizedRecord]) -> Iterator[SizedRecord]:
+        return records if load_known else without_load(records)
+
+    known = known_sizes(folder, sizes, told(sized_records(folder, only=sizes)), sizer)
+    records = told(sized_records(folder, splits))
     total = count_records(folder, splits) - len(unsized)
     made = _counted(_scored(records, estimator, known, workers), total, count)
     scored = sorted([*made, *unsized], key=lambda record: record.truth.record)

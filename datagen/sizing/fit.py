@@ -123,9 +123,10 @@ def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:
 def fit_calibration(made: list[Trial], columns: TrialColumns) -> Calibration:
     """The calibration of the training trials `made` (N,) and their `columns`; says how they fare out of fold."""
     score = fit_pair_score(made, columns.bearing)
+    told = {"blind": [trial.without_load() for trial in made], "with load and Hertz factor": made}
     judgements = []
-    for name, load_known in (("blind", False), ("with load and Hertz factor", True)):
-        judgement, cross_fits = _judgement(made, columns, score.scores, load_known=load_known)
+    for name, seen in told.items():
+        judgement, cross_fits = _judgement(seen, columns, score.scores)
         print(name)
         for noise, cross_fit in cross_fits.items():
             print(noise, *cross_fit.lines(), sep="; ")
@@ -134,11 +135,9 @@ def fit_calibration(made: list[Trial], columns: TrialColumns) -> Calibration:
     return Calibration(score.trees, blind, with_load)
 
 
-def _judgement(
-    made: list[Trial], columns: TrialColumns, scores: list[Array], *, load_known: bool
-) -> tuple[Judgement, dict[str, CrossFit]]:
+def _judgement(made: list[Trial], columns: TrialColumns, scores: list[Array]) -> tuple[Judgement, dict[str, CrossFit]]:
     """The judgement of the pairs that lead by `scores`, and how typical trials fare out of fold, by their noise."""
-    rank = fit_rank(made, scores, columns.bearing, load_known=load_known)
+    rank = fit_rank(made, scores, columns.bearing)
     lag = fit_guess(rank.rows, np.log(columns.lag / rank.lag), columns.bearing)
     estimated_lag = np.minimum(rank.lag * np.exp(lag.centre), columns.period)
     doubt = fit_doubt(rank.rows, estimated_lag, columns)

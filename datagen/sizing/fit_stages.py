@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from datagen.sizing.committee import FOLDS, Committee
 from datagen.sizing.training_rows import Trial
 from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.estimation.calibration import SMALLEST_SPREAD, Guess
-from labels.spall_size.estimation.measurement import LeadingPairs, leading_order, leading_pairs, measure
+from labels.spall_size.estimation.measurement import leading_order, leading_pairs, measure
 from labels.spall_size.estimation.trees import Trees
 from physics.arrays import Array
 
@@ -83,12 +83,13 @@ class FittedRank:
     rows: Array
 
 
-def fit_rank(made: list[Trial], scores: list[Array], bearing: Bearings, *, load_known: bool) -> FittedRank:
+def fit_rank(made: list[Trial], scores: list[Array], bearing: Bearings) -> FittedRank:
     """The rank of the pairs that lead by `scores`, (P,) of each of the trials `made` (N,) of these bearings (N,)."""
-    leading = [_leading(trial, score, load_known) for trial, score in zip(made, scores, strict=True)]
+    scored = list(zip(made, scores, strict=True))
+    leading = [leading_pairs(trial.evidence, score, trial.situation) for trial, score in scored]
     rows = np.concatenate([pairs.rows for pairs in leading])
     sizes = [pairs.lag.size for pairs in leading]
-    order = [leading_order(trial.evidence.pairs, score) for trial, score in zip(made, scores, strict=True)]
+    order = [leading_order(trial.evidence.pairs, score) for trial, score in scored]
     quality = np.concatenate([trial.quality[leaders] for trial, leaders in zip(made, order, strict=True)])
     everywhere = np.ones(quality.size, dtype=np.bool_)
     ranks = np.split(RANK.out_of_fold(rows, quality, everywhere, np.repeat(bearing, sizes)), np.cumsum(sizes)[:-1])
@@ -99,11 +100,6 @@ def fit_rank(made: list[Trial], scores: list[Array], bearing: Bearings, *, load_
         np.array([pair.lag_arc for pair in first]),
         np.array([pair.row for pair in first], dtype=np.float32).astype(np.float64),  # trees compare in single
     )
-
-
-def _leading(trial: Trial, score: Array, load_known: bool) -> LeadingPairs:
-    situation = trial.situation
-    return leading_pairs(trial.evidence, score, situation if load_known else replace(situation, load=None))
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from datagen.errors import BadInput
 from datagen.sizing.estimators import AnyEstimator
 from datagen.sizing.record_errors import arc_error, extent_error
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.sized_records import SizedRecord, sized_records
+from datagen.sizing.sized_records import SizedRecord
 from datagen.sizing.stated_situation import reason_against
 from labels.schema import UNKNOWN
 from labels.spall_size.known_size import known_size_factor
@@ -65,13 +65,15 @@ def machine_of(bearing_id: str, rig: str) -> str:
     return next((name for name in (bearing_id, rig) if name not in ("", UNKNOWN)), "")
 
 
-def known_sizes(folder: Path, sizes: Mapping[int, float], estimator: AnyEstimator, load_known: bool) -> list[KnownSize]:
-    """What each record with a known size (mm) says about its machine.
+def known_sizes(
+    folder: Path, sizes: Mapping[int, float], records: Iterable[SizedRecord], estimator: AnyEstimator
+) -> list[KnownSize]:
+    """What each of the `records` says about its machine, the length (mm) of whose spall is known; `sizes` are these by
+    record.
 
     Raises BadInput if one is not in the corpus, gets no estimate, or is of an unknown machine.
     """
     _check(folder, sizes)
-    records = sized_records(folder, load_known=load_known, only=sizes)
     return shared_factors([_known_size(folder, sized, sizes[sized.record], estimator) for sized in records])
 
 

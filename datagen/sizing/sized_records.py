@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -53,16 +53,13 @@ class UnsizedRecord:
 
 
 def sized_records(
-    folder: Path,
-    *,
-    load_known: bool,
-    splits: tuple[str, ...] | None = None,
-    only: Collection[int] | None = None,
+    folder: Path, splits: tuple[str, ...] | None = None, only: Collection[int] | None = None
 ) -> Iterator[SizedRecord]:
     """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
 
     The stated shaft speed of simulated records is wrong by up to ±2 %, so that no estimator may rely on it. That of
-    recordings is used as it is, or refined from the signal if it is only nominal.
+    recordings is used as it is, or refined from the signal if it is only nominal. Load and Hertz factor are given where
+    both are known.
     """
     table = _rows(folder, splits)
     able = [not reason_against(labels) for labels in table.to_dict("records")]
@@ -72,12 +69,19 @@ def sized_records(
             for labels in rows.to_dict("records"):
                 with shards.reading(str(shard)) as file:
                     stored = stored_record(file, int(labels["position"]), int(labels["record"]))
-                yield _sized(stored, {str(key): value for key, value in labels.items()}, load_known)
+                yield _sized(stored, {str(key): value for key, value in labels.items()})
+
+
+def without_load(records: Iterable[SizedRecord]) -> Iterator[SizedRecord]:
+    """The records as an estimator sees them that is given neither load nor Hertz factor."""
+    return (replace(record, situation=record.situation.without_load()) for record in records)
 
 
 def unsized_records(folder: Path, splits: tuple[str, ...] | None) -> list[UnsizedRecord]:
-    """The records of a corpus that cannot be sized, in order; BadInput if all are like that."""
+    """The records of a corpus that cannot be sized, in order; BadInput if all are like that, or there are none."""
     rows = [{str(key): value for key, value in row.items()} for row in _rows(folder, splits).to_dict("records")]
+    if not rows:
+        raise BadInput("this corpus has no records", str(folder))
     reasons = [reason_against(labels) for labels in rows]
     if not all(reasons):
         return [UnsizedRecord(labels, reason) for labels, reason in zip(rows, reasons, strict=True) if reason]
@@ -95,8 +99,8 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
     return table if splits is None else table[table["split"].isin(splits)]
 
 
-def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool) -> SizedRecord:
-    record, contact = int(labels["record"]), stored.contact_stiffness() if load_known else None
+def _sized(stored: StoredRecord, labels: dict[str, Any]) -> SizedRecord:
+    record = int(labels["record"])
     acceleration = stored.acceleration if stored.simulated else _level(stored.acceleration, labels)
     factor = wrong_speed(record) if stored.simulated else speed_found(labels, acceleration)
     return SizedRecord(
@@ -106,7 +110,7 @@ def _sized(stored: StoredRecord, labels: dict[str, Any], load_known: bool) -> Si
         clean=stored.clean,
         labels=labels,
         situation=replace(
-            situation_of(labels, contact, factor),
+            situation_of(labels, stored.contact_stiffness(), factor),
             polarity_known=stored.simulated,  # no recording says which way its sensor looked
         ),
         truth=stored.truth(labels),

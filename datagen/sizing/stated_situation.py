@@ -15,6 +15,7 @@ from labels.spall_size.situation import Situation
 from physics.angular_speed import RPM
 from physics.arrays import Array
 from physics.checks import InvalidParameter
+from physics.hertz import BALL_EXPONENT
 
 # Seed of the errors of the stated speeds.
 SPEED_SEED = 0
@@ -78,5 +79,5 @@ def situation_of(
         contact_angle=float(labels["contact_angle"]) if math.isfinite(float(labels["contact_angle"])) else 0.0,
         load=load if known else None,
         load_deflection=contact[0] if known and contact else None,
-        exponent=contact[1] if known and contact else 1.5,
+        exponent=contact[1] if known and contact else BALL_EXPONENT,
     )

@@ -65,12 +65,16 @@ class Trial:
     arc: float
     quality: Array
 
+    def without_load(self) -> Trial:
+        """The same as whoever knows neither load nor Hertz factor sees it."""
+        return replace(self, situation=self.situation.without_load())
+
 
 def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Trial]:
     """Every trial of the records of `splits` in a corpus that stores clean signals."""
     from joblib import delayed
 
-    records = sized_records(folder, load_known=True, splits=splits)
+    records = sized_records(folder, splits)
     made = in_blocks((delayed(_of_record)(sized) for sized in records), workers)
     return [trial for several in made for trial in several]
 

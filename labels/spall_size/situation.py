@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from physics.bearing import Bearing
 from physics.checks import require, require_not_negative, require_positive
+from physics.hertz import BALL_EXPONENT
 
 # Hertz factor of the bearing where none is known, N/mⁿ: it only has to be above 0.
 PLACEHOLDER_FACTOR = 1e10
@@ -30,7 +31,7 @@ class Situation:
     contact_angle: float = 0.0
     load: float | None = None
     load_deflection: float | None = None
-    exponent: float = 1.5
+    exponent: float = BALL_EXPONENT
     race: str | None = None
     polarity_known: bool = True
 
@@ -58,6 +59,10 @@ class Situation:
     def load_known(self) -> bool:
         """True if the release arc can be computed."""
         return self.load is not None and self.load > 0.0 and self.load_deflection is not None
+
+    def without_load(self) -> Situation:
+        """What is left of it for whoever knows neither load nor Hertz factor."""
+        return replace(self, load=None, load_deflection=None, exponent=BALL_EXPONENT)
 
     def pass_periods(self) -> dict[str, float]:
         """Nominal time between two ball passes for each race that comes into question, s."""

@@ -77,7 +77,7 @@ def sizing(scratch: Path, records: int) -> dict[str, float]:
     """Median and largest seconds an estimate of a record of `size_ladder` takes, one process, reading not included."""
     folder = made("size_ladder", scratch / "size_ladder", spread("size_ladder", records))
     estimator = default_estimator()
-    asked = list(sized_records(folder, load_known=True))
+    asked = list(sized_records(folder))
     estimator.estimate(asked[0].acceleration, asked[0].rate, asked[0].situation)
     spent = [seconds(lambda: estimator.estimate(one.acceleration, one.rate, one.situation)) for one in asked]  # noqa: B023
     return {"median_s": statistics.median(spent), "longest_s": max(spent), "records": len(asked)}

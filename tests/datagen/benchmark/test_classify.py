@@ -5,7 +5,6 @@ import re
 import shutil
 import sys
 from dataclasses import replace
-from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
@@ -30,13 +29,10 @@ from datagen.benchmark.verdicts import Tested as Judged
 from datagen.benchmark.verdicts import Verdicts
 from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
 from datagen.corpus import Corpus
-from datagen.errors import BadInput
 from datagen.judging.known import UNKNOWN_SPEED
-from datagen.judging.scored_runs import log_path, write_line
 from datagen.recipes.recipe import load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.versions import program_versions
 from labels.classifier.votes import averaged, joined
 from labels.features.table import FEATURE_NAMES
 
@@ -371,18 +367,6 @@ def test_raw_windows_of_any_rate_hold_the_same_tone():
     slow = resampled(tone, 10_000.0, 2000.0)
     np.testing.assert_allclose(slow, np.cos(2.0 * np.pi * 100.0 * np.arange(2000) / 2000.0), atol=1e-9)
     assert [window.size for window in cut(tone)] == [WINDOW_SAMPLES, WINDOW_SAMPLES]
-
-
-def test_runs_on_recordings_are_listed_line_by_line(tmp_path):
-    write_line(tmp_path, {"first": 1})
-    write_line(tmp_path, {"second": 2})
-    lines = [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()]
-    assert [list(line) for line in lines] == [["time", "first", "versions"], ["time", "second", "versions"]]
-    for line in lines:
-        assert datetime.fromisoformat(line["time"]) <= datetime.now(UTC)
-        assert line["versions"] == program_versions()
-    with pytest.raises(BadInput, match="logged"):
-        write_line(tmp_path / "nowhere", {})
 
 
 def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):

@@ -52,7 +52,7 @@ def test_nobody_opens_reads_or_closes_a_shard_while_another_thread_reads_one(tin
 
 
 def test_recordings_and_sized_records_are_read_by_one_thread_at_a_time_too(tiny_corpus: Path, tmp_path: Path) -> None:
-    records = sized_records(tiny_corpus, load_known=True)
+    records = sized_records(tiny_corpus)
     next(records)  # its file is open
     assert waits_while_a_shard_is_read(tiny_corpus, lambda: next(records))
     records.close()

@@ -203,10 +203,7 @@ def test_a_fit_to_few_records_gives_a_calibration_that_estimates(small_ladder: P
     with np.load(tmp_path / "calibration.npz") as file:
         learned = Calibration.from_arrays({name: file[name] for name in file.files})
     estimator = SizeEstimator(learned)
-    estimates = [
-        estimator.estimate(one.acceleration, one.rate, one.situation)
-        for one in sized_records(small_ladder, load_known=True)
-    ]
+    estimates = [estimator.estimate(one.acceleration, one.rate, one.situation) for one in sized_records(small_ladder)]
     assert len(estimates) == 24
     assert {one.outcome for one in estimates} <= {SizeOutcome.ESTIMATED, SizeOutcome.NO_EVENT_PAIR}
     assert all(one.extent_interval[0] < one.extent < one.extent_interval[1] for one in estimates if one.found)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.corpus_run import score_sizes
-from datagen.sizing.sized_records import sized_records
+from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import reason_against, speed_found
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -125,7 +126,7 @@ def test_where_no_record_can_be_sized_one_message_says_why_and_nothing_is_writte
 
 
 def test_the_speed_stated_with_a_recording_is_taken_as_it_is(tmp_path: Path) -> None:
-    (one,) = sized_records(imported(tmp_path, noise=noise(2)), load_known=True)
+    (one,) = sized_records(imported(tmp_path, noise=noise(2)))
     assert one.situation.shaft_speed == pytest.approx(2.0 * math.pi * 20.0, rel=1e-12)  # 1200 rpm
     assert one.situation.load is None
     assert not one.situation.polarity_known
@@ -143,14 +144,14 @@ def knocks(shaft_hz: float) -> np.ndarray:
 @pytest.mark.parametrize(("key", "expected"), [("nominal_speed_rpm", 0.962), ("speed_rpm", 1.0)])
 def test_a_nominal_speed_is_looked_for_and_another_one_is_not(key: str, expected: float, tmp_path: Path) -> None:
     spec = SPEC.replace("speed_rpm", key)
-    (record,) = sized_records(imported(tmp_path, spec, knocks=knocks(0.962 * 20.0)), load_known=True)
+    (record,) = sized_records(imported(tmp_path, spec, knocks=knocks(0.962 * 20.0)))
     assert record.situation.shaft_speed == pytest.approx(expected * 1200.0 * math.pi / 30.0, rel=2e-3)
 
 
 def test_a_jump_of_the_bias_changes_no_size(tmp_path: Path) -> None:
     signal = knocks(20.0)
     jumped = signal + 30.0 * signal.std() * (np.arange(signal.size) > 9000)
-    clean, level = sized_records(imported(tmp_path, knocks=signal, level=jumped), load_known=True)
+    clean, level = sized_records(imported(tmp_path, knocks=signal, level=jumped))
     assert np.abs(level.acceleration - clean.acceleration).max() < 0.1 * signal.std()
 
 
@@ -293,15 +294,15 @@ def test_the_records_whose_load_and_hertz_factor_were_given_are_counted(
 def test_a_stated_hertz_factor_comes_with_the_load(tmp_path: Path, bearing: str, factor: tuple[float, float]) -> None:
     (tmp_path / "states.csv").write_text(STATES)
     corpus = imported(tmp_path, STATED % bearing, none=noise(1), wide=noise(2), long=noise(3), silent=noise(4))
-    situations = [one.situation for one in sized_records(corpus, load_known=True)]
+    situations = [one.situation for one in sized_records(corpus)]
     assert {(one.load, one.load_deflection, one.exponent) for one in situations} == {(346.0, *factor)}
-    assert {one.situation.load for one in sized_records(corpus, load_known=False)} == {None}
+    assert {one.situation.load for one in without_load(sized_records(corpus))} == {None}
     assert "blind" not in size(corpus)[1]
 
 
 def test_a_bearing_of_the_catalogue_has_its_hertz_factor(tmp_path: Path) -> None:
     corpus = imported(tmp_path, SPEC.replace("speed_rpm", "load_n = 200\nspeed_rpm"), noise=noise(2))
-    (one,) = sized_records(corpus, load_known=True)
+    (one,) = sized_records(corpus)
     assert one.situation.load_deflection == catalog.bearing("koyo_1205").load_deflection
 
 
@@ -309,6 +310,15 @@ def test_an_exponent_without_its_factor_is_refused(tmp_path: Path) -> None:
     (tmp_path / "states.csv").write_text(STATES)
     with pytest.raises(BadInput, match="an exponent needs its factor K"):
         imported(tmp_path, STATED % ", exponent = 1.4", none=noise(1))
+
+
+def test_a_corpus_none_of_whose_records_could_be_made_says_so(tiny_corpus: Path, tmp_path: Path) -> None:
+    shutil.copytree(tiny_corpus, tmp_path / "empty")
+    index = tmp_path / "empty" / "index.csv"
+    index.write_text(index.read_text().splitlines()[0] + "\n")
+    code, _, message = size(tmp_path / "empty")
+    assert code == 2
+    assert message.endswith("empty: this corpus has no records\n")
 
 
 def test_a_size_without_an_interval_is_shown_without_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -26,7 +26,7 @@ from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.record_errors import extent_error, lag_error, noise_level, noise_levels
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import SizeSummary
-from datagen.sizing.sized_records import sized_records
+from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import wrong_speed
 from datagen.sizing.tables import known_size_sentence
 from labels.spall_size.estimation.calibration import Calibration
@@ -80,14 +80,14 @@ def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(size
 
 
 def test_the_same_holds_without_load_and_the_estimator_is_given_nothing_of_it(sized_corpus: Path) -> None:
-    situations = [one.situation for one in sized_records(sized_corpus, load_known=False)]
+    situations = [one.situation for one in without_load(sized_records(sized_corpus))]
     assert all(not one.load_known and one.race is None for one in situations)
     scores = score_sizes(sized_corpus, None, False, "all")
     assert np.mean([extent_error(one) for one in scores.records[:3]]) < 0.25
 
 
 def test_a_sensor_that_may_look_either_way_is_sized_the_same_upside_down(sized_corpus: Path) -> None:
-    one = next(sized_records(sized_corpus, load_known=True))
+    one = next(sized_records(sized_corpus))
     assert one.situation.polarity_known
     unsure = replace(one.situation, polarity_known=False)
     both = [default_estimator().estimate(sign * one.acceleration, one.rate, unsure) for sign in (1.0, -1.0)]
@@ -97,9 +97,7 @@ def test_a_sensor_that_may_look_either_way_is_sized_the_same_upside_down(sized_c
 
 
 def test_the_stated_speed_is_wrong_by_up_to_two_per_cent(sized_corpus: Path) -> None:
-    stated = [
-        one.situation.shaft_speed * 60.0 / (2.0 * math.pi) for one in sized_records(sized_corpus, load_known=True)
-    ]
+    stated = [one.situation.shaft_speed * 60.0 / (2.0 * math.pi) for one in sized_records(sized_corpus)]
     wrong = np.abs(np.array(stated) / 1200.0 - 1.0)
     assert np.all((wrong > 0.0) & (wrong <= SPEED_ERROR))
     assert np.unique(stated).size == 4
@@ -147,7 +145,7 @@ def test_an_answer_has_every_unit_with_intervals_and_says_when_balls_passed(
 
 
 def test_events_are_found_where_balls_are_released_and_loaded_again(sized_corpus: Path) -> None:
-    truths = [one.truth for one in sized_records(sized_corpus, load_known=True)][:3]
+    truths = [one.truth for one in sized_records(sized_corpus)][:3]
     away = []
     for scored, truth in zip(score_sizes(sized_corpus, None, True, "all").records, truths, strict=False):
         assert truth is not None
@@ -333,7 +331,7 @@ def test_a_record_of_fewer_than_six_passes_is_too_short() -> None:
 def test_an_axis_without_signal_is_passed_over_and_a_record_without_any_is_told(
     estimator: SizeEstimator | EnvelopeLagRule, sized_corpus: Path
 ) -> None:
-    sized = next(sized_records(sized_corpus, load_known=True))
+    sized = next(sized_records(sized_corpus))
     signal, dead = sized.acceleration[:, 1], np.zeros(len(sized.acceleration))
     alone = estimator.estimate(signal, sized.rate, sized.situation)
     assert alone.found

@@ -1,0 +1,30 @@
+"""The log of runs that scored recordings."""
+
+import json
+import math
+from datetime import UTC, datetime
+
+import pytest
+
+from datagen.errors import BadInput
+from datagen.judging.scored_runs import log_path, write_line
+from datagen.versions import program_versions
+
+
+def test_runs_on_recordings_are_listed_line_by_line(tmp_path):
+    write_line(tmp_path, {"first": 1})
+    write_line(tmp_path, {"second": 2})
+    lines = [json.loads(line) for line in log_path(tmp_path).read_text().splitlines()]
+    assert [list(line) for line in lines] == [["time", "first", "versions"], ["time", "second", "versions"]]
+    for line in lines:
+        assert datetime.fromisoformat(line["time"]) <= datetime.now(UTC)
+        assert line["versions"] == program_versions()
+    with pytest.raises(BadInput, match="logged"):
+        write_line(tmp_path / "nowhere", {})
+
+
+def test_a_score_that_does_not_exist_is_null_as_json_knows_no_nan(tmp_path):
+    write_line(tmp_path, {"scores": {"arc_error": math.nan, "answered": 0}, "sizes": {3: 1.5}})
+    line = json.loads(log_path(tmp_path).read_text(), parse_constant=pytest.fail)
+    assert line["scores"] == {"arc_error": None, "answered": 0}
+    assert line["sizes"] == {"3": 1.5}

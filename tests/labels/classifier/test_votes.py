@@ -59,3 +59,8 @@ def test_a_vote_is_raised_by_the_column_that_is_highest_in_it():
     owner, axis = np.array([0, 0]), np.array([0, 1])
     level = np.array([[0.0, 6.0], [3.0, 0.0]])  # axis 0 counts twice: (1, 4), where plain means are (1.5, 3)
     assert raised(level, owner, axis) == pytest.approx(1.0)
+
+
+def test_rows_of_records_that_are_not_asked_for_are_left_out():
+    found = averaged(np.array([0.8, 0.2, 0.9]), np.array([3, 3, 5]), np.array([3]))
+    assert found == pytest.approx([0.5])

@@ -30,6 +30,11 @@ class BadInput(Exception):
         return " ".join(line.split())
 
 
+def at_line(file: object, line: int | None) -> str:
+    """A file for a message, with the `line` in it where that is known (neither None nor 0)."""
+    return f"{file}, line {line}" if line else str(file)
+
+
 def setting_text(field: str, value: object) -> str:
     """A setting as TOML would have it, a long value cut short; the name alone where there is nothing to show (None)."""
     return field if value is None else f"{field} = {value_text(value)}"

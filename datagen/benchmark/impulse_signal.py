@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import fftconvolve
 
+from datagen.judging.known import RPM_PER_HZ
 from labels.features.kinematics import Kinematics
 from labels.schema import LOCATIONS
 from physics.arrays import Array
@@ -89,7 +90,7 @@ def _bearing(of_machine: np.random.Generator, of_record: np.random.Generator) ->
     most = np.pi / np.arcsin(ratio)
     balls = max(5, int(of_machine.uniform(0.6, 0.95) * most))
     ratio *= np.cos(np.radians(min(abs(of_machine.normal(0.0, 8.0)), 25.0)))
-    speed = np.exp(of_machine.uniform(np.log(500.0), np.log(3600.0))) / 60.0 * of_record.uniform(0.75, 1.25)
+    speed = np.exp(of_machine.uniform(np.log(500.0), np.log(3600.0))) / RPM_PER_HZ * of_record.uniform(0.75, 1.25)
     return Kinematics(balls, float(ratio), float(ball_spin_order(1.0 / ratio, ratio)), float(speed))
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from datagen.corpus_files.manifest import no_corpus
 from datagen.corpus_files.shard import Sidecar, shard_path
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 from datagen.files.atomic import opened_atomically
 from labels.schema import LABELS
 
@@ -170,7 +170,7 @@ def _is_one(text: str, kind: str) -> bool:
 
 def _no_index(problem: str, path: Path, line: int = 0) -> BadInput:
     remedy = "delete it and generate again into the same folder, which writes it again (recordings: import again)"
-    return BadInput(f"not the index of a corpus: {problem}; {remedy}", f"{path}, line {line}" if line else str(path))
+    return BadInput(f"not the index of a corpus: {problem}; {remedy}", at_line(path, line))
 
 
 def _typed(texts: tuple[str, ...], kind: str) -> NDArray[Any] | list[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy import fft
 
 from datagen.drawing.close_up import CloseUp
+from datagen.judging.known import RPM_PER_HZ
 from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.features.turning import Turning
 from labels.kurtogram import most_impulsive_band
@@ -89,7 +90,7 @@ class MeasuredPortrait:
     @cached_property
     def frequencies(self) -> dict[str, float]:
         """Those of BPFO, BPFI, BSF, FTF and shaft frequency (Hz, without slip) that are known."""
-        shaft = self.labels["speed_rpm"] / 60.0
+        shaft = self.labels["speed_rpm"] / RPM_PER_HZ
         if self.shaft_angle is not None:
             shaft = Turning(self.shaft_angle).revolutions / self.duration
         orders = {name: self.labels[label] for name, label in ORDERS.items()} | {"shaft": 1.0}

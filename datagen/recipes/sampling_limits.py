@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 from datagen.recipes.background_settings import BackgroundSettings
 from datagen.recipes.chain_settings import ChainSettings
 from datagen.settings.problems import dotted
@@ -45,8 +45,7 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
     refusal = next(_refusals(recipe), None)
     if refusal is not None:
         location, problem, value, allowed = refusal
-        line = line_of(text, location)
-        raise BadInput(problem, f"{path}, line {line}" if line else str(path), dotted(location), value, allowed)
+        raise BadInput(problem, at_line(path, line_of(text, location)), dotted(location), value, allowed)
 
 
 def _refusals(recipe: Recipe) -> Iterator[Refusal]:

@@ -8,7 +8,7 @@ from typing import Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 from datagen.settings.toml_lines import Location, line_of
 from physics.spelling import suggestion
 
@@ -45,10 +45,9 @@ def bad_settings(invalid: ValidationError, model: type[BaseModel], path: Path | 
     context = first.get("ctx", {})
     field = tuple(context.get("field", "").split(".")) if context.get("field") else ()
     location = _place(first) + field
-    line = line_of(text, location)
     return BadInput(
         _problem(first, location, model),
-        f"{path}, line {line}" if line else str(path),
+        at_line(path, line_of(text, location)),
         dotted(location),
         _value(first, location, field),
         _allowed(first, [error for error in errors if _place(error) == _place(first)]),

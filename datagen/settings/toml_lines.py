@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
+from datagen.errors import at_line
+
 Location = tuple[str | int, ...]
 HEADER = re.compile(r"^\s*(\[\[?)\s*([A-Za-z0-9_.\-\s]+?)\s*\]\]?\s*(#.*)?$")
 KEY = re.compile(r"^\s*([A-Za-z0-9_\-.]+)\s*=")
@@ -26,8 +28,7 @@ def line_of(text: str, location: Location) -> int | None:
 
 def place_in_file(path: str, location: Location) -> str:
     """The file `path` for a message, with the line of the setting at `location` where it can be found now."""
-    line = line_of(text_of(path), location)
-    return f"{path}, line {line}" if line else path
+    return at_line(path, line_of(text_of(path), location))
 
 
 def text_of(path: str) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from datagen.judging.known import RPM_PER_HZ
 from labels.spall_size.event_truth import EventTruth, event_truth
 from physics.arrays import Array
 
@@ -73,4 +74,4 @@ def stored_record(file: Any, position: int, record: int) -> StoredRecord:
 def nominal_period(labels: Mapping[str, Any]) -> float:
     """Time between two ball passes over the spall without slip, s; over the outer race if there is no spall."""
     order = {"outer": "bpfo", "inner": "bpfi"}.get(str(labels["location"]), "bpfo")
-    return 60.0 / (float(labels["speed_rpm"]) * float(labels[order]))
+    return RPM_PER_HZ / (float(labels["speed_rpm"]) * float(labels[order]))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.judging.user_code import FIELD, user_code
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import LONGEST_EXTENT, SizeEstimate, SizeOutcome
 from physics.bearing import RACES
 
 NUMBERS = ("lag", "lag_arc", "extent", "extent_mm", "pass_period", "trust")
@@ -72,7 +72,7 @@ def _impossible(estimate: SizeEstimate) -> str:
     """What no spall can have, in words; empty if a size can be meant."""
     if estimate.race not in ("", *RACES):
         return f"race is {_kind(estimate.race)} and not {' or '.join(RACES)}"
-    if not 0.0 < estimate.extent <= math.pi:
+    if not 0.0 < estimate.extent <= LONGEST_EXTENT:
         return f"extent is {estimate.extent:g} rad and not above 0 and pi at most"
     if not 0.0 < estimate.extent_mm < math.inf:
         return f"extent_mm is {estimate.extent_mm:g} and not above 0"

@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import FEWEST_BINS, Spectrum, over_floor
+from labels.features.conditioning import FEWEST_BINS, over_floor
 from labels.features.families import find_family
 from labels.features.known_lines import near_mains
 from labels.features.lines import lines_in
 from labels.features.speed import SPECTRUM_FLOOR_ORDERS
+from labels.features.turning import Spectrum
 from physics.arrays import Array
 
 # m/s: a tenth of the limit between zones A and B of ISO 10816-1 for the smallest machines (0.71 mm/s RMS).
@@ -65,7 +66,7 @@ class Liveness:
 def liveness(analysis: Analysis, signal: Array) -> Liveness:
     """Liveness of a `signal` (T,), in m/s² as the sensor gives it, and its analysis."""
     return Liveness(
-        _velocity(analysis, signal.size),
+        _velocity(analysis),
         _digits(signal),
         _colour(analysis),
         _turning(analysis),
@@ -73,10 +74,10 @@ def liveness(analysis: Analysis, signal: Array) -> Liveness:
     )
 
 
-def _velocity(analysis: Analysis, samples: int) -> float:
+def _velocity(analysis: Analysis) -> float:
     """RMS velocity in STILL_BAND without mains and their harmonics."""
     step = analysis.record.step
-    amplitude = np.abs(_windowed(analysis)) * (2.0 / samples)
+    amplitude = np.abs(_windowed(analysis)) * (2.0 / analysis.record.samples)
     frequency = np.arange(1, amplitude.size + 1) * step
     inside = (frequency >= STILL_BAND[0]) & (frequency <= STILL_BAND[1]) & ~_hum(frequency, step)
     amplitude = amplitude[inside] / (2.0 * np.pi * frequency[inside])

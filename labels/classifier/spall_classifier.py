@@ -14,6 +14,7 @@ from labels.classifier.classes import CLASSES, called
 from labels.classifier.learners import SEED, learner
 from labels.classifier.rule import strengths
 from labels.classifier.stage import Stage
+from labels.features.modulation import COMPARED, LEADS
 from labels.features.table import FEATURE_NAMES
 from labels.schema import HEALTHY
 from physics.arrays import Array
@@ -25,10 +26,10 @@ FALSE_ALARMS = 0.05
 DIVISIONS = 3
 STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
 IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")
-LEADS = ("inner_lead_evidence", "inner_lead_spread", "inner_lead_strength", "inner_lead_others")
+INNER_LEADS = tuple(f"inner_lead_{name}" for name in LEADS)
 # More of these never makes a spall less likely.
-RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS, *LEADS)
-DIFFERENCES = ("race_evidence", "race_spread", "race_strength", "race_depth", "race_others")
+RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS, *INNER_LEADS)
+DIFFERENCES = tuple(f"race_{name}" for name in COMPARED)
 SPALL_NAMES = (*RISING, *DIFFERENCES, "turns")
 SIGNS = tuple(1 if name in RISING else -1 if name == "turns" else 0 for name in SPALL_NAMES)
 RACE_NAMES = (

@@ -143,11 +143,11 @@ class Analysis:
 
     def race_window(self, race: str) -> tuple[float, float]:
         """Centre (Hz) and half width (a share) of where the first line of the race "outer" or "inner" may lie."""
-        order, window = (self.given.bpfo, OUTER_WINDOW) if race == "outer" else (self.given.bpfi, INNER_WINDOW)
+        window = OUTER_WINDOW if race == "outer" else INNER_WINDOW
         if self.record.turning is None and self.speed.evidence < CERTAIN_SPEED:
             window = UNCERTAIN_WINDOW
         centre = 1.0 + 0.5 * (window[0] + window[1])
-        return centre * order * self.speed.shaft_hz, 0.5 * (window[1] - window[0])
+        return centre * self.given.pass_order(race) * self.speed.shaft_hz, 0.5 * (window[1] - window[0])
 
     @cached_property
     def outer(self) -> Family:

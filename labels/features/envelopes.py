@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from labels.band_tree import band_edges
-from labels.features.conditioning import Conditioned, Spectrum, over_floor
+from labels.features.conditioning import Conditioned, over_floor
 from labels.features.known_lines import mains_components
-from labels.features.turning import Turning
+from labels.features.turning import Spectrum, Turning
 from physics.arrays import Array
 
 ENVELOPE_HARMONICS = 4.0

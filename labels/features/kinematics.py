@@ -56,6 +56,10 @@ class Kinematics:
         """Order at which balls pass a point of the inner race."""
         return inner_pass_order(self.balls, self.diameter_ratio)
 
+    def pass_order(self, race: str) -> float:
+        """Order at which balls pass a point of the race "outer" or "inner"."""
+        return self.bpfo if race == "outer" else self.bpfi
+
     def at(self, shaft_hz: float) -> Kinematics:
         """The same bearing at another speed."""
         return replace(self, shaft_hz=shaft_hz)

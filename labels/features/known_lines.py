@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from labels.features.kinematics import Kinematics
 from physics.arrays import Array
+from physics.bearing import RACES
 
 MAINS = (50.0, 60.0)
 # Share by which mains (0.4 % in an interconnected grid, EN 50160) and a stated rate may be off together, and the most
@@ -67,9 +68,9 @@ def races_in_mains(kinematics: Kinematics, step: float) -> tuple[str, ...]:
     harmonics it is left out, and a fault of that race is hardly seen."""
     if step > COARSEST_STEP:
         return ()
-    orders = {"outer": kinematics.bpfo, "inner": kinematics.bpfi}
-    hidden = _taken_for_mains(np.array([*orders.values()], dtype=np.float64) * kinematics.shaft_hz, step)
-    return tuple(race for race, is_hidden in zip(orders, hidden, strict=True) if is_hidden)
+    orders = np.array([kinematics.pass_order(race) for race in RACES], dtype=np.float64)
+    hidden = _taken_for_mains(orders * kinematics.shaft_hz, step)
+    return tuple(race for race, is_hidden in zip(RACES, hidden, strict=True) if is_hidden)
 
 
 def _taken_for_mains(frequency: NDArray[Any], step: float) -> NDArray[np.bool_]:

@@ -9,10 +9,18 @@ from labels.features.families import find_family, sideband_evidence
 from labels.features.feature import Feature
 from labels.features.lines import Lines
 from physics.arrays import Array
+from physics.bearing import RACES
 
 SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope spectrum)"
+# What is compared between the races, and of that what an inner race may have more of.
+COMPARED = ("evidence", "spread", "strength", "depth", "others")
 LEADS = ("evidence", "spread", "strength", "others")
 STRENGTH_HARMONICS = 3
+
+
+def _counted_in(name: str) -> str:
+    """The dimension of one of COMPARED: heights of lines are no evidence."""
+    return "ln" if name in ("strength", "depth") else "ln nat"
 
 
 def _race_rows(race: str, line: str) -> tuple[Feature, ...]:
@@ -36,15 +44,11 @@ def _race_rows(race: str, line: str) -> tuple[Feature, ...]:
 ROWS = (
     *_race_rows("outer", "BPFO"),
     *_race_rows("inner", "BPFI"),
-    Feature("race_evidence", "ln nat", "outer_evidence minus inner_evidence.", SES),
-    Feature("race_spread", "ln nat", "outer_spread minus inner_spread.", SES),
-    Feature("race_strength", "ln", "outer_strength minus inner_strength.", SES),
-    Feature("race_depth", "ln", "outer_depth minus inner_depth.", SES),
-    Feature("race_others", "ln nat", "outer_others minus inner_others.", SES),
+    *(Feature(f"race_{name}", _counted_in(name), f"outer_{name} minus inner_{name}.", SES) for name in COMPARED),
     *(
         Feature(
             f"inner_lead_{name}",
-            "ln" if name == "strength" else "ln nat",
+            _counted_in(name),
             f"How far inner_{name} exceeds outer_{name}, or 0: the stiffness of a healthy bearing varies at BPFO only.",
             SES,
         )
@@ -64,9 +68,9 @@ def measure(analysis: Analysis) -> dict[str, float]:
     """Values of ROWS by name."""
     known, shaft = analysis.kinematics, analysis.speed.shaft_hz
     found: dict[str, float] = {}
-    for race, order in (("outer", known.bpfo), ("inner", known.bpfi)):
-        found |= {f"{race}_{name}": value for name, value in _race(analysis, race, order).items()}
-    for name in ("evidence", "spread", "strength", "depth", "others"):
+    for race in RACES:
+        found |= {f"{race}_{name}": value for name, value in _race(analysis, race).items()}
+    for name in COMPARED:
         found[f"race_{name}"] = found[f"outer_{name}"] - found[f"inner_{name}"]
     found |= {f"inner_lead_{name}": max(-found[f"race_{name}"], 0.0) for name in LEADS}
     turning = find_family(analysis.all_envelope_lines, shaft, 0.002, shaft)
@@ -80,8 +84,8 @@ def measure(analysis: Analysis) -> dict[str, float]:
     }
 
 
-def _race(analysis: Analysis, race: str, order: float) -> dict[str, float]:
-    family = analysis.outer if race == "outer" else analysis.inner
+def _race(analysis: Analysis, race: str) -> dict[str, float]:
+    family, order = (analysis.outer if race == "outer" else analysis.inner), analysis.kinematics.pass_order(race)
     shaft, best = analysis.speed.shaft_hz, int(family.evidence.argmax())
     others = family.parts.sum(axis=1) - family.parts.max(axis=1)
     fundamental = family.fundamental

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import Spectrum
 from labels.features.feature import Feature
+from labels.features.turning import Spectrum
 from physics.arrays import Array
 from physics.rms import rms
 

@@ -14,6 +14,8 @@ from physics.arrays import Array
 Bounds = tuple[float, float]
 UNKNOWN: Bounds = (math.nan, math.nan)
 NO_TIMES = np.zeros((0, 2))
+# Longest spall that is reported, rad: half the race.
+LONGEST_EXTENT = math.pi
 # Ball passes that a record must hold; TOO_SHORT says this in words.
 FEWEST_PASSES = 6
 # Samples that a ball pass must last; TOO_COARSE says this in words.

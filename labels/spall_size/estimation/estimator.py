@@ -14,14 +14,18 @@ from labels.spall_size.estimation.measurement import Measurement, leading_pairs,
 from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import FEWEST_PASSES, FEWEST_SAMPLES_A_PASS, SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import (
+    FEWEST_PASSES,
+    FEWEST_SAMPLES_A_PASS,
+    LONGEST_EXTENT,
+    SizeEstimate,
+    SizeOutcome,
+)
 from physics.arrays import Array
 from physics.checks import require_positive
 
 # Samples from an event to the peak of its prewhitened energy.
 ONSET = 1.8
-# Longest spall that is reported, rad: half the race.
-LONGEST_EXTENT = math.pi
 BLIND, WITH_LOAD = "event pair, prior shortening", "event pair, shortening from load and Hertz factor"
 
 

@@ -10,7 +10,7 @@ from scipy.signal import find_peaks, hilbert
 
 from labels.dead_sensor import live_axis
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import FEWEST_PASSES, SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import FEWEST_PASSES, LONGEST_EXTENT, SizeEstimate, SizeOutcome
 from physics.arrays import Array
 from physics.checks import require_positive
 
@@ -65,14 +65,15 @@ class EnvelopeLagRule:
         if math.isnan(lag):
             return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, method)
         arc = lag / period * bearing.spacing
+        extent = min(self.share * arc, LONGEST_EXTENT)
         return SizeEstimate(
             SizeOutcome.ESTIMATED,
             method,
             race,
             lag=lag,
             lag_arc=arc,
-            extent=min(self.share * arc, math.pi),
-            extent_mm=min(self.share * arc, math.pi) * bearing.raceway_radius(race) * 1e3,
-            candidates=(min(self.share * arc, math.pi),),
+            extent=extent,
+            extent_mm=extent * bearing.raceway_radius(race) * 1e3,
+            candidates=(extent,),
             pass_period=period,
         )

@@ -19,7 +19,7 @@ NO_ROTATION = "speed not above 0"
 def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
     """Kinematics of the record with these labels, from its geometry or its orders; None if the labels state neither, or
     no speed."""
-    speed = _number(labels, "speed_rpm") / RPM_PER_HZ
+    speed = number_in(labels, "speed_rpm") / RPM_PER_HZ
     if not speed > 0.0:
         return None
     known = _kinematics_at(labels, speed)
@@ -38,8 +38,8 @@ def is_nominal(labels: Mapping[str, Any]) -> bool:
 
 
 def _kinematics_at(labels: Mapping[str, Any], speed: float) -> Kinematics | None:
-    balls, pitch, ball = (_number(labels, name) for name in ("balls", "pitch_diameter", "ball_diameter"))
-    angle = _number(labels, "contact_angle")
+    balls, pitch, ball = (number_in(labels, name) for name in ("balls", "pitch_diameter", "ball_diameter"))
+    angle = number_in(labels, "contact_angle")
     if all(math.isfinite(value) for value in (balls, pitch, ball)):
         return bearing_kinematics(int(balls), pitch, ball, angle if math.isfinite(angle) else 0.0, speed)
     return _from_orders(labels, balls, speed)
@@ -48,7 +48,7 @@ def _kinematics_at(labels: Mapping[str, Any], speed: float) -> Kinematics | None
 def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinematics | None:
     """Kinematics from the orders: BPFO and BPFI add up to the number of balls, so either and that number give the
     rest."""
-    outer, inner, spin, cage = (_number(labels, name) for name in ("bpfo", "bpfi", "bsf", "ftf"))
+    outer, inner, spin, cage = (number_in(labels, name) for name in ("bpfo", "bpfi", "bsf", "ftf"))
     if not math.isfinite(balls):
         balls = _ball_count(outer, inner, cage)
     if not math.isfinite(outer):
@@ -67,7 +67,8 @@ def _ball_count(outer: float, inner: float, cage: float) -> float:
     return next((round(count) for count in counts if math.isfinite(count)), math.nan)
 
 
-def _number(labels: Mapping[str, Any], name: str) -> float:
+def number_in(labels: Mapping[str, Any], name: str) -> float:
+    """The number that a label holds; NaN where it is unknown, or absent."""
     try:
         return float(labels[name])
     except (KeyError, TypeError, ValueError):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from datagen.judging.known import is_nominal, known_kinematics
+from datagen.judging.known import is_nominal, known_kinematics, number_in
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.scenarios.streams import stream
 from labels.dead_sensor import live_axis
@@ -30,7 +30,7 @@ NEEDED = {
 
 def reason_against(labels: Mapping[str, Any]) -> str:
     """Why a record with these `labels` cannot be sized, in words; empty if it can."""
-    unknown = [words for name, words in NEEDED.items() if not math.isfinite(float(labels.get(name, math.nan)))]
+    unknown = [words for name, words in NEEDED.items() if not math.isfinite(number_in(labels, name))]
     if unknown:
         return f"not known: {', '.join(unknown)}"
     if float(labels["speed_rpm"]) <= 0.0:
@@ -67,17 +67,16 @@ def situation_of(
 
     Raises InvalidParameter.
     """
-    speed = float(labels["speed_rpm"]) * RPM
-    load = float(labels.get("load_n", math.nan))
-    known = contact is not None and math.isfinite(load) and load >= 0.0
+    load, rows, angle = (number_in(labels, name) for name in ("load_n", "rows", "contact_angle"))
+    factor, exponent = contact if contact is not None and 0.0 <= load < math.inf else (None, BALL_EXPONENT)
     return Situation(
         balls=int(labels["balls"]),
-        rows=int(labels["rows"]) if math.isfinite(float(labels.get("rows", 1))) else 1,
+        rows=int(rows) if math.isfinite(rows) else 1,
         pitch_diameter=float(labels["pitch_diameter"]),
         ball_diameter=float(labels["ball_diameter"]),
-        shaft_speed=speed * speed_factor,
-        contact_angle=float(labels["contact_angle"]) if math.isfinite(float(labels["contact_angle"])) else 0.0,
-        load=load if known else None,
-        load_deflection=contact[0] if known and contact else None,
-        exponent=contact[1] if known and contact else BALL_EXPONENT,
+        shaft_speed=float(labels["speed_rpm"]) * RPM * speed_factor,
+        contact_angle=angle if math.isfinite(angle) else 0.0,
+        load=None if factor is None else load,
+        load_deflection=factor,
+        exponent=exponent,
     )

@@ -93,18 +93,13 @@ def fit_alarm(
     if np.all(noisy):
         raise ValueError("no healthy record without added noise to set the alarm on")
     level, clear = logit(spall), clearness(table)
-    hidden = level[clear == 0.0] if np.sum(clear == 0.0) >= FEWEST_ROWS else level
-    low = float(np.quantile(hidden, 1.0 - SHARE_IN_NOISE * share))
+    low = _level_in_noise(level, clear, share)
     level, clear, table = level[~noisy], clear[~noisy], table[~noisy]
     records, axes = records[~noisy], axes[~noisy]
-    distinct = np.unique(records)
-    above, weight = averaged(np.column_stack([level - low * (1.0 - clear), clear]), records, distinct).T
-    # A record alarms where its mean level passes low (1 − clear) + high clear, that is where high lies below this:
-    needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
-    high = np.sort(needed)[::-1][min(int(share * distinct.size), distinct.size - 1)]
-    in_noise, in_clear = probability_of(np.array([low, np.clip(high, low, -np.log(EDGE))]))
+    high = np.clip(_level_in_clear(level, clear, low, records, share), low, -np.log(EDGE))
+    in_noise, in_clear = probability_of(np.array([low, high]))
     lines = np.log(strengths(table))
-    heights = averaged(lines, records, distinct).max(axis=1)
+    heights = averaged(lines, records, np.unique(records)).max(axis=1)
     alarm = Alarm(float(in_noise), float(in_clear), float(np.exp(np.quantile(heights, LINES_QUANTILE))))
     margin = level - logit(alarm.at(table))
     return replace(
@@ -112,3 +107,20 @@ def fit_alarm(
         several=raised(margin[:, None], records, axes),
         height_several=float(np.exp(raised(lines, records, axes))),
     )
+
+
+def _level_in_noise(level: Array, clear: Array, share: float) -> float:
+    """Log odds that SHARE_IN_NOISE times a `share` of the rows like noise pass, by the `level` (N,) and clearness (N,)
+    of rows; of all rows where few are like noise."""
+    hidden = level[clear == 0.0] if np.sum(clear == 0.0) >= FEWEST_ROWS else level
+    return float(np.quantile(hidden, 1.0 - SHARE_IN_NOISE * share))
+
+
+def _level_in_clear(level: Array, clear: Array, low: float, records: NDArray[np.int64], share: float) -> float:
+    """Log odds in the clear with which at most a `share` of the records alarm, those in noise being `low`; of rows of
+    this `level` (N,) and clearness (N,), those of one of `records` (N,) by their mean. Infinite where none will do."""
+    distinct = np.unique(records)
+    above, weight = averaged(np.column_stack([level - low * (1.0 - clear), clear]), records, distinct).T
+    # A record alarms where its mean level passes low (1 − clear) + high clear, that is where high lies below this:
+    needed = np.where(weight > 0.0, above / np.maximum(weight, SMALLEST), np.where(above > 0.0, np.inf, -np.inf))
+    return float(np.sort(needed)[::-1][min(int(share * distinct.size), distinct.size - 1)])

@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from fnmatch import fnmatch
+from itertools import chain, product, zip_longest
 from os.path import normcase
 from pathlib import Path, PurePath
 from unicodedata import normalize
 
 WILD = "*?["
+ANY_FOLDERS = "**/"
 DIGITS = re.compile("([0-9]+)")
 
 
@@ -24,8 +26,8 @@ class FileNames:
                 self.known.setdefault(spelling, []).append(path)
 
     def fitting(self, name: str) -> list[Path]:
-        """The files that are called `name`, or, if there are none, those that match it as a pattern, by their bare name
-        or by that from the root; in order."""
+        """The files that are called `name`, or, if there are none, those that match it as a pattern (see `fits`); in
+        order."""
         called = self.known.get(_plain(name), [])
         if called or not any(sign in name for sign in WILD):
             return called
@@ -33,9 +35,21 @@ class FileNames:
 
 
 def fits(path: Path, name: str, pattern: str) -> bool:
-    """True if a file equals or matches the `pattern`, by its `name` from the root or by its bare name."""
-    pattern, names = _plain(pattern), (_plain(name), _plain(path.name))
-    return pattern in names or any(fnmatch(one, pattern) for one in names)
+    """True if a file equals or matches the `pattern`: by its bare name or, if the pattern holds a /, by its `name` from
+    the root, where **/ stands for any folders or none.
+
+    A pattern without / says nothing of folders: n* must not mean all that lies in new/.
+    """
+    pattern, whole, bare = _plain(pattern), _plain(name), _plain(path.name)
+    meant = whole if "/" in pattern else bare
+    return pattern in (whole, bare) or any(fnmatch(meant, one) for one in _with_and_without(pattern))
+
+
+def _with_and_without(pattern: str) -> set[str]:
+    """The pattern with each **/ kept or left out."""
+    parts = pattern.split(ANY_FOLDERS)
+    ways = product((ANY_FOLDERS, ""), repeat=len(parts) - 1)
+    return {"".join(chain.from_iterable(zip_longest(parts, way, fillvalue=""))) for way in ways}
 
 
 def hidden(path: Path, pattern: str) -> bool:

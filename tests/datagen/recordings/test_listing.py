@@ -140,6 +140,28 @@ def test_leaving_out_no_file_is_refused_unless_files_may_be_absent(bring: Bring,
     assert len(bring(spec + 'absent_files = "skip"\n')) == 1
 
 
+def test_a_pattern_without_folders_says_nothing_of_them(bring: Bring, mat: Mat) -> None:
+    for name in ("new/ib1.mat", "new/n1.mat", "new/old/ob1.mat"):
+        mat(name)
+    overrides = (
+        '{files = "ib*", location = "inner"}, {files = "ob*", location = "outer"}, {files = "n*", location = "none"}'
+    )
+    labels = bring(SPEC + f'files = "**/*.mat"\noverride = [{overrides}]\n').labels
+    assert dict(zip(labels["recording"], labels["location"], strict=True)) == {
+        "ib1": "inner",
+        "n1": "none",
+        "ob1": "outer",
+    }
+
+
+@pytest.mark.parametrize("pattern", ["new/**/b*.mat", "**/new/**/b*", "**/b*.mat"])
+def test_two_stars_stand_for_any_folders_or_none_in_an_override_too(pattern: str, bring: Bring, mat: Mat) -> None:
+    for name in ("new/b1.mat", "new/deep/b2.mat", "new/deep/er/b3.mat", "new/c.mat"):
+        mat(name)
+    labels = bring(SPEC + f'files = "new/**/*.mat"\noverride = [{{files = "{pattern}", load_n = 7}}]\n').labels
+    assert sorted(labels[labels["load_n"] == 7.0]["recording"]) == ["b1", "b2", "b3"]
+
+
 def test_a_table_alone_leaves_nothing_out(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     (tmp_path / "t.csv").write_text("file\na.mat\n")

@@ -36,7 +36,10 @@ FILL = "fill"
 EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
 # Samples in a row, and the share of all, that may be missing and filled by straight lines.
 LONGEST_GAP, MOST_MISSING = 10, 0.01
-CONSTANT = ("rate_hz",)
+# What cannot have a mean: several numbers are then those of several channels or bearings.
+CONSTANT = ("rate_hz", "scale", "bpfo", "bpfi", "bsf", "ftf", "extent_mm", "extent_deg", "depth_um")
+# Ratio of the largest to the smallest from which a few numbers are not those of one machine along the recording.
+SEVERAL = 1.5
 # What is allowed where a variable does not give one number.
 ONE_OF_THEM = 'a single number of it, as in "NAME[0]" or "NAME[0,2]"'
 MOST_OF_THEM = "finite numbers throughout, as missing_samples fills channels only; or a single number, as NAME[0]"
@@ -168,8 +171,8 @@ class Source:
     def number(self, name: str, span: Span = WHOLE) -> float | None:
         """A number in its range that is stated or that the file holds; None if the SPEC says nothing of it.
 
-        Of an array of numbers, the mean over a `span` of the recording, as shares of its length; of sampling rates,
-        which cannot have one, the only one, or what follows from times. NoVariable if the file lacks the variable.
+        Of a row of numbers, the mean over a `span` of the recording, as shares of its length; of what cannot have one,
+        such as a sampling rate, the only one, or what follows from times. NoVariable if the file lacks the variable.
         """
         said = self.setting(name)
         if not isinstance(said, FromVariable):
@@ -186,10 +189,10 @@ class Source:
         if said.times:
             value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
         elif name in CONSTANT and np.ptp(found) > 0.0:
-            problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g}"
-            allowed = "a variable that holds one number, or the times of the samples with times = true"
-            raise BadInput(problem, str(self.path), name, said.variable, allowed)
+            also = ", or the times of the samples with times = true" if name == "rate_hz" else ""
+            raise self._several(found, said.variable, name, "a variable that holds one number, or one of it" + also)
         else:
+            self._require_one_course(found, said.variable, name)
             value = self._mean(_within(found, span), said.variable, name) * said.factor
         if not in_range(name, value):
             problem = f"from the variable {said.variable}" + (", whose times are read as s" if said.times else "")
@@ -205,6 +208,23 @@ class Source:
                 ONE_OF_THEM,
             )  # fmt: skip
         return float(np.mean(found, dtype=np.float64))
+
+    def _require_one_course(self, found: NDArray[Any], wish: str, field: str) -> None:
+        """Raise BadInput for numbers of which a mean would mix those of several shafts: different ones in a table, or a
+        few that are far apart."""
+        low, high = float(np.abs(found).min()), float(np.abs(found).max())
+        few = found.ndim == 1 and found.size < FEWEST_STORED_SAMPLES and high > SEVERAL * low
+        if few or (found.ndim > 1 and np.ptp(found) > 0.0):
+            raise self._several(
+                found, wish, field, ONE_OF_THEM if few else f'{ONE_OF_THEM}, or one column, "NAME[:,0]"'
+            )
+
+    def _several(self, found: NDArray[Any], wish: str, field: str, allowed: str) -> BadInput:
+        """The error for a variable that holds several numbers where one is needed."""
+        name, _ = chosen(self.arrays, wish, self.path, field)
+        shape = "x".join(map(str, np.shape(self.arrays[name])))
+        problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g} ({name} is {shape})"
+        return BadInput(problem, str(self.path), field, wish, allowed)
 
     def course(self, name: str, span: Span = WHOLE) -> Array | None:
         """The numbers (N,), 0 or above, that a variable holds along a `span` of the recording; None if it holds no such

@@ -71,7 +71,7 @@ def test_times_that_give_no_rate_are_refused(
 
 def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat: Mat) -> None:
     mat("a.mat", t=np.arange(400) * 1e-3)
-    with pytest.raises(BadInput, match=r'rate_hz = "t": holds 400 numbers from 0 to 0\.399; allowed: .* times = true'):
+    with pytest.raises(BadInput, match=r'rate_hz = "t": holds 400 numbers from .*; allowed: .* times = true'):
         bring(SPEC + 'rate_hz = {variable = "t"}\n')
     with pytest.raises(BadInput, match=r"recording\[1\]\.load_n\.times.*: times can only give a sampling rate"):
         bring(SPEC + 'rate_hz = 1000\nload_n = {variable = "t", times = true}\n')

@@ -38,6 +38,33 @@ def test_a_piece_has_the_mean_of_its_own_part_of_a_speed_channel(bring: Bring, m
     assert cut.tolist() == pytest.approx([600.0, 900.0, 1200.0], rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("wish", "told"),
+    [
+        ("rpm", "holds 2 numbers from 600 to 1797 (rpm is 1x2)"),
+        ("rpm[0]", "holds 2 numbers from 600 to 1797 (rpm is 1x2)"),
+        ("course", "holds 80 numbers from 600 to 1797 (course is 40x2)"),
+    ],
+)
+def test_speeds_of_several_shafts_have_no_mean(wish: str, told: str, bring: Bring, mat: Mat) -> None:
+    mat("a.mat", rpm=np.array([[1797.0, 600.0]]), course=np.tile([1797.0, 600.0], (40, 1)))
+    spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    with pytest.raises(BadInput) as refused:
+        bring(spec + f'speed_rpm = {{variable = "{wish}"}}\n')
+    assert f'a.mat: speed_rpm = "{wish}": {told}; allowed: a single number of it' in str(refused.value)
+    for number, one in enumerate(("rpm[0,1]", "course[:,1]")):
+        corpus = bring(spec + f'speed_rpm = {{variable = "{one}"}}\n', f"one{number}")
+        assert corpus.labels["speed_rpm"].tolist() == [600.0]
+
+
+def test_scales_of_several_channels_have_no_mean(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", sensitivity=np.array([[10.0, 9.5]]))
+    spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    with pytest.raises(BadInput, match=r"scale = .*holds 2 numbers from 9\.5 to 10 .*one number, or one of it$"):
+        bring(spec + 'scale = {variable = "sensitivity"}\n')
+    assert len(bring(spec + 'scale = {variable = "sensitivity[0,1]"}\n')) == 1
+
+
 def test_a_column_whose_first_place_alone_holds_the_number_has_no_mean(bring: Bring, mat: Mat) -> None:
     mat("a.mat", table=np.array([[1750.0, 400.0]] + [[0.0, 0.0]] * 99))
     spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'

@@ -4,7 +4,8 @@
 - `listing`: which records it asks for, with `file_names` and `label_table`
 - `source`: one opened file; `recorded`: its records; `doubts`: what is odd about them;
   `unchanged`: files that must not change during an import
-- `sample_times`: the sampling rate; `shaft_speed`: the speed, with the `pulse_times` and `pulses` of a tach
+- `sample_times`: the sampling rate; `stated_rate`: whether the file tells another
+- `shaft_speed`: the speed, with the `pulse_times` and `pulses` of a tach
 - `description`: labels; `dataset`: the records as a shard holds them
 - `importing`: the whole import, from an `import_plan` to a folder that appears whole (`staging`)
 """

@@ -21,6 +21,9 @@ LARGEST_OFFSET = 10.0
 # of different values below which many of them are no surprise.
 MOST_AT_LIMIT = 1e-3
 FEWEST_VALUES = 16
+# Share of a record, and the number of samples, above which a stretch of one value is doubted: those of recordings that
+# are whole have up to 4 samples.
+LONGEST_STRETCH, FEWEST_STRETCHED = 0.01, 100
 # Turns of the shaft below which a speed is doubted: a spectrum then hardly separates the orders of a bearing.
 FEWEST_TURNS = 10.0
 # Speed, rpm, below which a stated one may be meant in Hz: few shafts turn faster than 300 times a second.
@@ -30,6 +33,8 @@ FASTEST_RPM = 60_000.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
 OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
 CLIPPED = "with peaks cut off, as if the recorder's range were too small"
+HELD = "with a stretch of one value, as if padded or the signal lost; from_s and to_s take what is beside it"
+RISING = "with samples that only rise or only fall, as times or an angle do and no vibration"
 STANDING = "with a speed that is 0 in places, taken as a shaft that stands there and not as one nobody measured"
 FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
 
@@ -38,7 +43,7 @@ def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: I
     """What is odd about the level of the `acceleration` (T, axes), m/s², each doubt with its figures; axes that are
     `dead` are not looked at."""
     signals = {axis: signal for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
-    loud, offset, clipped = [], [], []
+    loud, offset, clipped, held, rising = [], [], [], [], []
     for axis, signal in signals.items():
         mean, rms = _level(signal)
         cut_off = _share_cut_off(signal)
@@ -48,7 +53,11 @@ def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: I
             offset.append(f"{axis} {_g(mean)} beside {_g(rms)} RMS")
         if cut_off > MOST_AT_LIMIT:
             clipped.append(f"{axis} {cut_off:.2g} of its samples")
-    found = {LOUD: loud, OFFSET: offset, CLIPPED: clipped}
+        if (stretch := _longest_stretch(signal)) > max(LONGEST_STRETCH * signal.size, FEWEST_STRETCHED):
+            held.append(f"{axis} {stretch} of {signal.size} samples")
+        if _only_rises(signal) or _only_rises(-signal):
+            rising.append(axis)
+    found = {LOUD: loud, OFFSET: offset, CLIPPED: clipped, HELD: held, RISING: rising}
     return {doubt: ", ".join(figures) for doubt, figures in found.items() if figures}
 
 
@@ -60,6 +69,18 @@ def _share_cut_off(signal: NDArray[np.float32]) -> float:
     if count <= MOST_AT_LIMIT * signal.size or np.unique(signal).size < FEWEST_VALUES:
         return 0.0
     return count / signal.size
+
+
+def _longest_stretch(signal: NDArray[np.float32]) -> int:
+    """Most samples in a row of a `signal` (T,) that have one value; 0 for a signal of few different values."""
+    ends = np.flatnonzero(np.diff(signal, append=np.nan) != 0.0)
+    longest = int(np.diff(ends, prepend=-1).max())
+    return longest if longest <= FEWEST_STRETCHED or np.unique(signal).size >= FEWEST_VALUES else 0
+
+
+def _only_rises(signal: NDArray[np.float32]) -> bool:
+    """Whether no sample of a `signal` (T,) is below the one before, as float32 makes equal ones of times."""
+    return bool((signal[1:] >= signal[:-1]).all())
 
 
 def _level(signal: NDArray[np.float32]) -> tuple[float, float]:

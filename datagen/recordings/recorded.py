@@ -22,6 +22,7 @@ from datagen.recordings.listing import Request
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds, told_course
 from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash, span_of
+from datagen.recordings.stated_rate import rate_doubts
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.band import holds_a_line
 from labels.dead_sensor import is_dead
@@ -83,6 +84,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     shortest = min(stop - start for start, stop in pieces)
     band = _band(source, rate, shortest, counts[slice(*part), axes.index("y")] if "y" in axes else None)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
+    of_file = scale_doubts(source) | rate_doubts(source, rate, counts.shape[0])
     speeds = shaft_speeds(source, rate, counts.shape[0], part, pieces)
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         samples = counts[start:stop]
@@ -103,7 +105,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             content=samples_hash(rate, *samples.T),
             shaft_angle=speed.angle,
             dead=dead,
-            doubts=scale_doubts(source)
+            doubts=of_file
             | level_doubts(acceleration, axes, dead)
             | speed_doubts(speed.rpm, request.settings)
             | standing_doubt(told_course(source, span_of(start, stop, counts.shape[0]))),

@@ -417,6 +417,33 @@ def test_peaks_that_a_recorder_cut_off_come_in_with_a_warning(
     assert told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path) == message
 
 
+HELD = "1 with a stretch of one value, as if padded or the signal lost; from_s and to_s take what is beside it: "
+
+
+@pytest.mark.parametrize(
+    ("value", "start", "stop", "message"),
+    [
+        (0.0, 1000, 4000, HELD + "a (y 3000 of 4000 samples)\n"),
+        (0.3, 100, 300, HELD + "a (y 200 of 4000 samples)\n"),
+        (0.3, 100, 190, ""),
+    ],
+)
+def test_a_signal_that_stands_still_for_long_comes_in_with_a_warning(
+    value: float, start: int, stop: int, message: str, mat: Mat, tmp_path: Path
+) -> None:
+    signal = noise(4000)
+    signal[start:stop] = value
+    mat("a.mat", signal)
+    assert told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path) == message
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_times_taken_for_a_vibration_come_in_with_a_warning(sign: float, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", noise(), data=np.stack([sign * np.arange(400) / 1000.0, noise()], axis=1))
+    told = told_of('files = "*.mat"\nrate_hz = 1000\ny = "data[:,0]"\n', tmp_path)
+    assert told == "1 with samples that only rise or only fall, as times or an angle do and no vibration: a (y)\n"
+
+
 @pytest.mark.parametrize(
     ("setting", "message"),
     [

@@ -28,6 +28,9 @@ LONGEST_STRETCH, FEWEST_STRETCHED = 0.01, 100
 FEWEST_TURNS = 10.0
 # Speed, rpm, below which a stated one may be meant in Hz: few shafts turn faster than 300 times a second.
 SLOWEST_RPM = 300.0
+# Speed, rpm, below which one is doubted however many turns there are: few machines whose bearings are recorded run so
+# slowly, and many sets tell speeds from 10 to 100 Hz.
+SLOWEST_LIKELY_RPM = 100.0
 # Speed, rpm, above which a stated one may be meant in another unit: few shafts turn faster than 1000 times a second.
 FASTEST_RPM = 60_000.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
@@ -99,13 +102,24 @@ def scale_doubts(source: Source) -> dict[str, str]:
     return {FULL_SCALE.format(unit=source.setting("unit")): ""}
 
 
-def speed_doubts(rpm: float, settings: Container[str]) -> dict[str, str]:
-    """Says so, with the figure, if the shaft turns faster than machines do at that `rpm`; empty if not. `settings` are
-    the names of those that the SPEC has."""
-    if not rpm > FASTEST_RPM:
-        return {}
-    hint = ", as if `speed_hz` were in rpm" if "speed_hz" in settings else ""
-    return {f"with a shaft faster than {FASTEST_RPM:g} rpm{hint}": f"{rpm:g} rpm"}
+def speed_doubts(labels: Mapping[str, Any], turns: float, settings: Container[str]) -> dict[str, str]:
+    """Says so, with the figure, if the shaft turns faster than machines do, or makes many `turns` at a stated speed
+    that is probably one in Hz; empty if not.
+
+    `labels` are those of the record, `settings` the names of those that the SPEC has. Of few turns `turns_doubt` tells.
+    """
+    rpm, stated = labels["speed_rpm"], _stated(labels)
+    if rpm > FASTEST_RPM:
+        hint = ", as if `speed_hz` were in rpm" if "speed_hz" in settings else ""
+        return {f"with a shaft faster than {FASTEST_RPM:g} rpm{hint}": f"{rpm:g} rpm"}
+    if 0.0 < rpm < SLOWEST_LIKELY_RPM and turns >= FEWEST_TURNS and stated in settings:
+        return {f"with a shaft slower than {SLOWEST_LIKELY_RPM:g} rpm, as if `{stated}` were in Hz": f"{rpm:g} rpm"}
+    return {}
+
+
+def _stated(labels: Mapping[str, Any]) -> str:
+    """The setting in rpm that gives the speed, if not another in Hz does; "" for a tach."""
+    return {"nominal": "nominal_speed_rpm", "measured": "speed_rpm"}.get(labels["speed_basis"], "")
 
 
 def standing_doubt(course: NDArray[np.float64] | None) -> dict[str, str]:
@@ -123,7 +137,7 @@ def turns_doubt(turns: float, labels: Mapping[str, Any], settings: Container[str
     """
     if not turns < FEWEST_TURNS:
         return ""
-    stated = "nominal_speed_rpm" if labels["speed_basis"] == "nominal" else "speed_rpm"
-    slow = labels["speed_basis"] != "tach" and stated in settings and labels["speed_rpm"] < SLOWEST_RPM
+    stated = _stated(labels)
+    slow = stated in settings and labels["speed_rpm"] < SLOWEST_RPM
     hint = f": is {stated} in Hz?" if slow else ""
     return f"the shortest record, {labels['recording']}, holds {turns:.2g} turns of the shaft{hint}"

@@ -107,7 +107,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             dead=dead,
             doubts=of_file
             | level_doubts(acceleration, axes, dead)
-            | speed_doubts(speed.rpm, request.settings)
+            | speed_doubts(of_piece, speed.rpm / 60.0 * of_piece["duration_s"], request.settings)
             | standing_doubt(told_course(source, span_of(start, stop, counts.shape[0]))),
         )
 

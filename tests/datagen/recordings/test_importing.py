@@ -444,18 +444,25 @@ def test_times_taken_for_a_vibration_come_in_with_a_warning(sign: float, mat: Ma
     assert told == "1 with samples that only rise or only fall, as times or an angle do and no vibration: a (y)\n"
 
 
+SLOW = "1 with a shaft slower than 100 rpm, as if `{}` were in Hz: a ({} rpm)\n"
+
+
 @pytest.mark.parametrize(
     ("setting", "message"),
     [
         ("speed_hz = 1797", "1 with a shaft faster than 60000 rpm, as if `speed_hz` were in rpm: a (107820 rpm)\n"),
         ("speed_rpm = 107820", "1 with a shaft faster than 60000 rpm: a (107820 rpm)\n"),
         ("speed_hz = 29.95", ""),
+        ("speed_rpm = 29.95", SLOW.format("speed_rpm", "29.95")),
+        ("nominal_speed_rpm = 29.95", SLOW.format("nominal_speed_rpm", "29.95")),
+        ("speed_rpm = 101", ""),
+        ("speed_hz = 0.5", ""),
     ],
 )
 def test_a_speed_that_hardly_any_machine_has_comes_in_with_a_warning(
     setting: str, message: str, mat: Mat, tmp_path: Path
 ) -> None:
-    mat("a.mat", noise())
+    mat("a.mat", noise(30_000))
     assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{setting}\n', tmp_path) == message
 
 

@@ -62,7 +62,7 @@ def read_csv_rows(
             rows = _split(lines) if delimiter == BLANKS else _parsed(lines, delimiter, path, skip_lines)
             return list(islice(((skip_lines + line, cells) for line, cells in rows if cells or blank), most))
     except UnicodeError:
-        raise NotText(f"not a text file in {encoding}", str(path)) from None
+        raise NotText(f"not a text file in {encoding}", str(path), allowed=f"the text saved in {encoding}") from None
 
 
 def _split(lines: Iterator[str]) -> Iterator[Row]:

@@ -24,6 +24,15 @@ MOST_ALIKE, LETTERS_ALIKE = 4, 3
 ONLY_NAME = "data"
 
 
+class NumericVariables(dict[str, NDArray[Any]]):
+    """The variables of a file that hold numbers, by name; `unread` are the names of those that hold texts, tables or
+    sparse matrices."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.unread: list[str] = []
+
+
 class NoVariable(BadInput):
     """The file has no variable of that name."""
 
@@ -57,10 +66,19 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
     names = sorted(arrays)
     if not names:
         raise NoVariable("the file holds no numbers", str(path), field, text)
-    shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
+    if isinstance(arrays, NumericVariables) and text in arrays.unread:
+        problem, allowed = (
+            "is a text, a table or a sparse matrix, which are not read",
+            f"the number itself, or {_shown(names)}",
+        )
+        raise NoVariable(problem, str(path), field, text, allowed)
     hint = arrays.hint if isinstance(arrays, Columns) else ""
     hint = hint or _alike(text, names) or suggestion(text, names)
-    raise NoVariable(f"the file has no such variable{hint}", str(path), field, text, shown)
+    raise NoVariable(f"the file has no such variable{hint}", str(path), field, text, _shown(names))
+
+
+def _shown(names: list[str]) -> str:
+    return ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
 
 
 def _alike(wish: str, names: list[str]) -> str:

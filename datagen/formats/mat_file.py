@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.files.time_stamps import HDF5_SIGNATURE
-from datagen.formats.arrays import Arrays
+from datagen.formats.arrays import Arrays, NumericVariables
 from datagen.formats.netcdf_file import read_netcdf
 
 USER_BLOCK = 512
 NUMBERS, COMPLEX = "iufb", "c"
-Found = dict[str, NDArray[Any]]
+TEXTS = "US"
 
 
 def read_mat(path: Path) -> Arrays:
@@ -46,14 +46,14 @@ def _read_old(path: Path) -> Arrays:
         content = scipy.io.loadmat(path)
     except Exception as problem:  # scipy raises whatever the damaged bytes lead it to
         raise BadInput(f"cannot be read as a .mat file: {problem}", str(path)) from None
-    found: Found = {}
+    found = NumericVariables()
     for name, value in content.items():
         if not name.startswith("__"):
             _collect(found, name, np.asarray(value))
     return found
 
 
-def _collect(found: Found, name: str, value: NDArray[Any]) -> None:
+def _collect(found: NumericVariables, name: str, value: NDArray[Any]) -> None:
     if value.dtype.names is not None:
         for index, element in enumerate(value.ravel(order="F")):
             for field in value.dtype.names:
@@ -62,6 +62,10 @@ def _collect(found: Found, name: str, value: NDArray[Any]) -> None:
         for index, element in enumerate(value.ravel(order="F")):
             if isinstance(element, np.ndarray):
                 _collect(found, _element(name, index, value.size), element)
+            else:
+                found.unread.append(_element(name, index, value.size))
+    elif value.dtype.kind in TEXTS:
+        found.unread.append(name)
     elif value.dtype.kind in NUMBERS + COMPLEX:
         found[name] = value
 
@@ -71,15 +75,25 @@ def _read_hdf5(path: Path) -> Arrays:
 
     try:
         with h5py.File(path) as file:
-            return dict(_of_group(file, ""))
+            return _sorted_out(_of_group(file, ""))
     except Exception as problem:  # h5py too
         raise BadInput(
             f"cannot be read as a .mat file of version 7.3: {problem}; save it in MATLAB with -v7", str(path)
         ) from None
 
 
-def _of_group(group: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
-    """The numeric variables of a structure, or of the whole file, by name.
+def _sorted_out(variables: Iterator[tuple[str, NDArray[Any] | None]]) -> NumericVariables:
+    found = NumericVariables()
+    for name, value in variables:
+        if value is None:
+            found.unread.append(name)
+        else:
+            found[name] = value
+    return found
+
+
+def _of_group(group: Any, name: str) -> Iterator[tuple[str, NDArray[Any] | None]]:
+    """The variables of a structure, or of the whole file, by name; None for those that hold no numbers.
 
     Each field of an array of structures is a list of references, as a cell array is, but is of no class.
     """
@@ -98,8 +112,11 @@ def _of_group(group: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
             yield from _of_item(item, inner)
 
 
-def _of_item(item: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
-    """The numbers of a variable or cell array; MATLAB writes an array's dimensions in reverse order."""
+def _of_item(item: Any, name: str) -> Iterator[tuple[str, NDArray[Any] | None]]:
+    """The numbers of a variable or cell array, None if it holds none.
+
+    MATLAB writes an array's dimensions in reverse order.
+    """
     import h5py
 
     if isinstance(item, h5py.Group):
@@ -111,6 +128,8 @@ def _of_item(item: Any, name: str) -> Iterator[tuple[str, NDArray[Any]]]:
         # Of an empty array the file holds the dimensions instead.
         empty = bool(item.attrs.get("MATLAB_empty", 0))
         yield name, np.zeros(0) if empty else np.asarray(item[...]).T
+    else:
+        yield name, None
 
 
 def _refers(item: Any) -> bool:

@@ -229,3 +229,12 @@ def test_a_name_with_accents_is_found_however_a_system_writes_them(
         )
     ):
         assert bring(SPEC + more, f"out{number}").labels["load_n"].tolist() == [7.0]
+
+
+def test_a_table_in_another_encoding_is_refused_with_the_one_to_save_it_in(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("Mühle.mat")
+    (tmp_path / "t.csv").write_bytes("file,load_n\nMühle.mat,7\n".encode("cp1252"))
+    with pytest.raises(BadInput, match=r"t\.csv: not a text file in utf-8; allowed: the text saved in utf-8$"):
+        bring(SPEC + 'table = "t.csv"\n')

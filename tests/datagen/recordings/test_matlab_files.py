@@ -89,6 +89,19 @@ def test_a_file_without_numbers_is_told_so(tmp_path: Path) -> None:
         choose(read(tmp_path / "a.mat"), "sig", tmp_path / "a.mat", "y")
 
 
+@pytest.mark.parametrize("write", [old_file, new_file])
+def test_a_text_is_told_from_what_is_not_there(write: Callable[[Path], None], tmp_path: Path) -> None:
+    path = tmp_path / "run_1.mat"
+    write(path)
+    told = (
+        r'y = "{}": is a text, a table or a sparse matrix, which are not read; allowed: the number itself, or .*parts'
+    )
+    with pytest.raises(BadInput, match=told.format(r"run_1\.Y\[0\]\.Name")):
+        choose(read(path), "run_1.Y[0].Name", path, "y")
+    with pytest.raises(BadInput, match="the file has no such variable"):
+        choose(read(path), "run_1.Y[0].Named", path, "y")
+
+
 def test_a_vibration_comes_in_with_the_speed_of_a_slower_channel_beside_it(
     bring: Callable[..., Corpus], tmp_path: Path
 ) -> None:

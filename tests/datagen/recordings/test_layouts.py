@@ -88,6 +88,14 @@ def named(folder: Path) -> None:
         write_table(folder / f"{name}.csv", noise(64, 1))
 
 
+def titled(folder: Path) -> None:
+    (folder / "bearingset").mkdir()
+    titles = "".join(f"Title {line}: \xb5\n" for line in range(16))
+    for name, delimiter in (("ball_20_0", ","), ("inner_30_2", "\t"), ("comb_30_2", "\t")):
+        rows = "".join(delimiter.join(f"{value:.6f}" for value in row) + f"{delimiter}\n" for row in noise(64, 8))
+        (folder / f"bearingset/{name}.csv").write_text(titles + rows, encoding="latin-1")
+
+
 def exported(folder: Path) -> None:
     rows = "".join(f"{k / 8000:.6f};{value:.6f};\r\n" for k, value in enumerate(noise(64)))
     (folder / "export").mkdir()
@@ -107,7 +115,7 @@ def corpus(tmp_path_factory: pytest.TempPathFactory) -> Corpus:
     """The records of all layouts."""
     folder = tmp_path_factory.mktemp("layouts")
     for write in (
-        structures, numbered, clocked, dated, encoder, first_row, tacho, stepped, named, exported, stacked,
+        structures, numbered, clocked, dated, encoder, first_row, tacho, stepped, named, titled, exported, stacked,
     ):  # fmt: skip
         write(folder)
     (folder / "layouts.toml").write_text(SPEC, encoding="utf-8")
@@ -135,6 +143,7 @@ EXPECTED: dict[str, tuple[list[str], float, list[float]]] = {
     "tacho": (["normal/12.288 underhang", "normal/12.288 overhang"], 50000.0, [737.28] * 2),
     "stepped": (["0Nm_Normal"], 25600.0, [3010.0]),
     "named": (["ib600_2", "ob1000_2", "n600_3_2"], 50000.0, [600.0, 1000.0, 600.0]),
+    "titled": (["bearingset/ball_20_0", "bearingset/inner_30_2"], 5120.0, [1200.0, 1800.0]),
     "exported": (["export/1"], 8000.0, [1480.0]),
     "stacked": (["pack row 0", "pack row 1"], 12000.0, [1797.0] * 2),
 }

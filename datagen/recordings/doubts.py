@@ -22,7 +22,7 @@ LARGEST_OFFSET = 10.0
 MOST_AT_LIMIT = 1e-3
 FEWEST_VALUES = 16
 # Share of a record, and the number of samples, above which a stretch of one value is doubted: those of recordings that
-# are whole have up to 4 samples.
+# are whole have up to 4 samples. So many samples at the beginning do not come again by chance either.
 LONGEST_STRETCH, FEWEST_STRETCHED = 0.01, 100
 # Turns of the shaft below which a speed is doubted: a spectrum then hardly separates the orders of a bearing.
 FEWEST_TURNS = 10.0
@@ -38,6 +38,7 @@ OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, a
 CLIPPED = "with peaks cut off, as if the recorder's range were too small"
 HELD = "with a stretch of one value, as if padded or the signal lost; from_s and to_s take what is beside it"
 RISING = "with samples that only rise or only fall, as times or an angle do and no vibration"
+AGAIN = "whose beginning comes again exactly, as of a buffer written twice; its period looks like that of a fault"
 STANDING = "with a speed that is 0 in places, taken as a shaft that stands there and not as one nobody measured"
 FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
 
@@ -46,7 +47,7 @@ def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: I
     """What is odd about the level of the `acceleration` (T, axes), m/s², each doubt with its figures; axes that are
     `dead` are not looked at."""
     signals = {axis: signal for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
-    loud, offset, clipped, held, rising = [], [], [], [], []
+    loud, offset, clipped, held, rising, again = [], [], [], [], [], []
     for axis, signal in signals.items():
         mean, rms = _level(signal)
         cut_off = _share_cut_off(signal)
@@ -60,7 +61,9 @@ def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: I
             held.append(f"{axis} {stretch} of {signal.size} samples")
         if _only_rises(signal) or _only_rises(-signal):
             rising.append(axis)
-    found = {LOUD: loud, OFFSET: offset, CLIPPED: clipped, HELD: held, RISING: rising}
+        if period := _period(signal):
+            again.append(f"{axis} after {period} samples")
+    found = {LOUD: loud, OFFSET: offset, CLIPPED: clipped, HELD: held, RISING: rising, AGAIN: again}
     return {doubt: ", ".join(figures) for doubt, figures in found.items() if figures}
 
 
@@ -79,6 +82,20 @@ def _longest_stretch(signal: NDArray[np.float32]) -> int:
     ends = np.flatnonzero(np.diff(signal, append=np.nan) != 0.0)
     longest = int(np.diff(ends, prepend=-1).max())
     return longest if longest <= FEWEST_STRETCHED or np.unique(signal).size >= FEWEST_VALUES else 0
+
+
+def _period(signal: NDArray[np.float32]) -> int:
+    """After how many samples the first ones of a `signal` (T,) come again exactly; 0 if they do not, or have few
+    different values."""
+    head = signal[:FEWEST_STRETCHED]
+    if np.unique(head).size < FEWEST_VALUES:
+        return 0
+    places = np.arange(1, signal.size - head.size + 1)
+    for place, value in enumerate(head):
+        places = places[signal[places + place] == value]
+        if not places.size:
+            return 0
+    return int(places[0])
 
 
 def _only_rises(signal: NDArray[np.float32]) -> bool:

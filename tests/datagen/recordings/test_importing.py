@@ -444,6 +444,24 @@ def test_times_taken_for_a_vibration_come_in_with_a_warning(sign: float, mat: Ma
     assert told == "1 with samples that only rise or only fall, as times or an angle do and no vibration: a (y)\n"
 
 
+@pytest.mark.parametrize(
+    ("period", "steps", "message"),
+    [
+        (1500, 0, "a (y after 1500 samples)\n"),
+        (3950, 0, ""),  # too few samples are left
+        (100, 3, ""),  # of few values
+    ],
+)
+def test_a_buffer_written_twice_comes_in_with_a_warning(
+    period: int, steps: int, message: str, mat: Mat, tmp_path: Path
+) -> None:
+    signal = np.resize(noise(period), 4000)
+    mat("a.mat", np.round(signal * steps) if steps else signal)
+    told = told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path)
+    assert told.endswith(f": {message}" if message else "")
+    assert ("comes again exactly" in told) == bool(message)
+
+
 SLOW = "1 with a shaft slower than 100 rpm, as if `{}` were in Hz: a ({} rpm)\n"
 
 

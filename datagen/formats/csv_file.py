@@ -13,6 +13,7 @@ from datagen.errors import BadInput
 from datagen.files.csv_rows import BLANKS, NotText, Row, open_text, read_csv_rows
 from datagen.formats.csv_hints import (
     DECIMAL_COMMA,
+    THOUSANDS,
     above_hint,
     cells_hint,
     delimiter_hint,
@@ -141,7 +142,7 @@ def _columns_of_words(cells: list[str], layout: CsvLayout, gaps: Container[int])
         column for column, cell in enumerate(cells) if column not in gaps and not math.isfinite(layout.number(cell))
     ]
     told = [cells[column].strip() for column in words]
-    if any('"' in cell or DECIMAL_COMMA.fullmatch(cell) for cell in told):
+    if any('"' in cell or DECIMAL_COMMA.fullmatch(cell) or THOUSANDS.fullmatch(cell) for cell in told):
         return []
     return words
 

@@ -408,6 +408,12 @@ def test_signs_between_thousands_are_named(cell: str, layout: str, place: int, b
     assert "did you mean" not in message
 
 
+def test_signs_between_thousands_are_named_beside_columns_of_numbers(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("a\tb\n" + "1.234,5\t1\n" * 40)
+    message = refusal(bring, SPEC + 'csv = {delimiter = "\\t", decimal = ","}\n', tmp_path)
+    assert 'the first is "1.234,5"; numbers are read without signs between thousands only' in message
+
+
 @pytest.mark.parametrize("cell", ["0,079.20", '"12,34.5"', "1.079.20", "2,079"])
 def test_other_numbers_are_not_called_ones_of_thousands(cell: str, bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("\n".join(["a", *["7"] * 20, cell, *["7"] * 20]))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+RPM_PER_HZ = 60.0
 # One revolution per minute, rad/s.
-RPM = 2.0 * math.pi / 60.0
+RPM = 2.0 * math.pi / RPM_PER_HZ
 
 
 def in_rpm(speed: float) -> float:

@@ -16,11 +16,11 @@ from datagen.benchmark.record_rows import RecordRows, Row
 from datagen.benchmark.request import require_bandwidth
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
-from datagen.judging.known import RPM_PER_HZ
 from datagen.judging.splits import ALL, require_split
 from datagen.judging.truth import true_classes
 from datagen.progress import SILENT, Listener
 from labels.features.table import FEATURE_NAMES
+from physics.angular_speed import RPM_PER_HZ
 
 if TYPE_CHECKING:
     import pandas

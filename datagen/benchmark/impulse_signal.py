@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import fftconvolve
 
-from datagen.judging.known import RPM_PER_HZ
 from labels.features.kinematics import Kinematics
 from labels.schema import LOCATIONS
+from physics.angular_speed import RPM_PER_HZ
 from physics.arrays import Array
 from physics.orders import ball_spin_order
 

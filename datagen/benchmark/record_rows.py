@@ -16,7 +16,7 @@ from scipy import fft
 from datagen.benchmark.fitness import unfit
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
-from datagen.judging.known import RPM_PER_HZ, known_kinematics
+from datagen.judging.known import known_kinematics
 from labels.classifier.liveness import DEAD, liveness
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
@@ -26,6 +26,7 @@ from labels.features.known_lines import races_in_mains
 from labels.features.mending import mended
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning
+from physics.angular_speed import RPM_PER_HZ
 from physics.arrays import Array
 
 if TYPE_CHECKING:

@@ -12,12 +12,12 @@ import numpy as np
 from scipy import fft
 
 from datagen.drawing.close_up import CloseUp
-from datagen.judging.known import RPM_PER_HZ
 from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.features.turning import Turning
 from labels.kurtogram import most_impulsive_band
 from labels.spectrum import amplitude_spectrum
 from labels.variables import AXES
+from physics.angular_speed import RPM_PER_HZ
 from physics.arrays import Array
 
 REVOLUTIONS_SHOWN = 3.0

@@ -8,9 +8,9 @@ from dataclasses import replace
 from typing import Any
 
 from labels.features.kinematics import NOMINAL_WITHIN, Kinematics, bearing_kinematics
+from physics.angular_speed import RPM_PER_HZ
 from physics.orders import ball_spin_order
 
-RPM_PER_HZ = 60.0
 UNKNOWN_SPEED = "speed unknown"
 UNKNOWN_GEOMETRY = "geometry unknown"
 NO_ROTATION = "speed not above 0"

@@ -28,6 +28,7 @@ from labels.band import holds_a_line
 from labels.dead_sensor import is_dead
 from labels.kurtogram import most_impulsive_band
 from labels.variables import AXES
+from physics.angular_speed import RPM_PER_HZ
 
 LARGEST_ACCELERATION = 1e9
 Key = tuple[float, int, tuple[str, ...], tuple[str, ...], bool]
@@ -62,7 +63,7 @@ class Recorded:
     @property
     def turns(self) -> float:
         """Turns of the shaft in it; infinite if the speed is unknown or 0."""
-        turns = float(self.labels["speed_rpm"]) / 60.0 * float(self.labels["duration_s"])
+        turns = float(self.labels["speed_rpm"]) / RPM_PER_HZ * float(self.labels["duration_s"])
         return turns if turns > 0.0 else math.inf
 
     @property
@@ -107,7 +108,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             dead=dead,
             doubts=of_file
             | level_doubts(acceleration, axes, dead)
-            | speed_doubts(of_piece, speed.rpm / 60.0 * of_piece["duration_s"], request.settings)
+            | speed_doubts(of_piece, speed.rpm / RPM_PER_HZ * of_piece["duration_s"], request.settings)
             | standing_doubt(told_course(source, span_of(start, stop, counts.shape[0]))),
         )
 

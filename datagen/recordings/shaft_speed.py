@@ -19,6 +19,7 @@ from datagen.recordings.settings import Tach
 from datagen.recordings.source import WHOLE, Source, Span, span_of
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
+from physics.angular_speed import RPM_PER_HZ
 
 RPM_PER = {"speed_rpm": 1.0, "speed_hz": 60.0}
 FEWEST_PULSES = 3
@@ -186,7 +187,7 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
             f"at least {FEWEST_PULSES} pulses; tach.threshold sets the level at which they are counted, and an angle "
             "that only grows shows none",
         )  # fmt: skip
-    speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * 60.0)
+    speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * RPM_PER_HZ)
     if not in_range("speed_rpm", speed):
         raise BadInput(
             f"its pulses give {speed:.4g} revolutions per minute", str(source.path), "tach.pulses_per_rev",

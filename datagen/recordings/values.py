@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
 from datagen.settings.table import Between, Table, refuse
+from physics.angular_speed import RPM_PER_HZ
 from physics.spelling import suggestion
 
 # Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
@@ -17,7 +18,7 @@ RANGES = {
     "rate_hz": Between(100.0, 1e7),
     "scale": Between(),
     "speed_rpm": Between(0.0, 1e6),
-    "speed_hz": Between(0.0, 1e6 / 60.0),
+    "speed_hz": Between(0.0, 1e6 / RPM_PER_HZ),
     "nominal_speed_rpm": Between(0.0, 1e6),
     "extent_mm": Between(0.0, 1e4, above=True),
     "extent_deg": Between(0.0, 360.0, above=True),

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from datagen.judging.known import RPM_PER_HZ
 from labels.spall_size.event_truth import EventTruth, event_truth
+from physics.angular_speed import RPM_PER_HZ
 from physics.arrays import Array
 
 PASS_COLUMNS = ("exit_time", "release_time", "regain_time", "fall_time", "rise_time")

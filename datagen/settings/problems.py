@@ -13,6 +13,8 @@ from datagen.settings.toml_lines import Location, line_of
 from physics.spelling import suggestion
 
 MOST_LISTED = 16
+# Errors of a value that is no number of the kind wanted, which do not tell its range.
+NO_NUMBER = ("int_type", "int_from_float", "float_type", "finite_number")
 SCALARS = ("str", "float", "int", "bool")
 EXPECTED = {
     "string_type": "a text in quotes",
@@ -50,7 +52,8 @@ def bad_settings(invalid: ValidationError, model: type[BaseModel], path: Path | 
         at_line(path, line_of(text, location)),
         dotted(location),
         _value(first, location, field),
-        _allowed(first, [error for error in errors if _place(error) == _place(first)]),
+        _allowed(first, [error for error in errors if _place(error) == _place(first)])
+        + (_range_at(location, model) if first["type"] in NO_NUMBER else ""),
     )
 
 
@@ -134,12 +137,26 @@ def _settings_beside(first: dict[str, Any], location: Location, model: type[Base
     return keys if set(keys) <= set(_keys_beside(location, model)) else []
 
 
+def _range_at(location: Location, model: type[BaseModel]) -> str:
+    """The range of the number at `location`, as " from 1 to 200"; empty where the setting has none on both sides."""
+    field = _table_around(location, model).model_fields.get(str(location[-1]))
+    limits = [] if field is None else field.metadata
+    ends = [getattr(limit, side) for side in ("ge", "le") for limit in limits if hasattr(limit, side)]
+    shown = [f"{end:g}" if isinstance(end, float) else str(end) for end in ends]
+    return f" from {shown[0]} to {shown[1]}" if len(shown) == 2 else ""
+
+
 def _keys_beside(location: Location, model: type[BaseModel]) -> list[str]:
+    return list(_table_around(location, model).model_fields)
+
+
+def _table_around(location: Location, model: type[BaseModel]) -> type[BaseModel]:
+    """The table of the setting at `location`."""
     table = model
     for step in location[:-1]:
         if isinstance(step, str):
             table = _table_type(table.model_fields[step].annotation) or table
-    return list(table.model_fields)
+    return table
 
 
 def _homes(key: str, model: type[BaseModel]) -> list[str]:

@@ -142,6 +142,20 @@ CASES = {
         "part[1].defect.extent_spacing = {uniform = [1, 2]}",
         "1 is no line spall; allowed: below 1 ball spacing",
     ),
+    "half a record": (
+        "records = 2",
+        "records = 2.5",
+        8,
+        "part[1].records = 2.5",
+        "a whole number from 1 to 10000000",
+    ),
+    "a share in words": (
+        "[[part]]",
+        '[split]\ntrain = "most"\n[[part]]',
+        7,
+        'split.train = "most"',
+        "a number from 0 to 1",
+    ),
     "a misspelt distribution": (
         "depth_um = 12",
         "depth_um = {unifrm = [1, 2]}",

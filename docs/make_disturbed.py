@@ -21,13 +21,14 @@ from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve, resample_poly
 
+from datagen.benchmark.chosen import ChosenRecords, chosen_records
 from datagen.benchmark.corpus_rows import CorpusRows, rows_of_records
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordRows, record_rows
 from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import train_models, train_rule, training_records, training_set
-from datagen.benchmark.verdicts import Tested, judge
+from datagen.benchmark.verdicts import Judges, Tested
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.scored_runs import write_line
@@ -151,18 +152,16 @@ def read(folder: Path, label: pandas.Series[Any], name: str) -> RecordRows:
     return record_rows(found.signal, disturbed, Reading())
 
 
-def rows_of(folder: Path, name: str) -> tuple[pandas.DataFrame, CorpusRows]:
-    """The labels of a corpus, and the rows of all its records, disturbed."""
-    with Corpus(folder) as corpus:
-        labels = corpus.labels
-    found = Parallel(WORKERS)(delayed(read)(folder, label, name) for _, label in labels.iterrows())
-    return labels, rows_of_records(dict(zip(labels["record"].tolist(), found, strict=True)))
+def rows_of(chosen: ChosenRecords, name: str) -> CorpusRows:
+    """The rows of all records, disturbed."""
+    found = Parallel(WORKERS)(delayed(read)(chosen.folder, label, name) for _, label in chosen.labels.iterrows())
+    return rows_of_records(dict(zip(chosen.numbers.tolist(), found, strict=True)))
 
 
 def scores(tested: list[Tested]) -> list[tuple[str, str, str, str]]:
     """By model: its name, balanced accuracy without odd records, share of right races, and false alarms."""
     truth = np.concatenate([draw.truth for draw in tested])
-    names = np.concatenate([draw.labels["recording"].astype(str).to_numpy() for draw in tested])
+    names = np.concatenate([draw.chosen.labels["recording"].astype(str).to_numpy() for draw in tested])
     faulty, healthy = np.isin(truth, RACES) & ~np.isin(names, ODD), truth == "none"
     found = []
     for place, model in enumerate(verdicts.name for verdicts in tested[0].verdicts):
@@ -180,16 +179,13 @@ def main(train: Path, tests: list[Path]) -> None:
     for folder in tests:
         require_no_angle(folder)
     training = training_set(train, training_records(train, False), Benchmark(train, ()).training_reading(), WORKERS)
-    rule, models = train_rule(training), train_models(training, "all")
-    names = ["rule", *(model.name for model in models)]
+    judges = Judges(train_rule(training), train_models(training, "all"))
+    names = ["rule", *(model.name for model in judges.models)]
     head = " | ".join(f"{name}: faults, race, false alarms" for name in names)
     lines = [f"| recordings | {head} |", "|---" * (len(names) + 1) + "|"]
+    whole = [chosen_records(folder, None) for folder in tests]
     for name in DISTURBANCES:
-        tested = []
-        for folder in tests:
-            labels, rows = rows_of(folder, name)
-            tested.append(judge(folder, labels, rows, rule, models, 0.0, True))
-        found = scores(tested)
+        found = scores([judges.judge(chosen, rows_of(chosen, name)) for chosen in whole])
         for folder in tests:
             write_line(folder, {"disturbed": name, "train": str(train), "with": list(map(str, tests)), "scores": found})
         cells = [f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found]

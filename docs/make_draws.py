@@ -13,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
+from datagen.benchmark.chosen import chosen_records
 from datagen.benchmark.corpus_rows import read_rows
-from datagen.benchmark.machines import learned_machines, unseen_records
+from datagen.benchmark.machines import learned_machines
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
-from datagen.benchmark.verdicts import Tested, judge
+from datagen.benchmark.verdicts import Judges, Tested
 from datagen.corpus import Corpus
 from datagen.judging.scored_runs import write_line
 from physics.bearing import RACES
@@ -35,7 +36,7 @@ def drawn(training: TrainingSet, draw: int) -> TrainingSet:
 
 def scores(tested: Tested) -> dict[str, dict[str, float | None]]:
     """By model: balanced accuracy over outer and inner without the odd records, and the share of false alarms."""
-    faulty = np.isin(tested.truth, RACES) & ~np.isin(tested.labels["recording"].astype(str), ODD)
+    faulty = np.isin(tested.truth, RACES) & ~np.isin(tested.chosen.labels["recording"].astype(str), ODD)
     healthy = tested.truth == "none"
     return {
         said.name: {
@@ -52,21 +53,17 @@ def main(train: Path, out: Path, tests: list[Path]) -> None:
     labels = training_records(train, False)
     training = training_set(train, labels, benchmark.training_reading(), 1)
     learned = learned_machines(Corpus(train), labels["record"].to_numpy(np.int64))
-    chosen = {folder: unseen_records(Corpus(folder), learned) for folder in tests}
-    rows = {
-        folder: read_rows(folder, labels["record"].to_numpy(np.int64), benchmark.reading(), 1)
-        for folder, labels in chosen.items()
-    }
+    chosen = [chosen_records(folder, learned) for folder in tests]
+    rows = [read_rows(records.folder, records.numbers, benchmark.reading(), 1) for records in chosen]
     found: dict[str, Any] = {folder.name: [] for folder in tests}
     for draw in range(DRAWS):
         part = drawn(training, draw)
-        rule, models = train_rule(part), train_models(part, "all")
-        for folder in tests:
-            imported = bool(Corpus(folder).manifest.imported)
-            by_model = scores(judge(folder, chosen[folder], rows[folder], rule, models, 0.0, imported))
-            found[folder.name].append(by_model)
-            if imported:
-                write_line(folder, {"draw": draw, "train": str(train), "scores": by_model})
+        judges = Judges(train_rule(part), train_models(part, "all"))
+        for records, found_in in zip(chosen, rows, strict=True):
+            by_model = scores(judges.judge(records, found_in))
+            found[records.folder.name].append(by_model)
+            if records.imported:
+                write_line(records.folder, {"draw": draw, "train": str(train), "scores": by_model})
         out.write_text(json.dumps(found, indent=1))
 
 

@@ -7,8 +7,8 @@
   features; `feature_table`: these rows for people; `windows`: raw pieces for users' own estimators
 - `training`, `trained` (the result, as a file), `learning` (the learning curve), `importance` (of features)
 - `impulse_signal`, `impulse_training`: the rival training set, made without contact physics
-- `machines`: keeps records of machines that were learned from out of the scores; `answers`: checks what an estimator
-  says
+- `machines`: keeps records of machines that were learned from out of the scores; `chosen`: the records that are judged
+- `answers`: checks what an estimator says
 - `verdicts`: one answer per record; `predictions`: these as a table
 - `summary`: computes the scores, which `model_scores` holds; `results`: all that a run returns; `log_line`: what the
   log beside each scored corpus says about it

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from datagen.benchmark.chosen import chosen_records
 from datagen.benchmark.machines import LearnedMachines, learned_machines
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.results import Results
 from datagen.benchmark.run_learning import learn, training_labels
-from datagen.benchmark.run_scoring import score_corpus, tested_records
+from datagen.benchmark.run_scoring import score_corpus
 from datagen.benchmark.trained import is_saved, load_trained, save_trained
 from datagen.corpus import Corpus
 from datagen.progress import SILENT, Listener
@@ -30,15 +31,12 @@ def run(benchmark: Benchmark, listener: Listener = SILENT) -> Results:
         benchmark = replace(benchmark, options=replace(benchmark.options, learning=trained.learning))
     learned = _machines_of(benchmark, labels) if trained is None else trained.machines
     # Before anything is learned, which takes long: a corpus of which no record may be scored is refused at once.
-    chosen = [tested_records(folder, learned) for folder in benchmark.tests]
+    chosen = [chosen_records(folder, learned) for folder in benchmark.tests]
     if trained is None:
         trained = learn(benchmark, labels, learned, listener)
     if benchmark.save is not None:
         save_trained(benchmark.save, trained)
-    tests = [
-        score_corpus(benchmark, folder, records, trained, listener)
-        for folder, records in zip(benchmark.tests, chosen, strict=True)
-    ]
+    tests = [score_corpus(benchmark, records, trained, listener) for records in chosen]
     return Results(str(benchmark.train), benchmark.options, trained.facts, tests, time.monotonic() - began)
 
 

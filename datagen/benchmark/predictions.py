@@ -92,7 +92,7 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )
-        for place, ((_, row), facts) in enumerate(zip(tested.labels.iterrows(), tested.facts, strict=True))
+        for place, ((_, row), facts) in enumerate(zip(tested.chosen.labels.iterrows(), tested.facts, strict=True))
     ]
 
 

@@ -45,9 +45,9 @@ def summarise(tested: Tested) -> CorpusScores:
     """
     rule = tested.verdicts[0]
     return CorpusScores(
-        corpus=str(tested.folder),
-        imported=tested.imported,
-        records=len(tested.labels),
+        corpus=str(tested.chosen.folder),
+        imported=tested.chosen.imported,
+        records=len(tested.chosen.labels),
         locations={name: int((tested.truth == name).sum()) for name in (*LOCATIONS, UNKNOWN)},
         rejections=dict(Counter(facts.reason for facts in tested.facts if facts.reason)),
         levelled=_taken_out(tested, "jumps"),
@@ -84,7 +84,7 @@ def _scores(tested: Tested, said: Verdicts, rule: Verdicts) -> Scores:
         false_alarm_share=_alarm_share(alarms[healthy], owner[healthy]),
         healthy_bearings=_known_bearings(tested, healthy),
         alarming_bearings=_known_bearings(tested, alarms),
-        healthy_of_unknown_bearing=int((tested.labels["bearing_id"][healthy] == UNKNOWN).sum()),
+        healthy_of_unknown_bearing=int((tested.chosen.labels["bearing_id"][healthy] == UNKNOWN).sum()),
         rejected=int((said.location == REJECTED).sum()),
         confusion=_confusion(truth, said.location, (*LOCATIONS, UNKNOWN), LOCATIONS),
         minus_rule=_against_rule(tested, said, rule) if learned else None,
@@ -104,7 +104,7 @@ def _confusion(
 
 def _known_bearings(tested: Tested, chosen: NDArray[np.bool_]) -> int:
     """Of how many bearings the `chosen` (R,) records are, apart from those of which it is unknown."""
-    names = tested.labels["bearing_id"][chosen]
+    names = tested.chosen.labels["bearing_id"][chosen]
     return int(names[names != UNKNOWN].nunique())
 
 
@@ -174,7 +174,7 @@ def _against(tested: Tested, said: Verdicts) -> dict[str, list[dict[str, float]]
     right = (said.location == tested.truth)[faulty]
     tables = {}
     for name in AGAINST:
-        quantity: Array = tested.labels[name].to_numpy(np.float64)[faulty]
+        quantity: Array = tested.chosen.labels[name].to_numpy(np.float64)[faulty]
         if np.unique(quantity[np.isfinite(quantity)]).size >= 2:
             tables[name] = accuracy_against(quantity, right, groups=tested.owner[faulty])
     return tables

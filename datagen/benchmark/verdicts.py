@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.chosen import ChosenRecords
 from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.rows import Rows
@@ -21,9 +21,6 @@ from labels.classifier.rule import Rule, line_heights
 from labels.classifier.votes import averaged, joined
 from labels.schema import LOCATIONS
 from physics.arrays import Array
-
-if TYPE_CHECKING:
-    import pandas
 
 REJECTED = "rejected"
 RULE = "rule"
@@ -51,54 +48,52 @@ class Verdicts:
 
 @dataclass(frozen=True)
 class Tested:
-    """A corpus with what was said of each of its R records; in pooled draws of noise a record is there once a draw.
+    """R `chosen` records with what was said of each; in pooled draws of noise a record is there once a draw.
 
     `truth` and `classes` (R,) are the location and the class that the labels state, `facts` (R) what reading the
     records showed.
     """
 
-    folder: Path
-    labels: pandas.DataFrame
+    chosen: ChosenRecords
     truth: NDArray[np.str_]
     classes: NDArray[np.str_]
     facts: tuple[RecordFacts, ...]
     verdicts: tuple[Verdicts, ...]
-    imported: bool
 
     @property
     def owner(self) -> NDArray[np.int64]:
         """The record (R,) that each verdict is of: draws of one record are drawn together in a bootstrap."""
-        return self.labels["record"].to_numpy(np.int64)
+        return self.chosen.numbers
 
 
-def judge(
-    folder: Path,
-    labels: pandas.DataFrame,
-    found: CorpusRows,
-    rule: Rule,
-    models: list[Model],
-    reject: float,
-    imported: bool,
-) -> Tested:
-    """Verdicts of the rule and the models on the records with these labels, by what was `found` in them.
+@dataclass(frozen=True)
+class Judges:
+    """The rule and the models, which reject a record if their answer about its location has a probability below
+    `reject`."""
 
-    A record is rejected if it cannot be judged or shows no running machine; models also reject it if their answer about
-    its location has a probability below `reject`.
-    """
-    records = labels["record"].to_numpy(np.int64)
-    facts = tuple(found.facts.get(record, RecordFacts()) for record in records.tolist())
-    reasons = np.array([of_record.reason for of_record in facts], dtype=np.str_)
-    verdicts = [_of_rule(rule, found.rows, records, reasons)]
-    verdicts += [_of_model(model, found.asked_for(model.takes_windows), records, reasons, reject) for model in models]
-    return Tested(
-        folder=folder,
-        labels=labels,
-        truth=true_locations(labels),
-        classes=true_classes(labels),
-        facts=facts,
-        verdicts=tuple(verdicts),
-        imported=imported,
-    )
+    rule: Rule
+    models: Sequence[Model]
+    reject: float = 0.0
+
+    def judge(self, chosen: ChosenRecords, found: CorpusRows) -> Tested:
+        """What all say about the `chosen` records, by what was `found` in them.
+
+        All reject a record that cannot be judged or shows no running machine.
+        """
+        records = chosen.numbers
+        facts = tuple(found.facts.get(record, RecordFacts()) for record in records.tolist())
+        reasons = np.array([of_record.reason for of_record in facts], dtype=np.str_)
+        of_models = (
+            _of_model(model, found.asked_for(model.takes_windows), records, reasons, self.reject)
+            for model in self.models
+        )
+        return Tested(
+            chosen=chosen,
+            truth=true_locations(chosen.labels),
+            classes=true_classes(chosen.labels),
+            facts=facts,
+            verdicts=(_of_rule(self.rule, found.rows, records, reasons), *of_models),
+        )
 
 
 def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArray[np.str_]) -> Verdicts:
@@ -170,7 +165,7 @@ def pooled_draws(draws: list[Tested]) -> Tested:
     said = zip(*(tested.verdicts for tested in draws), strict=True)
     return replace(
         draws[0],
-        labels=pandas.concat([tested.labels for tested in draws]),
+        chosen=replace(draws[0].chosen, labels=pandas.concat([tested.chosen.labels for tested in draws])),
         facts=tuple(of_record for tested in draws for of_record in tested.facts),
         verdicts=tuple(replace(of_one[0], **_joined_arrays(of_one)) for of_one in said),
         **_joined_arrays(draws),

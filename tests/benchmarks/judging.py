@@ -17,10 +17,11 @@ from pathlib import Path
 
 import numpy as np
 
+from datagen.benchmark.chosen import chosen_records
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.training import COPIES_DB, LOWEST_BANDWIDTH, train_models, train_rule, training_set
-from datagen.benchmark.verdicts import judge
+from datagen.benchmark.verdicts import Judges
 from datagen.corpus import Corpus
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.recipes.recipe import load_recipe
@@ -58,18 +59,17 @@ def classifying(scratch: Path, records: int, workers: int) -> dict[str, float]:
     training = made("transfer", scratch / "transfer", list(range(LEARNED_FROM)))
     labels = Corpus(training).labels
     learned = training_set(training, labels, TRAINING, workers)
-    rule, models = train_rule(learned), train_models(learned, "all")
+    judges = Judges(train_rule(learned), train_models(learned, "all"))
     folder = made("corpus", scratch / "corpus", spread("corpus", records))
-    tested = Corpus(folder).labels
-    own = tested["record"].to_numpy(np.int64)
-    read_rows(folder, own[:48], Reading(), workers)  # what is loaded at first use is there
+    tested = chosen_records(folder, None)
+    read_rows(folder, tested.numbers[:48], Reading(), workers)  # what is loaded at first use is there
     found = {}
 
     def features() -> None:
-        found["rows"] = read_rows(folder, own, Reading(), workers)
+        found["rows"] = read_rows(folder, tested.numbers, Reading(), workers)
 
     spent = seconds(features)
-    verdicts = seconds(lambda: judge(folder, tested, found["rows"], rule, models, 0.0, False))
+    verdicts = seconds(lambda: judges.judge(tested, found["rows"]))
     return {"features_s": spent, "verdicts_s": verdicts}
 
 

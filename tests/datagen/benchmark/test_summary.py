@@ -7,6 +7,7 @@ import numpy as np
 import pandas
 import pytest
 
+from datagen.benchmark.chosen import ChosenRecords
 from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.verdicts import Tested as Judged
@@ -28,13 +29,11 @@ def test_the_race_is_scored_of_every_fault_whether_it_raised_the_alarm_or_not():
         snr_db=np.nan, speed_rpm=100.0, extent_mm=np.nan, extent_spacing=np.nan
     )
     tested = Judged(
-        folder=Path("corpus"),
-        labels=labels,
+        chosen=ChosenRecords(Path("corpus"), labels, imported=True),
         truth=truth,
         classes=np.full(5, "unknown"),
         facts=(RecordFacts(),) * 5,
         verdicts=(rule,),
-        imported=True,
     )
     scores = summarise(tested).models["rule"]
     assert scores.race_accuracy.value == 0.25  # right: the first of four faults; healthy records do not count

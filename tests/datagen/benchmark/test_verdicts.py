@@ -8,6 +8,7 @@ import pandas
 import pytest
 from scipy.stats import binomtest
 
+from datagen.benchmark.chosen import ChosenRecords
 from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.predictions import ModelAnswer, Prediction, prediction_table, record_predictions
 from datagen.benchmark.record_rows import RecordFacts
@@ -15,7 +16,7 @@ from datagen.benchmark.results import CorpusResults
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
-from datagen.benchmark.verdicts import REJECTED, judge, pooled_draws, vote
+from datagen.benchmark.verdicts import REJECTED, Judges, pooled_draws, vote
 from datagen.commands.classify import print_results, score_line
 from datagen.commands.tables import verdict_table
 from labels.classifier.alarm import CLEARNESS, Alarm
@@ -59,8 +60,12 @@ def corpus(locations):
     return labels, CorpusRows(rows_of(np.zeros((size, len(FEATURE_NAMES))), np.arange(size)))
 
 
+def judge(labels, rows, model, doubt=0.0, rule=RULE):
+    return Judges(rule, [model], doubt).judge(ChosenRecords(Path("made-up"), labels, imported=True), rows)
+
+
 def judged(locations, probability, doubt=0.0, alarm=0.5):
-    return judge(Path("made-up"), *corpus(locations), RULE, [Model("said", Said(probability), alarm)], doubt, True)
+    return judge(*corpus(locations), Model("said", Said(probability), alarm), doubt)
 
 
 def test_what_is_said_is_rejected_by_its_own_probability():
@@ -84,7 +89,7 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
     generator = np.random.default_rng(2)
     probability = generator.dirichlet([1.0, 2.0, 2.0, 0.5, 0.5], len(locations))
     one = judged(locations, probability)
-    once, pooled = (summarise(replace(found)).models["said"] for found in (one, pooled_draws([one] * 10)))
+    once, pooled = (summarise(found).models["said"] for found in (one, pooled_draws([one] * 10)))
     for name in ("faults_balanced_accuracy", "race_accuracy"):
         assert astuple(getattr(pooled, name)) == pytest.approx(astuple(getattr(once, name)))
         differences = [astuple(getattr(scores.minus_rule, name))[1:] for scores in (pooled, once)]
@@ -102,7 +107,7 @@ def test_pooled_draws_keep_what_each_draw_says_of_every_record():
         for name in ("location", "condition", "race", "score", "alarm", "probability"):
             together = [part for draw in of_draws for part in np.asarray(getattr(draw, name)).tolist()]
             assert getattr(said, name).tolist() == together, name
-    assert list(pooled.labels.index) == [*one.labels.index, *other.labels.index]
+    assert list(pooled.chosen.labels.index) == [*one.chosen.labels.index, *other.chosen.labels.index]
 
 
 def test_the_reliability_of_a_corpus_weighs_healthy_and_faulty_alike():
@@ -121,7 +126,7 @@ def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interv
     labels, rows = corpus(locations)
     labels.loc[20:, "condition"] = "unknown"
     model = Model("said", Said(np.column_stack([1 - spall, np.zeros((40, 1)), spall, np.zeros((40, 2))])), 0.5)
-    said = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)).models["said"]
+    said = summarise(judge(labels, rows, model)).models["said"]
     found = said.calibration
     assert found.reliability["observed"] == [0.0, 1.0]
     assert found.calibration_error.value == pytest.approx(0.25, abs=1e-5)  # 0.3 of none and 0.2 of all
@@ -150,8 +155,8 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
             2: RecordFacts("too short", jumps=1),
         },
     )
-    models = [Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)]
-    tested = judge(Path("made-up"), labels, rows, RULE, models, 0.0, True)
+    model = Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]]), 0.7)
+    tested = judge(labels, rows, model)
     summary = summarise(tested)
     assert summary.rejections == {"too short": 1}
     assert summary.levelled == {"records": 1, "jumps": 1}
@@ -185,8 +190,8 @@ def with_unjudged_records():
     rejected = dict.fromkeys(np.flatnonzero(~looked_at).tolist(), RecordFacts("too short"))
     rows = CorpusRows(rows_of(table, np.flatnonzero(looked_at)), rejected)
     healthy, outer, inner = [0.8, 0.1, 0.1, 0.0, 0.0], [0.2, 0.8, 0.0, 0.0, 0.0], [0.2, 0.0, 0.8, 0.0, 0.0]
-    models = [Model("said", Said([healthy] * 6 + [outer] * 6 + [inner] * 6), 0.5)]
-    return judge(Path("made-up"), labels, rows, RULE, models, 0.0, True), ~looked_at
+    model = Model("said", Said([healthy] * 6 + [outer] * 6 + [inner] * 6), 0.5)
+    return judge(labels, rows, model), ~looked_at
 
 
 def test_nothing_is_said_of_a_record_without_features():
@@ -218,7 +223,7 @@ def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_
 def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     labels, rows = corpus(["none", "outer", "inner"])
     rows = CorpusRows(rows.rows[:0], dict.fromkeys(range(3), RecordFacts("too short")))
-    tested = judge(Path("made-up"), labels, rows, RULE, [Model("said", Said([]), 0.5)], 0.0, True)
+    tested = judge(labels, rows, Model("said", Said([]), 0.5))
     said = summarise(tested).models["said"]
     assert said.race_accuracy.value == 0.0
     assert np.isnan(said.detection_auc.value)
@@ -272,7 +277,7 @@ def test_a_quiet_axis_does_not_outvote_a_clear_one():
         np.testing.assert_allclose(logit(alarm), [several, 0.0], atol=1e-9)
     assert np.log(votes[0, 1] / votes[0, 0]) == pytest.approx(5.0 / 3.0)
     labels, _ = corpus(["outer", "outer"])
-    judgement = judge(Path("made-up"), labels, CorpusRows(rows), RULE, [model], 0.0, True)
+    judgement = judge(labels, CorpusRows(rows), model)
     assert judgement.verdicts[1].location.tolist() == ["none", "outer"]
     votes, _, _ = vote(Model("own", said, 0.5), rows, np.arange(2))
     assert np.log(votes[0, 1] / votes[0, 0]) == pytest.approx(1.0)
@@ -284,7 +289,7 @@ def test_of_several_axes_the_rule_lowers_the_height_and_lines_alone_too():
     table[:, FEATURE_NAMES.index("inner_strength")] = np.log([8.0, 1.0, 4.0])  # 4 high by the vote, either record
     rows = CorpusRows(rows_of(table, np.array([0, 0, 1]), np.array([0, 1, 0])))
     model = Model("said", Said([[0.9, 0.04, 0.06, 0.0, 0.0]] * 3), Alarm(0.5, 0.5, 3.0, height_several=1.5))
-    rule, said = judge(Path("made-up"), labels, rows, Rule(3.0, 1.5), [model], 0.0, True).verdicts
+    rule, said = judge(labels, rows, model, rule=Rule(3.0, 1.5)).verdicts
     np.testing.assert_allclose(rule.score, [4.0 / 1.5, 4.0])
     assert rule.location.tolist() == said.location.tolist() == ["none", "inner"]
 
@@ -302,7 +307,7 @@ def test_alarming_bearings_are_the_healthy_ones_with_an_alarm_counted_once():
     labels["bearing_id"] = ["one", "one", "two", "three", "three", "faulty"]
     spall = np.array([0.9, 0.9, 0.1, 0.1, 0.9, 0.9])
     model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 6))])), 0.5)
-    found = summarise(judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)).models["said"]
+    found = summarise(judge(labels, rows, model)).models["said"]
     assert (found.healthy, found.false_alarms) == (5, 3)
     assert (found.healthy_bearings, found.alarming_bearings) == (3, 2)
 
@@ -320,7 +325,7 @@ def test_unknown_bearings_are_not_counted_as_one(bearings, counts, words):
     labels["bearing_id"] = bearings
     spall = np.array([0.9, 0.1, 0.9, 0.1])
     model = Model("said", Said(np.column_stack([1 - spall, spall, *np.zeros((3, 4))])), 0.5)
-    tested = judge(Path("made-up"), labels, rows, RULE, [model], 0.0, True)
+    tested = judge(labels, rows, model)
     found = summarise(tested).models["said"]
     names = ("healthy_bearings", "alarming_bearings", "healthy_of_unknown_bearing")
     assert tuple(getattr(found, name) for name in names) == counts

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from glob import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from datagen.errors import BadInput
 from datagen.files.places import no_file
-from datagen.recordings.file_names import FileNames, by_number, fits, hidden, spellings
+from datagen.recordings.file_names import FileNames, hidden
 from datagen.recordings.label_table import TableRow, read_label_table
+from datagen.recordings.root import MOST_NAMED, Root
 from datagen.recordings.settings import ALTERNATIVES, Channel, merged
 from datagen.recordings.spec import Recording, Spec
 from datagen.recordings.unchanged import require_unchanged
@@ -45,58 +45,127 @@ class Listing:
 
 def list_requests(spec: Spec, root: Path) -> Listing:
     """Every record that the SPEC asks for below `root`; raises BadInput."""
-    return _Finder(spec, root).listing()
+    if not root.is_dir():
+        raise BadInput("no such folder", str(spec.source), "root", str(root), "the folder of the recordings")
+    folder = Root(root)
+    requests: list[Request] = []
+    tables: list[Path] = []
+    absent: list[str] = []
+    for number, recording in enumerate(spec.recording, start=1):
+        part = _Part(spec, recording, folder, f"{spec.source}: recording[{number}] ({recording.name})")
+        found = part.find()
+        requests += [request for path, row in found.files for request in part.requests(path, row)]
+        tables += found.tables
+        absent += found.absent
+    if not requests:
+        raise BadInput(f"none of its files is below {root}", str(spec.source), "root", str(root))
+    return Listing(tuple(requests), tuple(tables), tuple(absent))
 
 
-class _Finder:
-    def __init__(self, spec: Spec, root: Path) -> None:
-        if not root.is_dir():
-            raise BadInput("no such folder", str(spec.source), "root", str(root), "the folder of the recordings")
-        self.spec, self.root = spec, root
-        self.tables: list[Path] = []
-        self.absent: list[str] = []
+class _Found(NamedTuple):
+    """The files of a part, each with what a table says of it, that table, and the listed files that were not there."""
 
-    def listing(self) -> Listing:
-        requests: list[Request] = []
-        for number, recording in enumerate(self.spec.recording, start=1):
-            place = f"{self.spec.source}: recording[{number}] ({recording.name})"
-            files = list(self._files(recording, place))
-            if recording.absent_files == "refuse":
-                self._refuse_idle_overrides(recording, place, [path for path, _ in files])
-            requests += [request for file in files for request in self._requests(recording, place, *file)]
-        if not requests:
-            raise BadInput(f"none of its files is below {self.root}", str(self.spec.source), "root", str(self.root))
-        return Listing(tuple(requests), tuple(self.tables), tuple(self.absent))
+    files: list[tuple[Path, TableRow | None]]
+    tables: list[Path]
+    absent: list[str]
 
-    @cached_property
-    def _below(self) -> FileNames:
-        """Every file below the root, with its name from there."""
-        found = (path for path in sorted(self.root.rglob("*"), key=by_number) if path.is_file())
-        return FileNames({path: path.relative_to(self.root).as_posix() for path in found})
 
-    def _files(self, recording: Recording, place: str) -> Iterator[tuple[Path, TableRow | None]]:
-        rows = self._rows(recording)
-        if not recording.patterns:
-            for row in rows:
-                path = self._listed(row, recording)
-                if path is not None:
-                    yield path, row
-            return
-        paths = self._globbed(recording, place)
-        if not recording.table:
-            yield from ((path, None) for path in paths)
-            return
+@dataclass(frozen=True)
+class _Part:
+    """One `recording` of the SPEC, whose files are looked for below `root`; `place` is for messages."""
+
+    spec: Spec
+    recording: Recording
+    root: Root
+    place: str
+
+    def find(self) -> _Found:
+        """Its files; raises BadInput."""
+        tables = [] if self.recording.table is None else [self._table(self.recording.table)]
+        rows = [row for table in tables for row in read_label_table(table, self.recording.note_columns)]
+        files, absent = self._globbed_files(rows) if self.recording.patterns else self._listed_files(rows)
+        if self._refuses:
+            self._refuse_idle_overrides([path for path, _ in files])
+        return _Found(files, tables, absent)
+
+    def requests(self, path: Path, row: TableRow | None) -> Iterator[Request]:
+        """What is asked of one of its files, of which a table says the `row`; raises BadInput."""
+        of_recording = {name: value for name, value in self.recording.given().items() if name not in NOT_SETTINGS}
+        settings = merged(self.spec.defaults.given(), of_recording)
+        where = row.place if row else self.place
+        if row:
+            _refuse_two_speeds(settings, row)
+            settings = merged(settings, row.settings)
+        for override in self.recording.override:
+            if any(self.root.fits(path, pattern) for pattern in override.patterns):
+                settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
+        for channel in _channels(settings, where):
+            yield Request(self.recording.name, path, self.root.name(path), channel, settings, where)
+
+    @property
+    def _refuses(self) -> bool:
+        """True if no file may be absent."""
+        return self.recording.absent_files == "refuse"
+
+    def _table(self, name: str) -> Path:
+        places = (self.spec.source.parent / name, self.root.folder / name)
+        path = next((path for path in places if path.is_file()), None)
+        if path is None:
+            told = no_file(next(filter(Path.exists, places), places[0]))
+            raise BadInput(told, str(self.spec.source), "table", name)
+        require_unchanged(path)
+        return path
+
+    def _listed_files(self, rows: list[TableRow]) -> tuple[list[tuple[Path, TableRow | None]], list[str]]:
+        """The file of each row, and what is absent."""
+        files: list[tuple[Path, TableRow | None]] = []
+        absent = []
+        for row in rows:
+            path = self._listed(row)
+            if path is None:
+                absent.append(self._absent(row))
+            else:
+                files.append((path, row))
+        return files, absent
+
+    def _listed(self, row: TableRow) -> Path | None:
+        """The file that a row means: the one at that place below the root, or else the only one of that name anywhere
+        below it; None if there is none."""
+        folder = self.root.folder
+        for name in row.files:
+            if (folder / name).is_file():
+                return folder / name
+            fitting = self.root.below.fitting(name)
+            if len(fitting) > 1:
+                known = ", ".join(self.root.name(path) for path in fitting[:MOST_NAMED])
+                raise BadInput(f"{len(fitting)} files below {folder} match: {known}", row.place, "file", name)
+            if fitting:
+                return fitting[0]
+        return None
+
+    def _absent(self, row: TableRow) -> str:
+        """What is absent where no file is the one of a row; raises BadInput if it must not be."""
+        if self._refuses:
+            folder = self.root.folder
+            there = any((folder / name).is_dir() for name in row.files)
+            told = f"this is a folder below {folder}" if there else f"no such file below {folder}"
+            raise BadInput(told, row.place, "file", "|".join(row.files))
+        return row.files[0]
+
+    def _globbed_files(self, rows: list[TableRow]) -> tuple[list[tuple[Path, TableRow | None]], list[str]]:
+        """The files that the patterns mean, each with the rows about it if there is a table, and what is absent."""
+        paths, absent = self._globbed()
+        if not self.recording.table:
+            return [(path, None) for path in paths], absent
         said, idle = self._rows_of(paths, rows)
         for path in paths:
             if path not in said:
-                raise BadInput(f"{self._name(path)} is not in the table {recording.table}", place)
-            yield from ((path, row) for row in said[path])
-        for row in idle:
-            self._is_absent(row, recording)
+                raise BadInput(f"{self.root.name(path)} is not in the table {self.recording.table}", self.place)
+        return [(path, row) for path in paths for row in said[path]], absent + list(map(self._absent, idle))
 
     def _rows_of(self, paths: list[Path], rows: list[TableRow]) -> tuple[dict[Path, list[TableRow]], list[TableRow]]:
         """The rows about each file, in order, and the rows that are about none."""
-        names = FileNames({path: self._name(path) for path in paths})
+        names = FileNames({path: self.root.name(path) for path in paths})
         said: dict[Path, list[TableRow]] = {}
         idle = []
         for row in rows:
@@ -107,117 +176,61 @@ class _Finder:
                 idle.append(row)
         return said, idle
 
-    def _rows(self, recording: Recording) -> list[TableRow]:
-        if recording.table is None:
-            return []
-        places = (self.spec.source.parent / recording.table, self.root / recording.table)
-        path = next((path for path in places if path.is_file()), None)
-        if path is None:
-            told = no_file(next(filter(Path.exists, places), places[0]))
-            raise BadInput(told, str(self.spec.source), "table", recording.table)
-        self.tables.append(path)
-        require_unchanged(path)
-        return read_label_table(path, recording.note_columns)
-
-    def _globbed(self, recording: Recording, place: str) -> list[Path]:
+    def _globbed(self) -> tuple[list[Path], list[str]]:
+        """The files that the patterns mean, and what is absent: patterns without a file, links to what is not there."""
         paths: dict[Path, None] = {}
-        for pattern in recording.patterns:
-            try:
-                # A name may hold brackets: what is called like the pattern goes before what fits it.
-                found = self._matching(escape(pattern)) or self._matching(pattern)
-            except (ValueError, NotImplementedError, IndexError):
-                raise BadInput(field="files", file=place, value=pattern, allowed='as in "folder/*.mat"') from None
-            fitting = [path for path in found if (path.is_file() or _leads_nowhere(path)) and not hidden(path, pattern)]
-            if not fitting and recording.absent_files == "skip":
-                self.absent.append(pattern)
-            elif not fitting:
-                raise self._unmatched(pattern, found, place)
+        absent = []
+        for pattern in self.recording.patterns:
+            fitting = self._fitting(pattern)
+            if not fitting:
+                absent.append(pattern)
             paths |= dict.fromkeys(fitting)
-        return self._present(self._wanted(list(paths), recording, place), recording, place)
+        wanted = self._wanted(list(paths))
+        dead = list(filter(_leads_nowhere, wanted))
+        if dead and self._refuses:
+            raise BadInput(
+                f"{len(dead)} of {len(wanted)} files are links to what is not there: {self.root.some(dead)}",
+                self.place, "files", " ".join(self.recording.patterns),
+                'the files themselves, or absent_files = "skip"',
+            )  # fmt: skip
+        return [path for path in wanted if path.exists()], absent + list(map(self.root.name, dead))
 
-    def _unmatched(self, pattern: str, found: list[Path], place: str) -> BadInput:
-        problem = f"no file below {self.root} matches"
+    def _fitting(self, pattern: str) -> list[Path]:
+        """The files, and the links to what is not there, that a pattern means; none only where they may be absent."""
+        try:
+            # A name may hold brackets: what is called like the pattern goes before what fits it.
+            found = self.root.matching(escape(pattern)) or self.root.matching(pattern)
+        except (ValueError, NotImplementedError, IndexError):
+            raise BadInput(field="files", file=self.place, value=pattern, allowed='as in "folder/*.mat"') from None
+        fitting = [path for path in found if (path.is_file() or _leads_nowhere(path)) and not hidden(path, pattern)]
+        if not fitting and self.recording.absent_files != "skip":
+            raise self._unmatched(pattern, found)
+        return fitting
+
+    def _unmatched(self, pattern: str, found: list[Path]) -> BadInput:
+        problem = f"no file below {self.root.folder} matches"
         if any(path.is_dir() for path in found):
             allowed = 'the files in it, as in "folder/*.mat"'
-            return BadInput(f"{problem}, but a folder", place, "files", pattern, allowed)
-        return BadInput(problem, place, "files", pattern)
+            return BadInput(f"{problem}, but a folder", self.place, "files", pattern, allowed)
+        return BadInput(problem, self.place, "files", pattern)
 
-    def _matching(self, pattern: str) -> list[Path]:
-        return sorted({path for wish in spellings(pattern) for path in self.root.glob(wish)}, key=by_number)
-
-    def _present(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
-        """The paths without dangling links, such as those of a data set that was fetched only in part."""
-        dead = list(filter(_leads_nowhere, paths))
-        if dead and recording.absent_files == "refuse":
-            raise BadInput(
-                f"{len(dead)} of {len(paths)} files are links to what is not there: {self._some(dead)}", place, "files",
-                " ".join(recording.patterns), 'the files themselves, or absent_files = "skip"',
-            )  # fmt: skip
-        self.absent += map(self._name, dead)
-        return [path for path in paths if path.exists()]
-
-    def _wanted(self, paths: list[Path], recording: Recording, place: str) -> list[Path]:
+    def _wanted(self, paths: list[Path]) -> list[Path]:
         """The paths without those that are to be left out."""
-        for pattern in recording.unwanted:
-            kept = [path for path in paths if not self._fits(path, pattern)]
-            if len(kept) == len(paths) and recording.absent_files == "refuse":
-                raise BadInput("matches none of the files", place, "leave_out", pattern, self._some(paths))
+        for pattern in self.recording.unwanted:
+            kept = [path for path in paths if not self.root.fits(path, pattern)]
+            if len(kept) == len(paths) and self._refuses:
+                raise BadInput("matches none of the files", self.place, "leave_out", pattern, self.root.some(paths))
             paths = kept
         return paths
 
-    def _some(self, paths: list[Path]) -> str:
-        return ", ".join([self._name(path) for path in paths[:4]] + (["…"] if len(paths) > 4 else []))
-
-    def _name(self, path: Path) -> str:
-        """The file's name from the root, where it lies below it."""
-        return (path.relative_to(self.root) if path.is_relative_to(self.root) else path).as_posix()
-
-    def _fits(self, path: Path, pattern: str) -> bool:
-        return fits(path, self._name(path), pattern)
-
-    def _listed(self, row: TableRow, recording: Recording) -> Path | None:
-        """The file that a row means: the one at that place below the root, or else the only one of that name anywhere
-        below it; None if it is absent and may be."""
-        for name in row.files:
-            if (self.root / name).is_file():
-                return self.root / name
-            fitting = self._below.fitting(name)
-            if len(fitting) > 1:
-                known = ", ".join(self._name(path) for path in fitting[:4])
-                raise BadInput(f"{len(fitting)} files below {self.root} match: {known}", row.place, "file", name)
-            if fitting:
-                return fitting[0]
-        self._is_absent(row, recording)
-        return None
-
-    def _is_absent(self, row: TableRow, recording: Recording) -> None:
-        if recording.absent_files == "refuse":
-            there = any((self.root / name).is_dir() for name in row.files)
-            told = f"this is a folder below {self.root}" if there else f"no such file below {self.root}"
-            raise BadInput(told, row.place, "file", "|".join(row.files))
-        self.absent.append(row.files[0])
-
-    def _refuse_idle_overrides(self, recording: Recording, place: str, paths: list[Path]) -> None:
-        for number, override in enumerate(recording.override, start=1):
+    def _refuse_idle_overrides(self, paths: list[Path]) -> None:
+        for number, override in enumerate(self.recording.override, start=1):
             for pattern in override.patterns:
-                if not any(self._fits(path, pattern) for path in paths):
+                if not any(self.root.fits(path, pattern) for path in paths):
                     raise BadInput(
-                        "matches none of these recordings", f"{place}, override[{number}]", "files", pattern,
-                        f'{self._some(paths)}; with absent_files = "skip" there may be none',
+                        "matches none of these recordings", f"{self.place}, override[{number}]", "files", pattern,
+                        f'{self.root.some(paths)}; with absent_files = "skip" there may be none',
                     )  # fmt: skip
-
-    def _requests(self, recording: Recording, place: str, path: Path, row: TableRow | None) -> Iterator[Request]:
-        of_recording = {name: value for name, value in recording.given().items() if name not in NOT_SETTINGS}
-        settings = merged(self.spec.defaults.given(), of_recording)
-        where = row.place if row else place
-        if row:
-            _refuse_two_speeds(settings, row)
-            settings = merged(settings, row.settings)
-        for override in recording.override:
-            if any(self._fits(path, pattern) for pattern in override.patterns):
-                settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
-        for channel in _channels(settings, where):
-            yield Request(recording.name, path, self._name(path), channel, settings, where)
 
 
 def _leads_nowhere(path: Path) -> bool:

@@ -7,26 +7,20 @@ import json
 import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, Span, write_manifest
-from datagen.corpus_files.shard import (
-    Failure,
-    Sidecar,
-    finished_shards,
-    read_sidecar,
-    sidecar_path,
-    sweep_unfinished,
-)
+from datagen.corpus_files.shard import Failure, sweep_unfinished
 from datagen.counts import bytes_text, counted
 from datagen.files.atomic import NO_SPACE, write_atomically
 from datagen.files.places import FAILURES
 from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
+from datagen.runs.finished import Finished, find_finished
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes
 from datagen.runs.task import make_shard
 from datagen.runs.workers import WorkerLost, run_tasks
@@ -87,7 +81,7 @@ class Run:
             made_with=program_versions(),
         )
         self.errors: dict[int, tuple[PlannedShard, str]] = {}
-        self.finished: dict[int, Sidecar] = {}
+        self.finished = Finished(folder)
         self.made_before = 0
         self.done = 0
         self.problem = ""
@@ -101,17 +95,17 @@ class Run:
             if problem.errno not in NO_SPACE:
                 raise
             self._rescan()
-            self.problem = self._out_of_space(problem, self._unfinished(planned))
+            self.problem = self._out_of_space(problem, self.finished.lacking(planned, self.wanted))
 
     def _begin(self) -> None:
         """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
         sweep_unfinished(self.folder)
         self._rescan()
-        self.made_before = self._made()
+        self.made_before = self.finished.made_of(self.wanted)
         write_manifest(self.folder, self.manifest)
 
     def _make_missing(self, planned: Sequence[PlannedShard]) -> None:
-        todo = self._unfinished(planned)
+        todo = self.finished.lacking(planned, self.wanted)
         self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
         if not todo:
             self.listener.say(
@@ -133,7 +127,7 @@ class Run:
         try:
             # The manifest first: a folder with an index alone would be taken for somebody else's.
             write_manifest(self.folder, self.manifest)
-            write_index(self.folder, self._by_first_record())
+            write_index(self.folder, self.finished.by_first_record())
             self._write_failures()
         except OSError as problem:
             if problem.errno not in NO_SPACE:
@@ -142,7 +136,7 @@ class Run:
 
     def summary(self, seconds: float) -> Summary:
         """The summary of the run, which took `seconds`."""
-        made = self._made()
+        made = self.finished.made_of(self.wanted)
         return Summary(
             folder=str(self.folder),
             asked=len(self.wanted),
@@ -154,40 +148,13 @@ class Run:
             seconds=round(seconds, 3),
         )
 
-    def _own_sidecars(self) -> Iterator[Sidecar]:
-        return (sidecar for sidecar in finished_shards(self.folder) if sidecar.identity == self.manifest.identity)
-
-    def _by_first_record(self) -> Iterator[Sidecar]:
-        """The sidecars again, with their labels, by first record: where records were picked out, shard numbers do not
-        follow the order of the records."""
-        for known in sorted(self.finished.values(), key=lambda sidecar: min(sidecar.settled)):
-            sidecar = read_sidecar(sidecar_path(self.folder, known.shard))
-            if sidecar is not None:
-                yield sidecar
-
     def _rescan(self) -> None:
-        """Find out what is finished, from the disk alone (labels are not kept in memory)."""
-        self.finished = {sidecar.shard: replace(sidecar, labels={}) for sidecar in self._own_sidecars()}
-        self.manifest = self.manifest.with_shards(self.folder, self.finished.values())
-
-    def _made(self) -> int:
-        return sum(len(self.wanted.intersection(sidecar.records)) for sidecar in self.finished.values())
+        """Find out what is finished, from the disk alone."""
+        self.finished = find_finished(self.folder, self.manifest.identity)
+        self.manifest = self.manifest.with_shards(self.folder, self.finished.shards.values())
 
     def _wanted_of(self, shard: PlannedShard) -> int:
         return len(self.wanted.intersection(shard.records))
-
-    def _settled(self, shard: PlannedShard) -> frozenset[int]:
-        return self.finished[shard.number].settled if shard.number in self.finished else frozenset()
-
-    def _unfinished(self, planned: Sequence[PlannedShard]) -> list[PlannedShard]:
-        """Planned shards that lack a wanted record, each with all the records that it must then hold."""
-        todo = []
-        for shard in planned:
-            there = self._settled(shard)
-            records = tuple(record for record in shard.records if record in self.wanted or record in there)
-            if not there.issuperset(records):
-                todo.append(replace(shard, records=records))
-        return todo
 
     def _announce(self, todo: Sequence[PlannedShard]) -> None:
         needed, free = needed_bytes(todo), shutil.disk_usage(self.folder).free
@@ -218,7 +185,7 @@ class Run:
     def _still(self, todo: Sequence[PlannedShard]) -> list[PlannedShard]:
         """Those of `todo` that are neither on the disk nor given up."""
         self._rescan()
-        return [shard for shard in self._unfinished(todo) if shard.number not in self.errors]
+        return [shard for shard in self.finished.lacking(todo, self.wanted) if shard.number not in self.errors]
 
     def _make_alone(self, shard: PlannedShard) -> None:
         try:
@@ -265,7 +232,7 @@ class Run:
         lost = [
             Failure(record, reason)
             for shard, reason in self.errors.values()
-            for record in sorted(frozenset(shard.records) - self._settled(shard))
+            for record in sorted(frozenset(shard.records) - self.finished.settled_of(shard))
         ]
         return sorted((*self.manifest.failed, *lost), key=lambda failure: failure.record)
 

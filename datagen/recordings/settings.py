@@ -181,8 +181,9 @@ class RecordingSettings(Table):
         return self
 
     def given(self) -> dict[str, Any]:
-        """The settings that are given, by name."""
-        return {name: getattr(self, name) for name in self.model_fields_set if getattr(self, name) is not None}
+        """The settings that are given, by name, in the order in which they are declared: `provenance` keeps it."""
+        values = {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set}
+        return {name: value for name, value in values.items() if value is not None}
 
 
 ALTERNATIVES = (("speed_rpm", "speed_hz", "tach"), ("extent_mm", "extent_deg"))

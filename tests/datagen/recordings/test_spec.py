@@ -39,6 +39,21 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
     assert merged(lower, {"channel_name": "DE"})["y"] == "a"
 
 
+def test_given_settings_come_in_the_order_in_which_they_are_declared_however_they_are_written() -> None:
+    # The names of a set come in another order in every process, and the label provenance would with them.
+    said = {
+        "load_n": 5.0,
+        "unit": "g",
+        "speed_rpm": 1500.0,
+        "rate_hz": 1e4,
+        "y": "a",
+        "bearing_id": "b",
+        "split": "test",
+    }
+    given = RecordingSettings.model_validate(said).given()
+    assert list(given) == [name for name in RecordingSettings.model_fields if name in said]
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

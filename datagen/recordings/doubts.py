@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from datagen.formats.wav_file import WaveArrays
 from datagen.recordings.settings import UNITS
-from datagen.recordings.source import Source
+from datagen.recordings.source import Source, longest_run
 
 # RMS above which a level is doubted, m/s²: 100 g.
 LOUDEST_RMS = 100.0 * UNITS["g"]
@@ -40,6 +40,7 @@ HELD = "with a stretch of one value, as if padded or the signal lost; from_s and
 RISING = "with samples that only rise or only fall, as times or an angle do and no vibration"
 AGAIN = "whose beginning comes again exactly, as of a buffer written twice; its period looks like that of a fault"
 STANDING = "with a speed that is 0 in places, taken as a shaft that stands there and not as one nobody measured"
+OF_LEVEL = (LOUD, OFFSET, CLIPPED, HELD, RISING, AGAIN)
 FULL_SCALE = "in whole numbers of .wav without `scale`, taken as ±1 {unit} at full scale"
 
 
@@ -47,24 +48,28 @@ def level_doubts(acceleration: NDArray[np.float32], axes: Iterable[str], dead: I
     """What is odd about the level of the `acceleration` (T, axes), m/s², each doubt with its figures; axes that are
     `dead` are not looked at."""
     signals = {axis: signal for axis, signal in zip(axes, acceleration.T, strict=True) if axis not in dead}
-    loud, offset, clipped, held, rising, again = [], [], [], [], [], []
+    found: dict[str, list[str]] = {doubt: [] for doubt in OF_LEVEL}
     for axis, signal in signals.items():
-        mean, rms = _level(signal)
-        cut_off = _share_cut_off(signal)
-        if math.hypot(mean, rms) > LOUDEST_RMS:
-            loud.append(f"{axis} {_g(math.hypot(mean, rms))} RMS")
-        if abs(mean) > LARGEST_OFFSET * rms:
-            offset.append(f"{axis} {_g(mean)} beside {_g(rms)} RMS")
-        if cut_off > MOST_AT_LIMIT:
-            clipped.append(f"{axis} {cut_off:.2g} of its samples")
-        if (stretch := _longest_stretch(signal)) > max(LONGEST_STRETCH * signal.size, FEWEST_STRETCHED):
-            held.append(f"{axis} {stretch} of {signal.size} samples")
-        if _only_rises(signal) or _only_rises(-signal):
-            rising.append(axis)
-        if period := _period(signal):
-            again.append(f"{axis} after {period} samples")
-    found = {LOUD: loud, OFFSET: offset, CLIPPED: clipped, HELD: held, RISING: rising, AGAIN: again}
+        for doubt, figures in _doubts_of(signal):
+            found[doubt].append(f"{axis} {figures}".strip())
     return {doubt: ", ".join(figures) for doubt, figures in found.items() if figures}
+
+
+def _doubts_of(signal: NDArray[np.float32]) -> Iterator[tuple[str, str]]:
+    """What is odd about a `signal` (T,), m/s², with its figures, if any."""
+    mean, rms = _level(signal)
+    if (whole := math.hypot(mean, rms)) > LOUDEST_RMS:
+        yield LOUD, f"{_g(whole)} RMS"
+    if abs(mean) > LARGEST_OFFSET * rms:
+        yield OFFSET, f"{_g(mean)} beside {_g(rms)} RMS"
+    if (cut_off := _share_cut_off(signal)) > MOST_AT_LIMIT:
+        yield CLIPPED, f"{cut_off:.2g} of its samples"
+    if (stretch := _longest_stretch(signal)) > max(LONGEST_STRETCH * signal.size, FEWEST_STRETCHED):
+        yield HELD, f"{stretch} of {signal.size} samples"
+    if _only_rises(signal) or _only_rises(-signal):
+        yield RISING, ""
+    if period := _period(signal):
+        yield AGAIN, f"after {period} samples"
 
 
 def _share_cut_off(signal: NDArray[np.float32]) -> float:
@@ -79,8 +84,8 @@ def _share_cut_off(signal: NDArray[np.float32]) -> float:
 
 def _longest_stretch(signal: NDArray[np.float32]) -> int:
     """Most samples in a row of a `signal` (T,) that have one value; 0 for a signal of few different values."""
-    ends = np.flatnonzero(np.diff(signal, append=np.nan) != 0.0)
-    longest = int(np.diff(ends, prepend=-1).max())
+    held = np.flatnonzero(signal[1:] == signal[:-1])
+    longest = 1 + longest_run(held) if held.size else 1
     return longest if longest <= FEWEST_STRETCHED or np.unique(signal).size >= FEWEST_VALUES else 0
 
 

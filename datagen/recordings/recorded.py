@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,13 +63,18 @@ class Recorded:
     @property
     def turns(self) -> float:
         """Turns of the shaft in it; infinite if the speed is unknown or 0."""
-        turns = float(self.labels["speed_rpm"]) / RPM_PER_HZ * float(self.labels["duration_s"])
+        turns = _turns(self.labels)
         return turns if turns > 0.0 else math.inf
 
     @property
     def bytes(self) -> int:
         """How much memory its signals take."""
         return self.acceleration.nbytes + (0 if self.shaft_angle is None else self.shaft_angle.nbytes)
+
+
+def _turns(labels: Mapping[str, Any]) -> float:
+    """Turns of the shaft in the record with these labels; NaN if its speed is unknown."""
+    return float(labels["speed_rpm"]) / RPM_PER_HZ * float(labels["duration_s"])
 
 
 def read_recording(request: Request) -> Iterator[Recorded]:
@@ -108,7 +113,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             dead=dead,
             doubts=of_file
             | level_doubts(acceleration, axes, dead)
-            | speed_doubts(of_piece, speed.rpm / RPM_PER_HZ * of_piece["duration_s"], request.settings)
+            | speed_doubts(of_piece, _turns(of_piece), request.settings)
             | standing_doubt(told_course(source, span_of(start, stop, counts.shape[0]))),
         )
 

@@ -8,10 +8,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import binary_dilation
 
+from labels.features.jumps import FEWEST_TURNS
 from physics.arrays import Array
 
-# In fewer turns of the shaft nothing says what is usual.
-FEWEST_TURNS = 8
 # How many times larger a shock is than the usual largest sample of a turn.
 OVER_USUAL = 8.0
 

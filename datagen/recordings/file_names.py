@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from fnmatch import fnmatch
-from itertools import chain, product, zip_longest
+from fnmatch import translate
+from functools import cache
 from os.path import normcase
 from pathlib import Path, PurePath
 from unicodedata import normalize
 
 WILD = "*?["
-ANY_FOLDERS = "**/"
+ANY_FOLDERS = re.compile(r"(?:\*\*/)+")
+# What `translate` puts behind a pattern, so that it holds for whole names alone; Python 3.14 writes it another way.
+END = translate("").removeprefix("(?s:)")
 DIGITS = re.compile("([0-9]+)")
 
 
@@ -42,14 +44,15 @@ def fits(path: Path, name: str, pattern: str) -> bool:
     """
     pattern, whole, bare = _plain(pattern), _plain(name), _plain(path.name)
     meant = whole if "/" in pattern else bare
-    return pattern in (whole, bare) or any(fnmatch(meant, one) for one in _with_and_without(pattern))
+    return pattern in (whole, bare) or _compiled(pattern).fullmatch(meant) is not None
 
 
-def _with_and_without(pattern: str) -> set[str]:
-    """The pattern with each **/ kept or left out."""
-    parts = pattern.split(ANY_FOLDERS)
-    ways = product((ANY_FOLDERS, ""), repeat=len(parts) - 1)
-    return {"".join(chain.from_iterable(zip_longest(parts, way, fillvalue=""))) for way in ways}
+@cache
+def _compiled(pattern: str) -> re.Pattern[str]:
+    """What matches a pattern as `fnmatch` has it, each **/ kept or left out: one expression, as there are twice as many
+    ways with every further **/."""
+    parts = ANY_FOLDERS.split(pattern)
+    return re.compile("(?s:.*/)?".join(translate(part).removesuffix(END) for part in parts))
 
 
 def hidden(path: Path, pattern: str) -> bool:

@@ -87,7 +87,7 @@ def test_a_name_may_hold_brackets_and_accents_at_once_and_a_pattern_be_longer_th
 
 def test_files_that_a_table_names_outright_are_not_compared_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
     known = names("a/1.csv", "a/2.csv")
-    monkeypatch.setattr(file_names, "fnmatch", None)
+    monkeypatch.setattr(file_names, "fits", None)
     assert [path.name for path in known.fitting("2.csv")] == ["2.csv"]
 
 

@@ -55,10 +55,8 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
     a plan that takes long and, at the end, of impossible draws if they were many and of sampling rates that are too
     low. Raises BadInput if a record can hardly be drawn.
     """
-    shards: list[PlannedShard] = []
-    records: list[list[int]] = []  # of each shard
-    growing: dict[Hashable, int] = {}
-    forces_kept: set[tuple[str, str]] = set()
+    filled = _Filled(recipe)
+    kinds_met: set[tuple[str, str]] = set()
     redraws, rates = RedrawCount(recipe), TooLowRates()
     reports = Throttle(SECONDS_BETWEEN_REPORTS, time.monotonic() + SECONDS_BETWEEN_REPORTS)
     for record in range(stop):
@@ -67,30 +65,46 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
         scenario = draw_scenario(recipe, record)
         redraws.add(scenario)
         rates.add(scenario)
-        stored = stored_signals(recipe, scenario, forces_kept)
-        kind = (shard_key(scenario), stored)
-        if kind not in growing:
-            growing[kind] = len(shards)
-            on_disk = stored_bytes(scenario, stored, recipe.store.compression)
-            raw = stored_bytes(scenario, stored, "none")
-            shards.append(PlannedShard(len(shards), (), stored, on_disk, raw, scenario.duration))
-            records.append([])
-        held = records[growing[kind]]
-        held.append(record)
-        if len(held) == recipe.store.records_per_shard:
-            del growing[kind]
+        kind = (scenario.rig, scenario.condition)
+        filled.add(record, scenario, stored_signals(recipe, first_of_kind=kind not in kinds_met))
+        kinds_met.add(kind)
     for sentence in filter(None, (redraws.sentence(), rates.sentence())):
         say(sentence)
-    return [replace(shard, records=tuple(held)) for shard, held in zip(shards, records, strict=True)]
+    return filled.planned()
 
 
-def stored_signals(recipe: Recipe, scenario: Scenario, forces_kept: set[tuple[str, str]]) -> tuple[str, ...]:
-    """Names of the optional signals stored for a record; `forces_kept` collects the (rig, condition) pairs met so far,
-    as a recipe may ask for the contact forces of the first record of each."""
-    kind = (scenario.rig, scenario.condition)
-    first = kind not in forces_kept
-    forces_kept.add(kind)
-    keep_force = recipe.store.contact_force == "first_of_each" and first
+class _Filled:
+    """Shards of a recipe, in the order of their first records; of each kind of record one at most is open."""
+
+    def __init__(self, recipe: Recipe) -> None:
+        self._store = recipe.store
+        self._shards: list[PlannedShard] = []  # as yet without their records
+        self._records: list[list[int]] = []  # of each shard
+        self._open: dict[Hashable, int] = {}  # number of the open shard of a kind
+
+    def add(self, record: int, scenario: Scenario, stored: tuple[str, ...]) -> None:
+        """Put a record with these optional signals into the open shard of its kind, or else into a new one."""
+        kind = (shard_key(scenario), stored)
+        if kind not in self._open:
+            self._open[kind] = len(self._shards)
+            on_disk = stored_bytes(scenario, stored, self._store.compression)
+            raw = stored_bytes(scenario, stored, "none")
+            self._shards.append(PlannedShard(len(self._shards), (), stored, on_disk, raw, scenario.duration))
+            self._records.append([])
+        held = self._records[self._open[kind]]
+        held.append(record)
+        if len(held) == self._store.records_per_shard:
+            del self._open[kind]
+
+    def planned(self) -> list[PlannedShard]:
+        """The shards with the records added so far."""
+        return [replace(shard, records=tuple(held)) for shard, held in zip(self._shards, self._records, strict=True)]
+
+
+def stored_signals(recipe: Recipe, *, first_of_kind: bool) -> tuple[str, ...]:
+    """Names of the optional signals stored for a record, which may be the first of its rig and condition: a recipe may
+    ask for the contact forces of these alone."""
+    keep_force = recipe.store.contact_force == "first_of_each" and first_of_kind
     return signals_of_every_record(recipe) + (("contact_force",) if keep_force else ())
 
 

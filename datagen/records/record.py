@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.errors import BadInput
 from datagen.records.layers import Layers, background_layers, noise_along_y
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.response_warnings import cut_off, lost_in_steps, response_warnings, unset_ratio
@@ -22,6 +23,7 @@ from labels.envelope import band_envelope
 from labels.noise import signal_to_noise
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
+from labels.variables import SIGNALS
 from physics.paths.profile import race_depths
 from physics.request import Accurate, LeadIn
 from physics.response.lead_in import from_start
@@ -35,6 +37,7 @@ from physics.trace import Kept, Trace
 
 Rounded = NDArray[np.float32]
 RECORDING_LABELS = tuple(label.name for label in LABELS if label.source == "recording")
+OPTIONAL_SIGNALS = tuple(signal.name for signal in SIGNALS if not signal.required(imported=False))
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,13 @@ class Record:
 
 
 def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
-    """The record of `scenario` with the optional signals named in `stored`; raises SimulationFailed."""
+    """The record of `scenario` with the optional signals named in `stored`.
+
+    Raises BadInput if there is no such signal, before anything is simulated, and SimulationFailed.
+    """
+    for name in stored:
+        if name not in OPTIONAL_SIGNALS:
+            raise BadInput(field="stored", value=name, allowed=", ".join(OPTIONAL_SIGNALS))
     trace = _simulated(scenario, keep_force="contact_force" in stored)
     # The chain settles together with the machine.
     signal, trace = sensed(scenario.chain, trace)[-scenario.samples :], from_start(trace)

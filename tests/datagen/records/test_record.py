@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.record import Record, make_record
@@ -38,6 +39,15 @@ def scenario(tiny: Recipe) -> Scenario:
 @pytest.fixture(scope="module")
 def record(scenario: Scenario) -> Record:
     return make_record(scenario, EVERYTHING)
+
+
+@pytest.mark.parametrize("stored", [("clean",), ("background", "clean"), "clean"])
+def test_a_signal_that_no_record_has_is_refused_before_anything_is_simulated(
+    stored: tuple[str, ...], scenario: Scenario, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.records.record.simulate", None)
+    with pytest.raises(BadInput, match=r"stored = .*allowed: acceleration_clean, .*, contact_force"):
+        make_record(scenario, stored)
 
 
 def test_the_clean_acceleration_is_the_simulated_one_rounded(scenario: Scenario, record: Record) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.recipes.machine_settings import Frequency
+from datagen.recipes.quantities import Frequency, Share
 from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.settings.table import Between, Table, Whole, at_most_one, refuse, rising
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
@@ -17,7 +17,6 @@ from physics.sensor.mode import HIGHEST_DAMPING
 
 # Up to a hundred thousand times gravity: more than any accelerometer takes. Far more would not fit what is stored.
 Acceleration = Annotated[Distribution, Between(0.0, 1e6)]
-Share = Annotated[Distribution, Between(0.0, 1.0)]
 Decay = Annotated[Distribution, Between(-4.0, 8.0)]
 Order = Annotated[int, Field(ge=1, le=1000)]
 Lines = Annotated[int, Field(ge=1, le=200)]

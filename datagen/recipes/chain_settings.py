@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.machine_settings import Frequency
+from datagen.recipes.quantities import Frequency
 from datagen.settings.table import Between, Table, Whole
 from physics.sensor.mode import HIGHEST_DAMPING
 from physics.sensor.mounting import HIGHEST_ORDER

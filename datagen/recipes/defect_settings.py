@@ -11,8 +11,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.operation_settings import Degrees
 from datagen.recipes.profile_table import ProfileTable
+from datagen.recipes.quantities import Degrees, Share
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import RACES
 from physics.spall import ARC_ROUNDING
@@ -23,7 +23,6 @@ EXIT_TAPERS = ("exit_taper_deg", "exit_taper_share")
 ALTERNATIVES = (EXTENTS, ENTRY_TAPERS, EXIT_TAPERS)
 Arc = Annotated[Distribution, Between(0.0, 180.0, above=True)]
 TaperArc = Annotated[Distribution, Between(0.0, 180.0)]
-Share = Annotated[Distribution, Between(0.0, 1.0)]
 Combination = tuple[str, str, str]
 KIND = ("condition", "race", "profile")  # what a combination is of
 PlaceOf = Callable[[str], str]

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.recipes.operation_settings import Degrees
+from datagen.recipes.quantities import Degrees
 from datagen.settings.table import Between, OneOf, Table, rising
 from physics.bearing import RACES
 

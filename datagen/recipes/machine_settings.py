@@ -7,7 +7,8 @@ from typing import Annotated
 from pydantic import model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM, Degrees
+from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM
+from datagen.recipes.quantities import Degrees, Frequency
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import SMALLEST_CONFORMITY
 from physics.catalog import BEARINGS, RIGS
@@ -20,7 +21,6 @@ Damping = Annotated[Distribution, Between(0.0, 1e9)]
 LoadDeflection = Annotated[Distribution, Between(1e3, 1e13)]
 DiameterMm = Annotated[Distribution, Between(0.1, 1e5)]
 Mass = Annotated[Distribution, Between(1e-6, 1e7)]
-Frequency = Annotated[Distribution, Between(1e-3, 1e7)]
 Factor = Annotated[Distribution, Between(1e-6, 1e6)]
 NotNegativeFactor = Annotated[Distribution, Between(0.0, 1e6)]
 Conformity = Annotated[Distribution, Between(SMALLEST_CONFORMITY, 1e3)]

@@ -7,12 +7,12 @@ from typing import Annotated
 from pydantic import model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.settings.table import Angle, Between, Table, at_most_one
+from datagen.recipes.quantities import Degrees
+from datagen.settings.table import Between, Table, at_most_one
 from physics.operation import HEAVIEST_LOAD
 
 # Below it a record holds nothing but rest; above it no bearing survives.
 SLOWEST_RPM, FASTEST_RPM = 1e-3, 1e6
-Degrees = Annotated[Distribution, Angle()]
 ANY_ANGLE = Uniform(0.0, 360.0)
 
 

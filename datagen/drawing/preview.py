@@ -15,17 +15,10 @@ from datagen.files.atomic import write_file
 from datagen.files.places import OUT, require_file
 from datagen.progress import Say, ignore
 from datagen.recipes.recipe_files import FILE_NAME
-from labels.schema import LABELS
 from labels.truth import PassTable
-from labels.variables import SHAFT_ANGLE
-from physics.arrays import Array
 
 if TYPE_CHECKING:
-    import xarray
-
-    from datagen.drawing.measured_portrait import MeasuredPortrait
     from datagen.drawing.portrait import Portrait
-    from datagen.scenarios.scenario import Scenario
 
 
 def draw_preview(source: str | Path, record: int, out: str | Path, say: Say = ignore) -> dict[str, Any]:
@@ -55,6 +48,7 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
 
     Raises BadInput, and SimulationFailed of a recipe's record.
     """
+    from datagen.drawing.portrayed import corpus_portrait, recipe_portrait
     from datagen.drawing.sheet import sheet_png
 
     folder = Path(source)
@@ -72,6 +66,7 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
 
 def _measured_png(folder: Path, record: int) -> tuple[bytes, dict[str, Any]]:
     from datagen.drawing.measured_sheet import measured_sheet_png
+    from datagen.drawing.portrayed import measured_portrait
 
     portrait = measured_portrait(folder, record)
     return measured_sheet_png(portrait), {
@@ -82,120 +77,11 @@ def _measured_png(folder: Path, record: int) -> tuple[bytes, dict[str, Any]]:
     }
 
 
-def measured_portrait(folder: Path, record: int) -> MeasuredPortrait:
-    """What a sheet shows of a record of the imported corpus in `folder`; raises BadInput if it is not there."""
-    from datagen.corpus import Corpus
-    from datagen.drawing.measured_portrait import MeasuredPortrait
-
-    with Corpus(folder) as corpus:
-        found = corpus.dataset(record)
-    return MeasuredPortrait(
-        corpus=corpus.manifest.name,
-        labels={label.name: _plain(found[label.name].values) for label in LABELS if label.name in found},
-        rate=float(found["rate_hz"]),
-        axes=tuple(str(axis) for axis in found["axis"].values),
-        acceleration=found["acceleration"].values.astype(np.float64),
-        shaft_angle=found[SHAFT_ANGLE.name].values if SHAFT_ANGLE.name in found else None,
-    )
-
-
 def _writable(picture: Path) -> Path:
     if picture.suffix.lower() != ".png":
         raise BadInput(field=OUT, value=str(picture), allowed="a file name that ends in .png")
     require_file(picture)
     return picture
-
-
-def recipe_portrait(source: str | Path, record: int, say: Say = ignore) -> Portrait:
-    """What a sheet shows of a record of a recipe, simulated now; raises BadInput and SimulationFailed."""
-    from datagen.drawing.portrait import Portrait
-    from datagen.recipes.recipe import load_recipe
-    from datagen.records.record import make_record
-    from datagen.runs.requirements import require_memory, require_record_memory
-    from datagen.runs.task import compile_kernels
-    from datagen.scenarios.sampling import draw_scenario
-
-    stored = ("acceleration_clean", "acceleration_sensor", "background")
-    recipe = load_recipe(source)
-    recipe.require(record, "--record")
-    require_memory(recipe)
-    compile_kernels(say)
-    scenario = draw_scenario(recipe, record)
-    require_record_memory(recipe, scenario, stored)
-    made = make_record(scenario, stored)
-    return Portrait(
-        corpus=recipe.name,
-        scene=scenario.scene,
-        labels=made.labels,
-        rate=float(made.labels["rate_hz"]),
-        acceleration=np.asarray(made.acceleration, dtype=np.float64),
-        clean=np.asarray(made.acceleration_clean, dtype=np.float64),
-        envelope=np.asarray(made.envelope, dtype=np.float64),
-        stiffness_time=np.asarray(made.stiffness_time),
-        stiffness=np.asarray(made.stiffness, dtype=np.float64),
-        passes=made.passes,
-        sensor=np.asarray(made.acceleration_sensor, dtype=np.float64),
-        background=np.asarray(made.background, dtype=np.float64).sum(axis=0),
-    )
-
-
-def corpus_portrait(folder: Path, record: int) -> Portrait:
-    """What a sheet shows of a record of the simulated corpus in `folder`; raises BadInput if it is not there."""
-    from datagen.corpus import Corpus
-    from datagen.drawing.portrait import Portrait
-    from datagen.scenarios.scenario_text import scenario_of
-
-    with Corpus(folder) as corpus:
-        found = corpus.dataset(record)
-    labels = {label.name: _plain(found[label.name].values) for label in LABELS}
-    scenario = scenario_of(str(found["scenario"].values))
-    sensor, background = _sensor_and_background(found, scenario)
-    return Portrait(
-        corpus=str(found.attrs.get("id", folder.name)),
-        scene=scenario.scene,
-        labels=labels,
-        rate=float(labels["rate_hz"]),
-        acceleration=found["acceleration"].values.astype(np.float64),
-        clean=_stored(found, "acceleration_clean"),
-        envelope=found["envelope"].values.astype(np.float64),
-        stiffness_time=found["stiffness_time"].values,
-        stiffness=found["stiffness"].values.astype(np.float64),
-        passes=_pass_table(found),
-        sensor=sensor,
-        background=background,
-    )
-
-
-def _stored(found: xarray.Dataset, name: str) -> Array | None:
-    return found[name].values.astype(np.float64) if name in found else None
-
-
-def _sensor_and_background(found: xarray.Dataset, scenario: Scenario) -> tuple[Array | None, Array | None]:
-    """Sensor signal and summed background (T, 2) as far as they are stored or follow from the record and its text."""
-    from datagen.records.layers import background_layers
-    from physics.sensor.chain import SensorChain
-
-    chain = scenario.chain
-    plain = chain == SensorChain(recorder=chain.recorder)
-    sensor = _stored(found, "acceleration_clean" if plain else "acceleration_sensor")
-    layers = _stored(found, "background")
-    if layers is None and sensor is None and scenario.noise_target is not None:
-        return None, None
-    still = np.zeros((scenario.samples, 2))
-    again = background_layers(scenario, still if sensor is None else sensor) if layers is None else {}
-    background = sum(again.values(), still) if layers is None else layers.sum(axis=0)
-    if sensor is None and chain.recorder is None:
-        sensor = found["acceleration"].values.astype(np.float64) - background
-    return sensor, background
-
-
-def _plain(values: np.ndarray) -> Any:
-    return values.item() if values.ndim == 0 else tuple(values.tolist())
-
-
-def _pass_table(found: xarray.Dataset) -> PassTable:
-    names = [field.name for field in fields(PassTable)]
-    return PassTable(**{name: found[f"pass_{name}" if f"pass_{name}" in found else name].values for name in names})
 
 
 def _facts(portrait: Portrait) -> dict[str, Any]:

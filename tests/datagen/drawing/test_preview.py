@@ -8,7 +8,8 @@ from command_line import run
 
 from datagen.drawing.frequency_panels import cursors, draw_envelope_spectrum, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
-from datagen.drawing.preview import corpus_portrait, draw_preview, recipe_portrait
+from datagen.drawing.portrayed import corpus_portrait, recipe_portrait
+from datagen.drawing.preview import draw_preview
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, with_panels
 from datagen.drawing.time_panels import draw_close_up, draw_spectrogram, free_lanes, vertical_modes
@@ -341,7 +342,7 @@ def test_a_record_that_cannot_be_simulated_ends_with_1_and_leaves_no_picture(rec
     def fails(scenario, stored):
         raise SimulationFailed(Outcome.NOT_FINITE, "the response grows without end")
 
-    monkeypatch.setattr("datagen.records.record.make_record", fails)
+    monkeypatch.setattr("datagen.drawing.portrayed.make_record", fails)
     picture = tmp_path / "x.png"
     done = run("preview", recipe_file, "--record", "1", "--out", picture)
     assert done.exit_code == 1

@@ -77,11 +77,12 @@ def with_balls(balls: int) -> Scene:
 
 
 def resident(records: int) -> float:
-    """Largest resident size (MB) of a process that makes so many records by itself."""
+    """Largest resident size (MB, as the package counts them: 1e6 bytes) of a process that makes so many records by
+    itself."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-c", MAKING, str(records), str(Path(folder) / "corpus")]
         done = subprocess.run(command, check=True, cwd=ROOT, capture_output=True, text=True)
-    return float(done.stdout.split()[-1]) / 1024.0
+    return float(done.stdout.split()[-1]) * 1024.0 / 1e6  # Linux tells it in units of 1024 bytes
 
 
 def main() -> None:

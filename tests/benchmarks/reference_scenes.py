@@ -10,6 +10,7 @@ import argparse
 import json
 import statistics
 import time
+from collections.abc import Collection
 from pathlib import Path
 
 from datagen.freed_memory import keep_freed_memory
@@ -61,6 +62,7 @@ def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]
     scene, long_scene = (reference_scene(name, seconds, slip_seed=slip_seed) for seconds in (DURATION, LONG_DURATION))
     finer = simulate(scene, RATE, FixedSteps(FINER_SUBSTEPS))
     trace, factor = timed(scene, rounds)
+    long_trace, long_factor = timed(long_scene, rounds)
     scored = trace.time >= SCORED_FROM
     return {
         "error": relative_error(trace.acceleration[scored], finer.acceleration[scored]),
@@ -68,7 +70,8 @@ def _measured(name: str, slip_seed: int | None, rounds: int) -> dict[str, float]
         "samples_per_step": trace.step * RATE,
         "repeated": trace.method == REPEATED,
         "real_time_factor": factor,
-        "long_real_time_factor": timed(long_scene, rounds)[1],
+        "long_repeated": long_trace.method == REPEATED,
+        "long_real_time_factor": long_factor,
     }
 
 
@@ -94,7 +97,9 @@ def table(results: dict[str, dict[str, float]], rivals: dict[str, float], machin
             f"| {row['slip_real_time_factor']:.0f} | {row['slip_long_real_time_factor']:.0f} |"
         )
     rival = ", ".join(f"{factor:.3f} on {name}" for name, factor in rivals.items())
-    repeated = ", ".join(name for name, row in results.items() if row["repeated"])
+    repeated, long_repeated = (
+        [name for name, row in results.items() if row[key]] for key in ("repeated", "long_repeated")
+    )
     return "\n".join(
         [
             *lines,
@@ -106,7 +111,8 @@ def table(results: dict[str, dict[str, float]], rivals: dict[str, float], machin
             f"{FINER_SUBSTEPS} a sample, relative, from {SCORED_FROM} s, in {DURATION} s at 65 536 Hz; estimated: what "
             "the program says of it, over the whole record. Processor time of one core, for records of both lengths. "
             "The scenes are defined without slip: their response repeats itself from ball to ball and is marched only "
-            f"until it does (in {DURATION} s {repeated}; in {LONG_DURATION:.0f} s all). The last four columns are of "
+            f"until it does (in {DURATION} s {_names(repeated, results)}; in {LONG_DURATION:.0f} s "
+            f"{_names(long_repeated, results)}). The last four columns are of "
             "the same scenes with 1 % of random slip, which never repeat.",
             "",
             "SciPy's DOP853 at a relative tolerance of 1e-9 on a compiled right-hand side, events located, runs at "
@@ -114,6 +120,10 @@ def table(results: dict[str, dict[str, float]], rivals: dict[str, float], machin
             f"accuracy. {machine}",
         ]
     )
+
+
+def _names(some: list[str], whole: Collection[str]) -> str:
+    return "all" if len(some) == len(whole) else ", ".join(some) or "none"
 
 
 def main() -> None:

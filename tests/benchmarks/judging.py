@@ -13,7 +13,9 @@ import statistics
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -33,6 +35,7 @@ from docs.marked_tables import write_marked
 
 ROOT = Path(__file__).resolve().parents[2]
 LEARNED_FROM = 160
+Result = TypeVar("Result")
 TRAINING = Reading(speed_error=SPEED_ERROR, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB)
 
 
@@ -47,11 +50,11 @@ def spread(name: str, count: int) -> list[int]:
     return np.linspace(0, load_recipe(ROOT / "datasets" / name).count - 1, count).round().astype(int).tolist()
 
 
-def seconds(work: Callable[[], object]) -> float:
-    """Wall-clock seconds of the work."""
+def timed(work: Callable[[], Result]) -> tuple[float, Result]:
+    """Wall-clock seconds of the work, and what came of it."""
     begin = time.perf_counter()
-    work()
-    return time.perf_counter() - begin
+    result = work()
+    return time.perf_counter() - begin, result
 
 
 def classifying(scratch: Path, records: int, workers: int) -> dict[str, float]:
@@ -63,14 +66,9 @@ def classifying(scratch: Path, records: int, workers: int) -> dict[str, float]:
     folder = made("corpus", scratch / "corpus", spread("corpus", records))
     tested = chosen_records(folder, None)
     read_rows(folder, tested.numbers[:48], Reading(), workers)  # what is loaded at first use is there
-    found = {}
-
-    def features() -> None:
-        found["rows"] = read_rows(folder, tested.numbers, Reading(), workers)
-
-    spent = seconds(features)
-    verdicts = seconds(lambda: judges.judge(tested, found["rows"]))
-    return {"features_s": spent, "verdicts_s": verdicts}
+    features, rows = timed(partial(read_rows, folder, tested.numbers, Reading(), workers))
+    verdicts, _ = timed(partial(judges.judge, tested, rows))
+    return {"features_s": features, "verdicts_s": verdicts}
 
 
 def sizing(scratch: Path, records: int) -> dict[str, float]:
@@ -79,7 +77,7 @@ def sizing(scratch: Path, records: int) -> dict[str, float]:
     estimator = default_estimator()
     asked = list(sized_records(folder))
     estimator.estimate(asked[0].acceleration, asked[0].rate, asked[0].situation)
-    spent = [seconds(lambda: estimator.estimate(one.acceleration, one.rate, one.situation)) for one in asked]  # noqa: B023
+    spent = [timed(partial(estimator.estimate, one.acceleration, one.rate, one.situation))[0] for one in asked]
     return {"median_s": statistics.median(spent), "longest_s": max(spent), "records": len(asked)}
 
 
@@ -114,10 +112,10 @@ def main() -> None:
             "classify": classifying(scratch, options.records, options.workers),
             "size": sizing(scratch, options.sizes),
         }
-    made = measured_on("numpy", "scipy", "scikit-learn", "numba")
-    facts = {"records": options.records, "workers": options.workers, "made_with": made, **found}
+    made_with = measured_on("numpy", "scipy", "scikit-learn", "numba")
+    facts = {"records": options.records, "workers": options.workers, "made_with": made_with, **found}
     (ROOT / "docs" / "judging.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    table = page(found, options.records, options.workers, in_words(made))
+    table = page(found, options.records, options.workers, in_words(made_with))
     write_marked(ROOT / "docs" / "pipeline.md", "judging", __file__, table)
     print(table)
 

@@ -80,12 +80,24 @@ def speeds(charts: dict[str, Facts]) -> list[str]:
         default = default_run(chart)
         cells = [in_words(default), in_words(fastest_run(chart)), in_words(at_accuracy(chart, REPEATED, DEFAULT))]
         rows[name] = cells + [rival(fastest(chart, *kind), default["real_time"]) for kind in RIVALS]
-    made = charts[SCENES[0]]["made_with"]
-    return [*by_scene(heads, rows), "", f"Measured on {versions.in_words(made)}."]
+    return [*by_scene(heads, rows), "", f"Measured on {versions.in_words(made_with(charts))}."]
+
+
+def made_with(charts: dict[str, Facts]) -> dict[str, str]:
+    """What all charts were measured on and with; ValueError if they were not all on and with the same."""
+    (first, chart), *others = charts.items()
+    made: dict[str, str] = chart["made_with"]
+    apart = [name for name, other in others if other["made_with"] != made]
+    if apart:
+        raise ValueError(f"{', '.join(apart)}: not measured on and with the same as {first}")
+    return made
 
 
 def fastest_run(chart: Facts) -> Facts:
-    """The fastest run of the modal method with an error below 0.1 %, which is `best` in the JSON."""
+    """The fastest run of the modal method with an error of 0.1 % or less; ValueError if there is none.
+
+    `best` in the JSON is that or faster, as it is interpolated between runs.
+    """
     return max((run for run in runs_of(chart, MARCHED) if error(run) <= DEFAULT), key=lambda run: run["real_time"])
 
 

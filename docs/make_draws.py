@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +23,22 @@ from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Judges, Tested
 from datagen.corpus import Corpus
+from datagen.errors import BadInput
 from datagen.judging.scored_runs import write_line
 from physics.bearing import RACES
 
 DRAWS, SHARE, SEED = 5, 0.8, 100
 ODD = ("197", "198", "199", "174", "201")
+
+
+def require_different_names(folders: Iterable[Path]) -> None:
+    """Raise BadInput where two folders have one name, by which what is found in them is kept."""
+    counts = Counter(folder.absolute().name for folder in folders)
+    twice = ", ".join(name for name, count in counts.items() if count > 1)
+    if twice:
+        raise BadInput(
+            "several folders are called so", value=twice, field="FOLDER", allowed="a name of its own for each"
+        )
 
 
 def drawn(training: TrainingSet, draw: int) -> TrainingSet:
@@ -48,7 +61,8 @@ def scores(tested: Tested) -> dict[str, dict[str, float | None]]:
 
 
 def main(train: Path, out: Path, tests: list[Path]) -> None:
-    """Write the scores of all draws."""
+    """Write the scores of all draws; raises BadInput before anything is learned."""
+    require_different_names(tests)
     benchmark = Benchmark(train, tuple(tests))
     labels = training_records(train, False)
     training = training_set(train, labels, benchmark.training_reading(), 1)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from make_draws import ODD
+from make_draws import ODD, require_different_names
 from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.stats import binomtest
@@ -220,9 +220,10 @@ def simulated(report: dict[str, Any], model: str) -> str:
 
 
 def main(paths: list[Path]) -> None:
-    """Write the tables."""
+    """Write the tables; raises BadInput where two reports lie in folders of one name."""
     draws = [path for path in paths if path.name == "draws.json"]
     others = [path for path in paths if path not in draws]
+    require_different_names(path.absolute().parent for path in others)
     reports = {path.absolute().parent.name: json.loads(path.read_text()) for path in others}
     first = next(iter(reports.values()))
     learned = f"Learned from {first['training_records']} simulated records; no real one."

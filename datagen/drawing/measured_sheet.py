@@ -20,6 +20,7 @@ from datagen.drawing.style import (
     ORANGE,
     PURPLE,
     VERMILLION,
+    digits,
     faint_grid,
     outside_legend,
     png_of,
@@ -88,7 +89,7 @@ def summary(portrait: MeasuredPortrait) -> str:
     parts = [
         f"measured on {labels['rig']}, bearing {labels['bearing']}",
         _speed(portrait),
-        f"{labels['load_n']:.5g} N" if math.isfinite(labels["load_n"]) else "load unknown",
+        f"{digits(labels['load_n'], 5)} N" if math.isfinite(labels["load_n"]) else "load unknown",
         f"{labels['extent_mm']:.3g} mm" if labels["extent_mm"] > 0.0 else "",
         f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
     ]
@@ -99,7 +100,7 @@ def _speed(portrait: MeasuredPortrait) -> str:
     rpm, basis = portrait.labels["speed_rpm"], portrait.labels["speed_basis"]
     if not rpm >= 0.0:
         return "speed unknown"
-    return f"{rpm:.4g} rpm ({basis}{', changing' if portrait.shaft_angle is not None else ''})"
+    return f"{digits(rpm, 4)} rpm ({basis}{', changing' if portrait.shaft_angle is not None else ''})"
 
 
 def draw_whole(axes: Axes, portrait: MeasuredPortrait) -> None:

@@ -16,6 +16,7 @@ from datagen.drawing.style import (
     PURPLE,
     SKY,
     VERMILLION,
+    digits,
     faint_grid,
     outside_legend,
     plain_log_ticks,
@@ -148,8 +149,8 @@ def _draw_bars(
 def _short(distinct: NDArray[np.float64]) -> list[str]:
     """Texts of different numbers with as few digits as keep them apart; no power of ten for what is large."""
     texts: list[str] = []
-    for digits in range(3, 10):
-        texts = [f"{value:.0f}" if abs(value) >= 10**digits - 0.5 else f"{value:.{digits}g}" for value in distinct]
+    for count in range(3, 10):
+        texts = [digits(value, count) for value in distinct]
         if len(set(texts)) == distinct.size:
             break
     return texts

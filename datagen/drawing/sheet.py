@@ -15,7 +15,7 @@ from datagen.drawing.frequency_panels import (
 )
 from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, png_of
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, digits, png_of
 from datagen.drawing.time_panels import (
     draw_close_up,
     draw_part,
@@ -112,19 +112,14 @@ def summary(portrait: Portrait) -> str:
     labels = portrait.labels
     parts = [
         f"{labels['rig']} rig, bearing {labels['bearing']}",
-        f"{_digits(labels['speed_rpm'], 4)} rpm",
-        f"{_digits(labels['load_n'], 4)} N",
+        f"{digits(labels['speed_rpm'], 4)} rpm",
+        f"{digits(labels['load_n'], 4)} N",
         _noise(portrait),
         f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
     ]
     if math.isfinite(labels["error_estimate"]):
-        parts.append(f"estimated error {_digits(labels['error_estimate'] * 100.0, 2)} %")
+        parts.append(f"estimated error {digits(labels['error_estimate'] * 100.0, 2)} %")
     return "  ·  ".join(parts)
-
-
-def _digits(value: float, count: int) -> str:
-    """A value of so many digits, or of all before the point where these are more: no power of ten."""
-    return f"{value:.0f}" if abs(value) >= 10**count - 0.5 else f"{value:.{count}g}"
 
 
 def _noise(portrait: Portrait) -> str:

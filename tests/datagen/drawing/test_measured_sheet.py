@@ -34,6 +34,12 @@ def portrait(axes: tuple[str, ...] = ("y",), **changes: Any) -> MeasuredPortrait
     return MeasuredPortrait("mine", LABELS | changes, RATE, axes, np.stack([signal] * len(axes), axis=1))
 
 
+def test_fast_machines_and_heavy_loads_are_told_without_powers_of_ten() -> None:
+    line = summary(portrait(speed_rpm=12000.0, load_n=250000.0))
+    assert "12000 rpm (nominal)" in line
+    assert "250000 N" in line
+
+
 def test_frequencies_follow_from_orders_and_speed_and_are_left_out_where_unknown() -> None:
     assert portrait().frequencies == pytest.approx(
         {"BPFO": 90.0, "BPFI": 135.0, "BSF": 60.0, "FTF": 10.0, "shaft": 25.0}

@@ -12,8 +12,17 @@ from datagen.drawing.style import EXTENDED, GREY, INK, LINE, faint_grid
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.figure08_velocity_spectra import HARMONICS, SIXTH
 from datagen.paper.panels import heading, highest_near, letter, power_decibel, spread
-from datagen.paper.scenes import ANALYSED, RATE, SHOWN_SEED, bpfo_hz, ftf_hz, machine, scene, signal
-from datagen.paper.scenes import wavy_extended_spall as extended_spall
+from datagen.paper.scenes import (
+    ANALYSED,
+    RATE,
+    SHOWN_SEED,
+    bpfo_hz,
+    ftf_hz,
+    machine,
+    scene,
+    signal,
+    wavy_extended_spall,
+)
 from labels.density import velocity_density
 from physics.arrays import Array
 from physics.imperfections import Imperfections
@@ -41,8 +50,12 @@ COLOURS = {"line": LINE, "extended": EXTENDED}
 
 @dataclass(frozen=True)
 class Sidebands:
-    """Cage sidebands over their BPFO harmonic, dB: (deviations, draws, 13) for a steady cage and one that slips 1 %."""
+    """Cage sidebands over their BPFO harmonic, dB: (deviations, draws, 13) for a steady cage and one that slips 1 %.
 
+    `deviations_um`: standard deviations of the balls' diameters, µm.
+    """
+
+    deviations_um: tuple[float, ...]
     steady: Array
     slipping: Array
 
@@ -62,7 +75,7 @@ def unequal(deviation_um: float, seed: int) -> Imperfections:
 
 def machine_state(condition: str, deviation_um: float, seed: int, slip: bool) -> Scene:
     """The gearbox rig with a line or extended spall and unequal balls."""
-    spall = line_spall("gearbox") if condition == "line" else extended_spall(SHOWN_SEED)
+    spall = line_spall("gearbox") if condition == "line" else wavy_extended_spall(SHOWN_SEED)
     balls = unequal(deviation_um, seed) if deviation_um > 0.0 else None
     return scene("gearbox", spall, slip_seed=seed if slip else None, imperfections=balls)
 
@@ -95,7 +108,7 @@ def measure(condition: str, deviations: tuple[float, ...] = DEVIATIONS_UM, draws
             ]
         )
 
-    return Sidebands(all_of(False), all_of(True))
+    return Sidebands(deviations, all_of(False), all_of(True))
 
 
 def chapter() -> Chapter:
@@ -128,10 +141,12 @@ def answer(found: dict[str, Sidebands], floor: dict[str, Sidebands]) -> str:
 
 
 def deviation_for(found: Sidebands, level: float) -> float:
-    """Deviation (µm) at which the steady cage's sidebands of the sixth harmonic reach `level` (dB), median draw."""
+    """Deviation (µm) at which the steady cage's sidebands of the sixth harmonic reach `level` (dB), median draw.
+
+    By a line through the first five deviations; larger balls bend the springs.
+    """
     medians = np.median(found.sixth(), axis=1)
-    deviations = np.log10(np.array(DEVIATIONS_UM[: medians.size]))
-    slope, offset = np.polyfit(deviations[:5], medians[:5], 1)
+    slope, offset = np.polyfit(np.log10(found.deviations_um)[:5], medians[:5], 1)
     return float(10.0 ** ((level - offset) / slope))
 
 

@@ -78,6 +78,13 @@ def test_sidebands_grow_in_proportion_to_the_deviation_of_the_balls():
     assert np.all(found[1] < -15.0)
 
 
+def test_the_deviation_for_a_level_lies_on_the_line_through_those_that_were_measured():
+    deviations = (0.1, 0.3, 1.0)
+    level = np.broadcast_to(20.0 * np.log10(deviations)[:, None, None] - 20.0, (3, 2, 13))
+    found = question2_unequal_balls.Sidebands(deviations, level, level)
+    assert question2_unequal_balls.deviation_for(found, -26.0) == pytest.approx(10.0**-0.3)
+
+
 def test_equal_balls_have_no_sidebands_and_slip_alone_fills_their_place():
     found = measure("extended", (0.0,), draws=1)
     assert found.sixth()[0, 0] < -60.0
@@ -139,7 +146,9 @@ def made_up_numbers():
     shape = (len(question2_unequal_balls.DEVIATIONS_UM), 5, 13)
     sidebands = {
         name: question2_unequal_balls.Sidebands(
-            generator.normal(-30.0, 9.0, shape), generator.normal(-14.0, 1.0, shape)
+            question2_unequal_balls.DEVIATIONS_UM,
+            generator.normal(-30.0, 9.0, shape),
+            generator.normal(-14.0, 1.0, shape),
         )
         for name in ("line", "extended")
     }

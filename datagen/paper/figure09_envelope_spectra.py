@@ -63,10 +63,13 @@ def rows(lines: dict[str, Array], pole: dict[str, Array]) -> list[Row]:
     """The table of Figure 9 from the BPFO lines of each condition in the paper's band and around the pole."""
     density = 10.0 ** (published_value("figure10", "highest") / 10.0)
     most = 2.0 * density * (PAPER_BAND[1] - PAPER_BAND[0])
-    unit = f"Figure 10's axis bounds the mean squared envelope in that band by {most:.2g} (m/s²)², so 0.2 is no (m/s²)²"
+    end = f"{published_value(NAME, 'line_axis'):g}"
+    unit = (
+        f"Figure 10's axis bounds the mean squared envelope in that band by {most:.2g} (m/s²)², so {end} is no (m/s²)²"
+    )
     top = {name: float(np.median(values)) for name, values in lines.items()}
     return [
-        only_ours("BPFO line, line spall", top["line"], "(m/s²)²", f"axis of the paper to 0.2; {unit}"),
+        only_ours("BPFO line, line spall", top["line"], "(m/s²)²", f"axis of the paper to {end}; {unit}"),
         only_ours("BPFO line, line spall on the path of the ball's centre (G1p)", top["gap"], "(m/s²)²"),
         only_ours("BPFO line, extended", top["extended"], "(m/s²)²", _range(lines["extended"])),
         only_ours("BPFO line, extended G2r", top["reference"], "(m/s²)²", _range(lines["reference"])),

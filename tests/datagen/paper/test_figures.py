@@ -1,19 +1,28 @@
 """What the chapters find, against an independent model, the paper's words and other ways to the same number."""
 
+import tomllib
+from importlib import import_module
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from datagen.drawing.style import house_style
+from datagen.paper import published as published_module
+from datagen.paper.book import CHAPTERS
 from datagen.paper.figure05_load_distribution import distribution
 from datagen.paper.figure06_stiffness import STEPS, period, stiffness
 from datagen.paper.figure07_contact_forces import forces
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, harmonics
 from datagen.paper.figure11_fan_rig import Recording, vertical_modes
+from datagen.paper.published import published
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, scene
 from datagen.paper.simulated import simulated
 from labels.truth import PassTable
 from physics.reference_scenes import gap_line_spall, line_spall
 from physics.statics.stiffness import stiffness_trace
+
+TYPED = tomllib.loads(Path(published_module.__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 
 
 def test_the_distribution_over_all_balls_balances_the_load():
@@ -112,6 +121,15 @@ def test_every_row_says_where_the_paper_says_it_and_every_panel_is_named(key, ch
         figure = one.draw()
     named = [axes for axes in figure.axes if axes.get_title(loc="left")]
     assert len(named) >= 4
+
+
+@pytest.mark.parametrize("key", ["5", "6", "7", "8", "9", "10", "11"])
+def test_every_statement_that_is_typed_is_used(key, chapter):
+    shown = {(row.paper, row.claim, row.where) for row in chapter(key).rows}
+    code = Path(import_module(f"datagen.paper.{CHAPTERS[key]}").__file__).read_text(encoding="utf-8")
+    for name in TYPED[f"figure{key}"]:
+        said = published(f"figure{key}", name)
+        assert (said.value, said.claim, said.where) in shown or f"'{name}'" in code or f'"{name}"' in code, name
 
 
 def test_entry_over_exit_is_the_ratio_of_two_bursts():

@@ -1,7 +1,8 @@
 """Every picture that commands draw.
 
 - `preview`: one record on one sheet; a `portrait` is what its `sheet` shows, made of `time_panels`, `frequency_panels`
-  and `path_panels`; `portrayed`: where it comes from; `close_up`: the stretch shown enlarged
+  and `path_panels`; `decibel_panel`: power over time and frequency; `portrayed`: where a portrait comes from;
+  `close_up`: the stretch shown enlarged
 - `measured_portrait`, `measured_sheet`: the same of an imported recording
 - `overview`: a whole corpus
 - `classifier_sheet` and its `classifier_panels`: scores of classifiers; `size_report`: of spall sizes

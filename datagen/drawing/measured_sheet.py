@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.figure import Figure
 
+from datagen.drawing.decibel_panel import draw_decibels
 from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, envelope_end, line_heights
 from datagen.drawing.measured_portrait import MeasuredPortrait
 from datagen.drawing.sheet import DPI
@@ -16,7 +16,6 @@ from datagen.drawing.style import (
     GREEN,
     GREY,
     INK,
-    MAP,
     ORANGE,
     PURPLE,
     VERMILLION,
@@ -124,11 +123,7 @@ def draw_close_up(axes: Axes, portrait: MeasuredPortrait) -> None:
 def draw_close_spectrogram(axes: Axes, portrait: MeasuredPortrait) -> None:
     """Spectrogram of the close-up in dB below its maximum, kHz against ms."""
     time, frequency, power = spectrogram(portrait.main_axis, portrait.rate, *portrait.window)
-    level = 10.0 * np.log10(np.maximum(power, 1e-300) / max(power.max(), 1e-300))
-    axes.pcolormesh(
-        time * 1e3, frequency * 1e-3, level, vmin=-DYNAMIC_RANGE_DB, vmax=0.0, cmap=MAP, shading="nearest",
-        rasterized=True,
-    )  # fmt: skip
+    draw_decibels(axes, time, frequency, power, span=DYNAMIC_RANGE_DB)
     axes.set(ylim=(0.0, portrait.rate / 2e3), ylabel="kHz", xlabel="time (ms)")
     axes.set_title(f"Spectrogram, {DYNAMIC_RANGE_DB:.0f} dB")
 

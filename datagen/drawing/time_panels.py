@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.drawing.decibel_panel import draw_decibels, frequencies_along_y, mark_frequencies
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.style import BLUE, GREEN, GREY, INK, MAP, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
+from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
 from labels.spectrogram import spectrogram
 from physics.arrays import Array
 from physics.modes import modes
@@ -137,21 +138,10 @@ def draw_spectrogram(axes: Axes, portrait: Portrait) -> None:
     start, stop = portrait.window
     signal = (portrait.acceleration if portrait.clean is None else portrait.clean)[:, 1]
     time, frequency, power = spectrogram(signal, portrait.rate, start, stop)
-    level = 10.0 * np.log10(np.maximum(power, 1e-300) / max(power.max(), 1e-300))
     lines = vertical_modes(portrait)
     top = min(portrait.rate / 2.0, 1.3 * max(lines, default=portrait.rate / 2.0))
-    keep = frequency <= top
-    axes.pcolormesh(
-        time * 1e3, frequency[keep] * 1e-3, level[keep], vmin=-DYNAMIC_RANGE_DB, vmax=0.0, cmap=MAP, shading="nearest",
-        rasterized=True,
-    )  # fmt: skip
-    for line in lines:
-        if line <= top:
-            axes.axhline(line * 1e-3, color="white", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.85)
-            axes.annotate(
-                f"{line * 1e-3:.2f}", (1.0, line * 1e-3), xycoords=("axes fraction", "data"), xytext=(3, 0),
-                textcoords="offset points", va="center", fontsize=7, color=INK,
-            )  # fmt: skip
+    draw_decibels(axes, time, frequency, power, span=DYNAMIC_RANGE_DB, top=top)
+    mark_frequencies(axes, (line for line in lines if line <= top))
     axes.set(ylim=(0.0, top * 1e-3), ylabel="kHz")
     axes.set_xlabel("time (ms); dashed: modes along y at the middle of the close-up" if lines else "time (ms)")
     whose = portrait.recorded_words if portrait.clean is None else "clean"
@@ -164,6 +154,4 @@ def vertical_modes(portrait: Portrait) -> list[float]:
     if rest.outcome(0) is not StaticOutcome.LOADED:
         return []
     found = modes(portrait.scene.rig, symmetric_matrices(rest.stiffness[0]), symmetric_matrices(rest.damping[0]))
-    moves = np.abs(found.shape) ** 2
-    along_y = moves[1::2].sum(axis=0) > moves[0::2].sum(axis=0)
-    return [float(frequency) for frequency in found.frequency_hz[along_y]]
+    return [float(frequency) for frequency in frequencies_along_y(found)]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.drawing.style import GREY, INK, LINE, MAP, ORANGE, PURPLE, faint_grid, with_panels
+from datagen.drawing.decibel_panel import draw_decibels, frequencies_along_y, mark_frequencies
+from datagen.drawing.style import GREY, INK, LINE, ORANGE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, letter, power_decibel
 from datagen.paper.scenes import ANALYSED, LEAD, RATE, SHOWN_SEED, bpfo_hz, machine, scene, shaft_hz
@@ -91,9 +92,7 @@ def recording(spall: Spall) -> Recording:
 
 def vertical_modes() -> Array:
     """Natural frequencies (3,) of the healthy fan rig's modes along y at its rated load, cage angle 0, Hz."""
-    found = modes(machine("fan"), *rated_matrices(machine("fan")))
-    moves = np.abs(found.shape) ** 2
-    return np.asarray(found.frequency_hz[moves[1::2].sum(axis=0) > moves[0::2].sum(axis=0)])
+    return frequencies_along_y(modes(machine("fan"), *rated_matrices(machine("fan"))))
 
 
 def chapter() -> Chapter:
@@ -218,31 +217,13 @@ def _draw_trace(axes: Axes, found: Recording, start: float, stop: float) -> None
 
 def _draw_spectrogram(axes: Axes, found: Recording, start: float, stop: float) -> None:
     time, frequency, power = spectrogram(found.acceleration, RATE, start, stop)
-    keep = frequency <= TOP_HZ
-    level = power_decibel(power[keep] / power.max())
-    axes.pcolormesh(
-        (time - start) * 1e3,
-        frequency[keep] * 1e-3,
-        level,
-        vmin=-DYNAMIC_RANGE_DB,
-        vmax=0.0,
-        cmap=MAP,
-        shading="nearest",
-        rasterized=True,
+    draw_decibels(axes, time - start, frequency, power, span=DYNAMIC_RANGE_DB, top=TOP_HZ)
+    mark_frequencies(axes, vertical_modes())
+    axes.set(
+        xlim=(0.0, (stop - start) * 1e3),
+        ylabel="kHz",
+        xlabel=f"time (ms); dashed: modes along y; {DYNAMIC_RANGE_DB:.0f} dB",
     )
-    for mode in vertical_modes() * 1e-3:
-        axes.axhline(mode, color="white", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.85)
-        axes.annotate(
-            f"{mode:.2f}",
-            (1.0, mode),
-            xycoords=("axes fraction", "data"),
-            xytext=(3, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=7,
-            color=INK,
-        )
-    axes.set(xlim=(0.0, (stop - start) * 1e3), ylabel="kHz", xlabel="time (ms); dashed: modes along y; 60 dB")
 
 
 def _draw_band(axes: Axes, found: Recording) -> None:

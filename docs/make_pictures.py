@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from datagen.drawing.preview import draw_preview
 from datagen.drawing.style import (
@@ -25,18 +21,18 @@ from datagen.drawing.style import (
     faint_grid,
     outside_legend,
     png_of,
+    same_height,
 )
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.truth import PassTable, ball_passes
 from physics.angular_speed import in_hertz
+from physics.arrays import Array
 from physics.paths.profile import build_path, wrap
 from physics.reference_scenes import BOTTOM, reference_scene
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
 from physics.trace import Kept, Trace
-
-Array = NDArray[np.float64]
 
 ROOT = Path(__file__).resolve().parent.parent
 PICTURES, DATASETS = ROOT / "docs" / "pictures", ROOT / "datasets"
@@ -119,18 +115,9 @@ def draw_states(states: list[Column]) -> Figure:
     ):
         grid[row, 0].set_ylabel(name)
     for row in (0, 1, 3):
-        _same_height(list(grid[row]))
+        same_height(list(grid[row]))
     figure.align_ylabels(grid[:, 0])
     return figure
-
-
-def _same_height(panels: list[Axes]) -> None:
-    ends = np.array([panel.get_ylim() for panel in panels])
-    low, high = (
-        (ends[:, 0].max(), ends[:, 1].min()) if ends[0, 0] > ends[0, 1] else (ends[:, 0].min(), ends[:, 1].max())
-    )
-    for panel in panels:
-        panel.set_ylim(low, high)
 
 
 def _draw_path(axes: Axes, state: Column) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -97,6 +98,15 @@ def roomy() -> ConstrainedLayoutEngine:
 def faint_grid(axes: Axes) -> None:
     """Pale horizontal lines across the panel, at its ticks."""
     axes.grid(True, axis="y", color=PALE, linewidth=0.5)
+
+
+def same_height(panels: Sequence[Axes]) -> None:
+    """Give panels side by side the limits of all along y, whichever way up these are."""
+    ends = np.array([axes.get_ylim() for axes in panels])
+    downwards = ends[0, 0] > ends[0, 1]
+    low, high = ends.min(), ends.max()
+    for axes in panels:
+        axes.set_ylim((high, low) if downwards else (low, high))
 
 
 def whole_numbers(axis: Axis) -> None:

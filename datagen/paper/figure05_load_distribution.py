@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import SHOWN_SEED, machine, reference_extended_spall, scene, wavy_extended_spall
+from datagen.paper.scenes import SHOWN_SEED, ball_angles, machine, reference_extended_spall, scene, wavy_extended_spall
 from physics.arrays import Array
 from physics.paths.profile import race_depth
 from physics.reference_scenes import BOTTOM, line_spall
@@ -64,17 +64,19 @@ def distribution(*spalls: Spall) -> Distribution:
     bearing = of.rig.bearing
     cage = bearing.spacing * np.arange(CAGE_STEPS) / CAGE_STEPS
     load = equilibrium(of, cage / of.cage.mean_speed).ball_load
-    place = cage[:, None, None] + bearing.spacing * np.arange(bearing.balls)
-    place = np.degrees(place + bearing.stagger * np.arange(bearing.rows)[:, None]) % FULL_TURN
-    order = np.argsort(place.transpose(1, 0, 2).reshape(bearing.rows, -1), axis=1)
-    angle = np.take_along_axis(place.transpose(1, 0, 2).reshape(bearing.rows, -1), order, axis=1)
-    loads = np.take_along_axis(load.transpose(1, 0, 2).reshape(bearing.rows, -1), order, axis=1)
-    half = math.degrees(spalls[0].extent) / 2.0 if spalls else 0.0
-    inside = np.sum(np.abs(place[:, 0, :] - CENTRE) <= half, axis=1)
-    vertical = -np.sum(load * np.sin(np.radians(place)), axis=(1, 2))
+    place = np.degrees(ball_angles(bearing, cage)) % FULL_TURN
     grid = FULL_TURN * np.arange(bearing.balls * CAGE_STEPS) / (bearing.balls * CAGE_STEPS)
-    on_grid = np.array([np.interp(grid, angle[r], loads[r], period=FULL_TURN) for r in range(bearing.rows)])
-    return Distribution(of, grid, on_grid, inside, vertical)
+    on_grid = [
+        np.interp(grid, place[:, row].ravel(), load[:, row].ravel(), period=FULL_TURN) for row in range(bearing.rows)
+    ]
+    inside = np.sum(np.abs(place[:, 0] - CENTRE) <= half_arc(of), axis=1)
+    vertical = -np.sum(load * np.sin(np.radians(place)), axis=(1, 2))
+    return Distribution(of, grid, np.array(on_grid), inside, vertical)
+
+
+def half_arc(of: Scene) -> float:
+    """Half the arc of the scene's spall, degrees; 0 of a healthy one."""
+    return math.degrees(of.spalls[0].extent) / 2.0 if of.spalls else 0.0
 
 
 def chapter() -> Chapter:
@@ -128,14 +130,12 @@ def rows(healthy: Distribution, line: Distribution, extended: Distribution, refe
 
 
 def _least_inside(found: Distribution) -> float:
-    half = math.degrees(found.scene.spalls[0].extent) / 2.0
-    return float(found.load[0][np.abs(found.angle - CENTRE) < half].min())
+    return float(found.load[0][np.abs(found.angle - CENTRE) < half_arc(found.scene)].min())
 
 
 def _more_elsewhere(name: str, found: Distribution, healthy: Distribution) -> Row:
     """By how much sound raceway carries more than in a healthy bearing, at the place where that is most."""
-    half = math.degrees(found.scene.spalls[0].extent) / 2.0
-    sound = np.abs(found.angle - CENTRE) > half
+    sound = np.abs(found.angle - CENTRE) > half_arc(found.scene)
     more = max((found.load[0] - healthy.load[0])[sound].max(), (found.load[1] - healthy.load[1]).max())
     return beside(
         NAME, "others_take_over", f"most extra load on sound raceway, {name}", float(more), agrees=more > 1.0, unit="N"
@@ -184,7 +184,7 @@ def draw(healthy: Distribution, line: Distribution, extended: Distribution) -> F
 
 
 def _shade(axes: Axes, found: Distribution) -> None:
-    half = math.degrees(found.scene.spalls[0].extent) / 2.0
+    half = half_arc(found.scene)
     axes.axvspan(CENTRE - half, CENTRE + half, color=PALE, alpha=0.55, linewidth=0, zorder=0)
 
 

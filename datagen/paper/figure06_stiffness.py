@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from datagen.drawing.style import EXTENDED, HEALTHY, INK, LINE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import SHOWN_SEED, machine, reference_extended_spall, scene, wavy_extended_spall
+from datagen.paper.scenes import SHOWN_SEED, ball_angles, machine, reference_extended_spall, scene, wavy_extended_spall
 from physics.arrays import Array
 from physics.reference_scenes import BOTTOM, line_spall
 from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -32,7 +33,10 @@ LEAST_APART, MOST_APART = 10.0, 300.0  # "one to two orders of magnitude"
 
 @dataclass(frozen=True)
 class Stiffness:
-    """Stiffness (2, S, 3) of each row at the cage angles (S,), degrees over 60°: kxx, kyy, kxy, MN/m."""
+    """Stiffness `row` (2, S, 3) of each row at the angles `cage` (S,), degrees over 60°: kxx, kyy, kxy, MN/m.
+
+    `half` the arc of the spall, degrees; 0 of a healthy bearing.
+    """
 
     cage: Array
     row: Array
@@ -58,8 +62,7 @@ def stiffness(*spalls: Spall) -> Stiffness:
     load = equilibrium(of, cage / of.cage.mean_speed).ball_load
     compression = (load / bearing.load_deflection) ** (1.0 / bearing.exponent)
     spring = bearing.exponent * bearing.load_deflection * compression ** (bearing.exponent - 1.0)
-    angle = cage[:, None, None] + bearing.spacing * np.arange(bearing.balls)
-    angle = angle + bearing.stagger * np.arange(bearing.rows)[:, None]
+    angle = ball_angles(bearing, cage)
     c, s = np.cos(angle), np.sin(angle)
     parts = np.stack([np.sum(spring * product, axis=2) for product in (c * c, s * s, c * s)], axis=-1)
     half = math.degrees(spalls[0].extent) / 2.0 if spalls else 0.0
@@ -197,43 +200,10 @@ def _axis_rows(found: dict[str, Stiffness]) -> list[Row]:
 def draw(found: dict[str, Stiffness]) -> Figure:
     """kxx, kyy and kxy from above, line spall on the left, extended spall on the right."""
     figure, grid = with_panels(3, 2, figsize=(10.0, 8.6), sharex=True, sharey="row")
-    healthy = found["healthy"]
     for column, (name, colour) in enumerate((("line", LINE), ("extended", EXTENDED))):
-        stiffness = found[name]
         for component, axes in enumerate(grid[:, column]):
-            axes.plot(
-                healthy.cage, healthy.row[0, :, component], color=HEALTHY, linewidth=1.0, label="healthy, one row"
-            )
-            axes.plot(
-                healthy.cage,
-                healthy.row[1, :, component],
-                color=HEALTHY,
-                linewidth=1.0,
-                linestyle=(0, (3, 2)),
-                label="healthy, other row",
-            )
-            axes.plot(
-                healthy.cage,
-                healthy.total[:, component],
-                color=HEALTHY,
-                linewidth=2.6,
-                alpha=0.5,
-                label="healthy, both rows",
-            )
-            axes.plot(
-                stiffness.cage,
-                stiffness.row[1, :, component],
-                color=PURPLE,
-                linewidth=1.0,
-                label="row 2, without spall",
-            )
-            label = f"row 1, {name} spall"
-            axes.plot(stiffness.cage, stiffness.row[0, :, component], color=colour, linewidth=1.0, label=label)
-            axes.plot(
-                stiffness.cage, stiffness.total[:, component], color=INK, linewidth=1.1, label="both rows, spalled"
-            )
+            _draw_component(axes, found["healthy"], found[name], component, (colour, f"row 1, {name} spall"))
             letter(axes, "abcdef"[2 * component + column], f"{COMPONENTS[component]}, {name} spall")
-            faint_grid(axes)
         grid[2, column].set(xlabel="cage angle (°)", xlim=(0.0, SHOWN), xticks=np.arange(0.0, SHOWN + 1.0, 10.0))
     for axes in grid[:, 0]:
         axes.set_ylabel("MN/m")
@@ -245,3 +215,29 @@ def draw(found: dict[str, Stiffness]) -> Figure:
     figure.subplots_adjust(left=0.07, right=0.985, top=0.9, bottom=0.125, hspace=0.27, wspace=0.09)
     legend_below(figure, list(grid[0]), columns=4)
     return figure
+
+
+def _draw_component(
+    axes: Axes, healthy: Stiffness, spalled: Stiffness, component: int, of_row_1: tuple[str, str]
+) -> None:
+    """One of kxx, kyy and kxy, MN/m against degrees, by row and in all.
+
+    `of_row_1` is colour and name of the spalled row's curve.
+    """
+    colour, name = of_row_1
+    dashed = (0, (3, 2))
+    curves: tuple[tuple[Stiffness, Array, dict[str, Any]], ...] = (
+        (healthy, healthy.row[0], {"color": HEALTHY, "linewidth": 1.0, "label": "healthy, one row"}),
+        (
+            healthy,
+            healthy.row[1],
+            {"color": HEALTHY, "linewidth": 1.0, "linestyle": dashed, "label": "healthy, other row"},
+        ),
+        (healthy, healthy.total, {"color": HEALTHY, "linewidth": 2.6, "alpha": 0.5, "label": "healthy, both rows"}),
+        (spalled, spalled.row[1], {"color": PURPLE, "linewidth": 1.0, "label": "row 2, without spall"}),
+        (spalled, spalled.row[0], {"color": colour, "linewidth": 1.0, "label": name}),
+        (spalled, spalled.total, {"color": INK, "linewidth": 1.1, "label": "both rows, spalled"}),
+    )
+    for of, parts, look in curves:
+        axes.plot(of.cage, parts[:, component], **look)
+    faint_grid(axes)

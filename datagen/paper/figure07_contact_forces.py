@@ -18,11 +18,12 @@ from datagen.drawing.style import (
     SKY,
     VERMILLION,
     faint_grid,
+    same_height,
     with_panels,
 )
 from datagen.paper.chapter import Chapter, Row, beside
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import RATE, SHOWN_SEED, reference_extended_spall, scene, wavy_extended_spall
+from datagen.paper.scenes import RATE, SHOWN_SEED, ball_angles, reference_extended_spall, scene, wavy_extended_spall
 from labels.truth import ball_passes
 from physics.arrays import Array
 from physics.reference_scenes import gap_line_spall, line_spall
@@ -107,9 +108,7 @@ def forces(spall: Spall) -> Forces:
 
 def net_force(of: Scene, time: Array, force: Array) -> Array:
     """Sum of the balls' forces (T, 2) along x and against the load less the static load, N [P14 Eq. 8]."""
-    bearing = of.rig.bearing
-    angle = of.cage.angle(time)[:, None, None] + bearing.spacing * np.arange(bearing.balls)
-    angle = angle + bearing.stagger * np.arange(bearing.rows)[:, None]
+    angle = ball_angles(of.rig.bearing, of.cage.angle(time))
     across = np.sum(force * np.cos(angle), axis=(1, 2))
     along = -np.sum(force * np.sin(angle), axis=(1, 2)) - of.operation.load
     return np.column_stack([across, along])
@@ -137,7 +136,7 @@ def chapter() -> Chapter:
 def rows(found: dict[str, Forces], others: dict[str, Forces]) -> list[Row]:
     """The table of Figure 7."""
     line, extended = found["line"], found["extended"]
-    unloaded = _least_inside(line)
+    unloaded = _mean_while_released(line)
     shared = extended.leave[7] > extended.entry[6] and extended.entry[5] < extended.leave[6]
     return [
         *(
@@ -175,7 +174,7 @@ def rows(found: dict[str, Forces], others: dict[str, Forces]) -> list[Row]:
     ]
 
 
-def _least_inside(line: Forces) -> float:
+def _mean_while_released(line: Forces) -> float:
     """Mean absolute force on ball 6 while its quasi-static load is zero, N."""
     released = (line.static[:, 0, BALL - 1] == 0.0) & (line.time > line.entry[BALL]) & (line.time < line.leave[BALL])
     return float(np.abs(line.dynamic[released, 0, BALL - 1]).mean())
@@ -217,7 +216,7 @@ def draw(found: dict[str, Forces], gap: Forces) -> Figure:
             axes.plot(gap.time[part], gap.net[part, 1], color=ALONG_GAP, linewidth=0.9, label=label)
         grid[2, column].set(xlim=(start, stop), xlabel="time (s)")
     for row in range(3):
-        _same_height(list(grid[row]))
+        same_height(list(grid[row]))
         grid[row, 0].set_ylabel("N")
         grid[row, 1].tick_params(labelleft=False)
     heading(
@@ -249,9 +248,3 @@ def _draw_net(axes: Axes, forces: Forces, part: slice) -> None:
     axes.plot(forces.time[part], forces.net[part, 0], color=ACROSS, linewidth=0.9, label="net, across the load")
     axes.axvspan(forces.entry[BALL], forces.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
     faint_grid(axes)
-
-
-def _same_height(panels: list[Axes]) -> None:
-    ends = np.array([axes.get_ylim() for axes in panels])
-    for axes in panels:
-        axes.set_ylim(ends[:, 0].min(), ends[:, 1].max())

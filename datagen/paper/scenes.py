@@ -10,6 +10,7 @@ from scipy.interpolate import CubicSpline
 
 from physics.angular_speed import in_hertz
 from physics.arrays import Array
+from physics.bearing import Bearing
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.imperfections import Imperfections
@@ -61,6 +62,12 @@ def scene(
     operation = Operation(found.rated_speed, found.rated_load)
     steady = Scene(found, operation, cage, tuple(spalls), imperfections or Imperfections())
     return steady if slip_seed is None or slip == 0.0 else slipping(steady, slip, slip_seed)
+
+
+def ball_angles(bearing: Bearing, cage: Array) -> Array:
+    """Angles (T, rows, balls) of the balls at these angles (T,) of the cage, rad, not reduced to a turn."""
+    of_row_1 = cage[:, None, None] + bearing.spacing * np.arange(bearing.balls)
+    return np.asarray(of_row_1 + bearing.stagger * np.arange(bearing.rows)[:, None])
 
 
 def signal(of: Scene) -> Array:

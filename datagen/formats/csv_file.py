@@ -91,16 +91,8 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     converters |= dict.fromkeys(gaps, _number_or_nothing)
     if is_empty:
         converters[last] = _nothing
-    try:
-        with open_text(path, layout.encoding) as file, warnings.catch_warnings(action="ignore"):
-            table = np.loadtxt(
-                _lines(file, layout.decimal), delimiter=None if layout.delimiter == BLANKS else layout.delimiter,
-                comments=None, skiprows=rows[head - 1][0] if head else layout.skip_lines, ndmin=2,
-                converters=converters or None,
-            )  # fmt: skip
-    except (ValueError, TypeError):
-        return None
-    if table.shape[1] == 1 and _has_gaps(path, layout, line):
+    table = _loaded(path, layout, rows[head - 1][0] if head else layout.skip_lines, converters)
+    if table is None or (table.shape[1] == 1 and _has_gaps(path, layout, line)):
         return None
     names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], is_empty)
     numbers = [column for column in range(table.shape[1]) if column not in converters]
@@ -110,6 +102,21 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     first = dict.fromkeys(words + [last] * is_empty, (line, cells)) | gaps
     odd = {names[column]: (where, row[column]) for column, (where, row) in first.items() if column < width}
     return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, headless_hint(names, layout))
+
+
+def _loaded(
+    path: Path, layout: CsvLayout, skip: int, converters: dict[int | str, Callable[[str], float]]
+) -> Array | None:
+    """The cells (rows, columns) below the first `skip` lines as numbers, those of some columns by their `converters`;
+    None if one is none."""
+    try:
+        with open_text(path, layout.encoding) as file, warnings.catch_warnings(action="ignore"):
+            return np.loadtxt(
+                _lines(file, layout.decimal), delimiter=None if layout.delimiter == BLANKS else layout.delimiter,
+                comments=None, skiprows=skip, ndmin=2, converters=converters or None,
+            )  # fmt: skip
+    except (ValueError, TypeError):
+        return None
 
 
 def _has_gaps(path: Path, layout: CsvLayout, first: int) -> bool:

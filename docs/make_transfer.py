@@ -44,7 +44,9 @@ def counted(some: int, all_: int) -> str:
 
 def calibration(scores: dict[str, Any]) -> str:
     """The calibration error; a dash for the rule, and with too few healthy records or faults to tell."""
-    few = min(scores["healthy"], sum(map(sum, scores["confusion"]["counts"][1:3]))) < FEWEST_A_SIDE
+    by_truth = zip(scores["confusion"]["rows"], scores["confusion"]["counts"], strict=True)
+    faults = sum(sum(counts) for truth, counts in by_truth if truth in RACES)
+    few = min(scores["healthy"], faults) < FEWEST_A_SIDE
     return "–" if few or "calibration_error" not in scores else f"{scores['calibration_error']:.3f}"
 
 

@@ -44,7 +44,10 @@ def at_rate(recipe: dict[str, Any], rate: float) -> dict[str, Any]:
 
 
 def with_recording(recipe: dict[str, Any], file: Path, rate: float, channels: list[str], records: int) -> None:
-    """One part a channel, its background nothing but stretches of that channel."""
+    """One part a channel, its background nothing but stretches of that channel; ValueError if `records` do not divide
+    by the channels: the other corpora would have more."""
+    if records % len(channels):
+        raise ValueError(f"RECORDS = {records}; allowed: a multiple of the {len(channels)} channels")
     [part] = recipe["part"]
     recipe["part"] = [deepcopy(part) for _ in channels]
     for number, (part, channel) in enumerate(zip(recipe["part"], channels, strict=True)):
@@ -54,7 +57,7 @@ def with_recording(recipe: dict[str, Any], file: Path, rate: float, channels: li
 
 
 def main(out: Path, records: int, file: Path, rate: float, channels: list[str], tests: list[str]) -> None:
-    """Make the three corpora and their reports."""
+    """Make the three corpora and their reports; ValueError, before anything is made, as `with_recording` says."""
     recipe = at_rate(tomllib.loads(find_recipe("transfer").read_text(encoding="utf-8")), rate)
     recipe["part"][0]["records"] = records
     at_ratio, recorded = deepcopy(recipe), deepcopy(recipe)

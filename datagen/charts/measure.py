@@ -6,7 +6,7 @@ import math
 import statistics
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -152,34 +152,29 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
     if contestant.part:
         passes = PART_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
         scene = subject.lasting(min(scene.duration, SCORED_FROM + max(PART, passes)))
+    ended = Run(
+        group=contestant.group,
+        name=contestant.name,
+        setting=contestant.setting,
+        duration=0.0,
+        seconds=math.nan,
+        real_time=math.nan,
+        score=None,
+        failure="",
+        substeps=contestant.substeps,
+    )
     try:
         contestant.run(subject.lasting(WARM_UP), subject.rate)
         seconds, result = timed(contestant, scene, subject.rate, rounds)
         response = contestant.response(scene, subject.rate, result)
     except SimulationFailed as failure:
-        return Run(
-            group=contestant.group,
-            name=contestant.name,
-            setting=contestant.setting,
-            duration=0.0,
-            seconds=math.nan,
-            real_time=math.nan,
-            score=None,
-            failure=str(failure),
-            substeps=contestant.substeps,
-        )
-    found = response_errors(scene, subject.rate, response, reference)
-    speed = scene.duration / seconds
-    return Run(
-        group=contestant.group,
-        name=contestant.name,
-        setting=contestant.setting,
+        return replace(ended, failure=str(failure))
+    return replace(
+        ended,
         duration=scene.duration,
         seconds=seconds,
-        real_time=speed,
-        score=found,
-        failure="",
-        substeps=contestant.substeps,
+        real_time=scene.duration / seconds,
+        score=response_errors(scene, subject.rate, response, reference),
     )
 
 

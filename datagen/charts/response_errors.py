@@ -26,8 +26,9 @@ FEWEST_PASSES = 3.0
 class ResponseErrors:
     """Errors against the reference from 0.1 s on; NaN where something does not apply or is not given.
 
-    `acceleration` RMS error over RMS; `envelope_db` of the defect's line in the squared envelope spectrum; `release_us`
-    and `regain_us`, the median error of these times, `worst_event_us` the largest, `events_missed` how many of the
+    `acceleration` RMS error over RMS; `envelope_db` of the defect's line in the squared envelope spectrum, whose lines
+    count as powers here (10 lg of their ratio; the chapters of datagen/paper take them as amplitudes); `release_us` and
+    `regain_us`, the median error of these times, `worst_event_us` the largest, `events_missed` how many of the
     reference's have no counterpart; `stiffness` RMS error of kyy over its RMS. Entry and exit times follow from the
     cage's path and have no error.
     """

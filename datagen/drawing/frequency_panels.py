@@ -79,16 +79,7 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
     if np.count_nonzero(shown) < FEWEST_LINES:
         words = f"too short a record: its lines lie {frequency[1]:.3g} Hz apart"
         axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=GREY)
-    for number, (name, marker, colour, targets) in enumerate(cursors(portrait)):
-        heights = line_heights(
-            frequency, amplitude, [target for target in targets if target < top], known["FTF"], peaks=number > 0
-        )
-        heights = [line for line in heights if line[1] > limits[0]]
-        axes.plot(
-            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour,
-            label=name if heights or number == 0 else None, linestyle="", markersize=6, markerfacecolor="none",
-            markeredgewidth=1.3, clip_on=False,
-        )  # fmt: skip
+    _mark_families(axes, portrait, frequency, amplitude, (top, limits[0]))
     axes.set(
         xlim=(0.0, top),
         ylim=limits,
@@ -98,7 +89,30 @@ def draw_envelope_spectrum(axes: Axes, portrait: Portrait) -> None:
     axes.set_title("Squared envelope spectrum", pad=18)
     faint_grid(axes)
     outside_legend(axes, lift=0.12)
-    shaft = known["shaft"]
+    _orders_on_top(axes, known["shaft"])
+
+
+def _mark_families(
+    axes: Axes, portrait: Portrait, frequency: Array, amplitude: Array, reach: tuple[float, float]
+) -> None:
+    """Open marks on the lines of each family that lie on the panel: `reach` is its highest frequency and least height.
+
+    The record's own family is in the legend even where none of its lines is found.
+    """
+    top, least = reach
+    for number, (name, marker, colour, targets) in enumerate(cursors(portrait)):
+        on_panel = [target for target in targets if target < top]
+        heights = line_heights(frequency, amplitude, on_panel, portrait.frequencies["FTF"], peaks=number > 0)
+        heights = [line for line in heights if line[1] > least]
+        axes.plot(
+            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour,
+            label=name if heights or number == 0 else None, linestyle="", markersize=6, markerfacecolor="none",
+            markeredgewidth=1.3, clip_on=False,
+        )  # fmt: skip
+
+
+def _orders_on_top(axes: Axes, shaft: float) -> None:
+    """A second axis in orders of the shaft's frequency (Hz)."""
 
     def to_orders(hertz: Any) -> Any:
         return hertz / shaft

@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 from datagen.freed_memory import keep_freed_memory
 from datagen.versions import in_words, measured_on
@@ -85,40 +86,47 @@ def resident(records: int) -> float:
     return float(done.stdout.split()[-1]) * 1024.0 / 1e6  # Linux tells it in units of 1024 bytes
 
 
+def page(report: dict[str, Any]) -> str:
+    """The costs of the report, measured now or read from its file, as Markdown."""
+    return "\n".join(
+        [
+            f"- The first run, of one record, takes {report['first_start_s']:.0f} s, as it compiles every kernel that "
+            f"records need; a later one takes {report['warm_start_s']:.1f} s.",
+            "- Milliseconds a second of record, G1 slipping, by length: "
+            + ", ".join(
+                f"{1e3 * used / float(length):.1f} ({float(length):g} s)"
+                for length, used in report["seconds_by_length"].items()
+            )
+            + ".",
+            "- Milliseconds a second of record, G0 slipping, by balls of both rows: "
+            + ", ".join(f"{1e3 * used:.1f} ({count})" for count, used in report["seconds_by_balls"].items())
+            + ".",
+            "- Largest resident size of a process, by records made: "
+            + ", ".join(f"{size:.0f} MB ({records})" for records, size in report["resident_mb_by_records"].items())
+            + ".",
+            "",
+            f"Measured on {in_words(report['made_with'])}.",
+        ]
+    )
+
+
 def main() -> None:
     """Measure and write both files."""
     keep_freed_memory()  # as where records are made
     warm_up()
     first, again = starts()
-    lengths = {seconds: seconds_of(reference_scene("G1", seconds, slip_seed=SLIP_SEED)) for seconds in LENGTHS}
-    balls = {count: seconds_of(with_balls(count)) for count in BALLS}
-    memory = {records: resident(records) for records in RECORDS}
-    made_with = measured_on("numpy", "scipy", "numba")
     report = {
-        "made_with": made_with,
+        "made_with": measured_on("numpy", "scipy", "numba"),
         "first_start_s": first,
         "warm_start_s": again,
-        "seconds_by_length": lengths,
-        "seconds_by_balls": balls,
-        "resident_mb_by_records": memory,
+        "seconds_by_length": {
+            seconds: seconds_of(reference_scene("G1", seconds, slip_seed=SLIP_SEED)) for seconds in LENGTHS
+        },
+        "seconds_by_balls": {count: seconds_of(with_balls(count)) for count in BALLS},
+        "resident_mb_by_records": {records: resident(records) for records in RECORDS},
     }
     (ROOT / "docs" / "costs.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-    lines = [
-        f"- The first run, of one record, takes {first:.0f} s, as it compiles every kernel that records need; a later "
-        f"one takes {again:.1f} s.",
-        "- Milliseconds a second of record, G1 slipping, by length: "
-        + ", ".join(f"{1e3 * used / length:.1f} ({length:g} s)" for length, used in lengths.items())
-        + ".",
-        "- Milliseconds a second of record, G0 slipping, by balls of both rows: "
-        + ", ".join(f"{1e3 * used:.1f} ({count})" for count, used in balls.items())
-        + ".",
-        "- Largest resident size of a process, by records made: "
-        + ", ".join(f"{size:.0f} MB ({records})" for records, size in memory.items())
-        + ".",
-        "",
-        f"Measured on {in_words(made_with)}.",
-    ]
-    write_marked(ROOT / "docs" / "pipeline.md", "costs", __file__, "\n".join(lines))
+    write_marked(ROOT / "docs" / "pipeline.md", "costs", __file__, page(report))
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,19 +60,20 @@ def measure(scene: Scene, method: str, exact: Array) -> dict[str, object]:
     return {"errors": errors, "order": -float(slope), "constant": float(np.exp(height)), "floor": floor}
 
 
-def table(rows: dict[str, dict[str, dict[str, object]]], checked: dict[str, float]) -> list[str]:
-    """One row a method."""
+def page(report: dict[str, Any]) -> str:
+    """One row a method of the report, measured now or read from its file, as Markdown."""
     lines = [
         "| method | order stated | " + " | ".join(f"{name}: order, constant, floor" for name in SCENES) + " |",
         "|---" * (2 + len(SCENES)) + "|",
     ]
-    for method, found in rows.items():
+    for method, found in report["methods"].items():
         cells = [
             f"{found[name]['order']:.2f}, {found[name]['constant']:.1e}, {found[name]['floor']:.0e}" for name in SCENES
         ]
         lines.append(f"| {method} | {METHODS[method].order:g} | " + " | ".join(cells) + " |")
-    apart = ", ".join(f"{value:.0e} ({name})" for name, value in checked.items())
-    return [*lines, "", f"{EXACT} at {FINEST} and {CHECKED_BY} at {CHECKED_AT} steps a sample are apart by {apart}."]
+    apart = ", ".join(f"{value:.0e} ({name})" for name, value in report["exact_apart"].items())
+    checked = f"{EXACT} at {FINEST} and {CHECKED_BY} at {CHECKED_AT} steps a sample are apart by {apart}."
+    return "\n".join([*lines, "", checked, "", f"Measured on {in_words(report['made_with'])}."])
 
 
 def main() -> None:
@@ -81,11 +83,9 @@ def main() -> None:
         name: relative_error(response(scene, CHECKED_BY, CHECKED_AT), exact[name]) for name, scene in SCENES.items()
     }
     rows = {method: {name: measure(scene, method, exact[name]) for name, scene in SCENES.items()} for method in MARCHES}
-    made_with = measured_on("numpy", "scipy", "numba")
-    report = {"made_with": made_with, "exact_apart": checked, "methods": rows}
+    report = {"made_with": measured_on("numpy", "scipy", "numba"), "exact_apart": checked, "methods": rows}
     (ROOT / "docs" / "orders.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-    lines = [*table(rows, checked), "", f"Measured on {in_words(made_with)}."]
-    write_marked(ROOT / "docs" / "accuracy.md", "orders", __file__, "\n".join(lines))
+    write_marked(ROOT / "docs" / "accuracy.md", "orders", __file__, page(report))
 
 
 if __name__ == "__main__":

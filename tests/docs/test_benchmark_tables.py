@@ -1,0 +1,48 @@
+"""The tables that benchmarks write into pages follow from the measurements stored beside these."""
+
+import json
+
+import pytest
+from marked_tables import ROOT
+
+from datagen.versions import in_words
+from tests.benchmarks import changed_scenes, costs, judging, orders, pipeline, reference_scenes
+
+DOCS = ROOT / "docs"
+
+
+def stored(name):
+    return json.loads((DOCS / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def judged(report):
+    return judging.page(report, report["records"], report["workers"], in_words(report["made_with"]))
+
+
+def reference_table(long_repeated):
+    """The table of the reference scenes, had these repeated in the longer record."""
+    report = stored("reference_scenes")
+    rows = {name: row | {"long_repeated": name in long_repeated} for name, row in report["scenes"].items()}
+    made = f"Measured on {in_words(report['made_with'])}."
+    return reference_scenes.table(rows, report["rival_real_time_factor"], made)
+
+
+@pytest.mark.parametrize(
+    ("page", "name", "table"),
+    [
+        ("docs/accuracy.md", "changed_scenes", changed_scenes.table),
+        ("docs/accuracy.md", "orders", orders.page),
+        ("docs/pipeline.md", "costs", costs.page),
+        ("docs/pipeline.md", "judging", judged),
+        ("docs/pipeline.md", "pipeline", pipeline.page),
+        ("README.md", "reference_scenes", lambda report: reference_table(report["scenes"])),
+    ],
+)
+def test_a_page_holds_the_table_of_the_stored_measurement(page, name, table):
+    assert f"-->\n{table(stored(name))}\n<!--" in (ROOT / page).read_text(encoding="utf-8")
+
+
+def test_scenes_that_do_not_repeat_in_the_longer_record_are_not_said_to():
+    assert "; in 5 s all)" in reference_table(set(stored("reference_scenes")["scenes"]))
+    assert "; in 5 s G1, F1)" in reference_table({"F1", "G1"})
+    assert "; in 5 s none)" in reference_table(set())

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from make_charts_page import CHARTS, SCENES, made_with
+from make_charts_page import CHARTS, PAGE, SCENES, accuracies, made_with, simpler, speeds
 
 
 def test_charts_of_different_machines_are_refused():
@@ -13,6 +13,8 @@ def test_charts_of_different_machines_are_refused():
         made_with({"G1": one, "F1": other})
 
 
-def test_those_of_the_page_are_of_one_machine():
+@pytest.mark.parametrize("table", [speeds, accuracies, simpler])
+def test_the_page_holds_the_tables_of_the_charts_beside_it(table):
     charts = {name: json.loads((CHARTS / f"{name}.json").read_text(encoding="utf-8")) for name in SCENES}
-    assert made_with(charts)["processor"]
+    lines = "\n".join(table(charts))
+    assert f"-->\n{lines}\n<!--" in PAGE.read_text(encoding="utf-8")

@@ -9,7 +9,7 @@
   the last two), `charts/` (speed against accuracy)
 - shown: `drawing/`, `paper/`, `cards/`
 - `commands/`, joined by `cli`, which `__main__` runs
-- what all of them use: `errors` (bad input, refused in one line), `counts` (numbers of things in words), `progress`
+- what all of them use: `errors` (bad input, refused in one line), `counts` (numbers as people read them), `progress`
   (how far a command has got), `exits` (exit codes), `garbage` (a collector that runs rarely), `freed_memory` (kept for
   the next arrays), `processes` (workers that never outlive their parent), `versions`
 """

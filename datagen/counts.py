@@ -1,4 +1,4 @@
-"""Numbers of bytes and of things as people read them."""
+"""Numbers of bytes, of things and of other units as people read them."""
 
 from __future__ import annotations
 
@@ -11,3 +11,9 @@ def bytes_text(count: float) -> str:
 def counted(count: int, what: str) -> str:
     """A number of things, as "1 record" or "2 records"."""
     return f"{count} {what}" if count == 1 else f"{count} {what}s"
+
+
+def digits(value: float, count: int) -> str:
+    """A value with so many digits, or with all before the point where these are more: no power of ten for what is large
+    and finite."""
+    return f"{value:.0f}" if abs(value) >= 10**count - 0.5 else f"{value:.{count}g}"

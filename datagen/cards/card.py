@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from datagen.cards.facts import Facts, Kind, Solved
 from datagen.corpus_files.format import IMPORTED
-from datagen.counts import bytes_text
+from datagen.counts import bytes_text, digits
 from labels.schema import LABEL, LABELS, UNKNOWN
 
 NOT_STATED = "not stated"
@@ -99,7 +99,7 @@ def _ranges(facts: Facts) -> Iterable[str]:
     for name, found in facts.info.ranges.items():
         if name == "record":
             continue
-        numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
+        numbers = (digits(value, 5) for value in (found.smallest, found.median, found.largest))
         rows.append((f"`{name}`", found.unit, *numbers, found.missing or ""))
     yield from _table(("label", "unit", "smallest", "median", "largest", "unknown or not applicable"), rows)
     yield "What each label means:\n"

@@ -8,7 +8,7 @@ from rich.table import Table
 
 from datagen.corpus_files.format import IMPORTED
 from datagen.corpus_files.reading import AGAIN
-from datagen.counts import bytes_text, counted
+from datagen.counts import bytes_text, counted, digits
 from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ def _ranges(info: Info) -> Table:
     for heading in ("smallest", "median", "largest", missing):
         table.add_column(heading, justify="right")
     for name, found in info.ranges.items():
-        numbers = (f"{value:.5g}" for value in (found.smallest, found.median, found.largest))
+        numbers = (digits(value, 5) for value in (found.smallest, found.median, found.largest))
         table.add_row(name, found.unit, *numbers, str(found.missing or ""))
     return table
 

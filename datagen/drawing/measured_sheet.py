@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
+from datagen.counts import digits
 from datagen.drawing.decibel_panel import draw_decibels
 from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, envelope_end, line_heights
 from datagen.drawing.measured_portrait import MeasuredPortrait
@@ -19,7 +20,6 @@ from datagen.drawing.style import (
     ORANGE,
     PURPLE,
     VERMILLION,
-    digits,
     faint_grid,
     outside_legend,
     png_of,

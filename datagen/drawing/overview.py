@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.counts import digits
 from datagen.drawing.style import (
     BLUE,
     GREEN,
@@ -16,7 +17,6 @@ from datagen.drawing.style import (
     PURPLE,
     SKY,
     VERMILLION,
-    digits,
     faint_grid,
     outside_legend,
     plain_log_ticks,

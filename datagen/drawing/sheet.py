@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
+from datagen.counts import digits
 from datagen.drawing.frequency_panels import (
     draw_background_spectrum,
     draw_envelope_spectrum,
@@ -15,7 +16,7 @@ from datagen.drawing.frequency_panels import (
 )
 from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
-from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, digits, png_of
+from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, png_of
 from datagen.drawing.time_panels import (
     draw_close_up,
     draw_part,

@@ -54,11 +54,6 @@ SETTINGS: dict[Any, Any] = {
 }
 
 
-def digits(value: float, count: int) -> str:
-    """A value with so many digits, or with all before the point where these are more: never a power of ten."""
-    return f"{value:.0f}" if abs(value) >= 10**count - 0.5 else f"{value:.{count}g}"
-
-
 @contextmanager
 def house_style() -> Iterator[None]:
     """Everything drawn inside has the one look."""

@@ -6,6 +6,7 @@ import io
 import json
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +14,11 @@ import pytest
 from command_line import run
 from rich.console import Console
 
+from datagen.cards.card import card_text
+from datagen.cards.facts import corpus_facts
 from datagen.commands.tables import info_tables
 from datagen.corpus_files.manifest import read_manifest
-from datagen.inspection.info import Info, corpus_info
+from datagen.inspection.info import Info, Range, corpus_info
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
@@ -122,6 +125,15 @@ def test_the_tables_show_what_was_refused_and_how_it_is_balanced(info: Info) -> 
     text = console.export_text()
     for words in ("impossible draws", "machine: ball_diameter", "records by condition and location", "50.0%", "train"):
         assert words in text
+
+
+def test_large_numbers_have_no_powers_of_ten_in_the_table_and_on_the_card(folder: Path, info: Info) -> None:
+    fast = replace(info, ranges={"rate_hz": Range("Hz", 12000.0, 51200.0, 102400.0, 0)})
+    console = Console(width=160, record=True, file=io.StringIO())
+    console.print(info_tables(fast)[-1])
+    assert "102400" in console.export_text()
+    card = card_text(replace(corpus_facts(folder), info=fast), "", {})
+    assert "| `rate_hz` | Hz | 12000 | 51200 | 102400 |  |" in card
 
 
 def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:

@@ -24,12 +24,14 @@ def chapter():
 
 @pytest.fixture(scope="session")
 def ours():
-    """Our number of a row, by chapter and by how the row's quantity begins."""
+    """Our number of a row by chapter and its quantity, or how that begins; several such rows must agree."""
 
     def number(key: str, quantity: str) -> float:
-        found = [row.ours for row in _chapter(key).rows if row.quantity.startswith(quantity)]
-        assert len(found) >= 1, quantity
-        return found[0]
+        rows = _chapter(key).rows
+        named = [row for row in rows if row.quantity == quantity]
+        found = {row.ours for row in named or [row for row in rows if row.quantity.startswith(quantity)]}
+        assert len(found) == 1, (quantity, found)
+        return found.pop()
 
     return number
 

@@ -155,7 +155,10 @@ def measure(scene: Scene, rate: float, allowed: tuple[float, float], hindsight: 
 
 
 def summary(rows: dict[str, Row]) -> dict[str, object]:
-    """Shares and ratios over all scenes; scenes that no two step sizes of the judge agree on are counted apart."""
+    """Shares and ratios over all scenes, None where there are none to take them of.
+
+    Scenes that no two step sizes of the judge agree on are counted apart.
+    """
     judged = [row for row in rows.values() if row["judge_apart"] <= CERTAIN * ACCURACY]
     unsettled = [row for row in rows.values() if row["judge_apart"] > CERTAIN * ACCURACY]
     rivalled = [row for row in judged if "best" in row]
@@ -169,11 +172,13 @@ def summary(rows: dict[str, Row]) -> dict[str, object]:
         "own_accuracy_kept": sum(row["own_error_over_allowed"] <= 1.0 for row in judged),
         "rivalled": len(rivalled),
         "kept_the_accuracy": sum(row["error"] <= ACCURACY for row in judged),
-        "share_kept": float(np.mean([row["error"] <= ACCURACY for row in judged])),
-        "worst_error": max(row["error"] for row in judged),
+        "share_kept": float(np.mean([row["error"] <= ACCURACY for row in judged])) if judged else None,
+        "worst_error": max((row["error"] for row in judged), default=None),
         "error_over_estimate": [
             float(q) for q in np.quantile([row["error"] / row["estimate"] for row in judged], (0.05, 0.5, 0.95))
-        ],
+        ]
+        if judged
+        else None,
         "cost_over_hindsight": sum(row["seconds"] for row in rivalled) / sum(row["best_seconds"] for row in rivalled)
         if rivalled
         else None,
@@ -210,7 +215,7 @@ def main() -> None:
             "accuracy": ACCURACY,
             "seconds_a_scene": options.seconds,
             "made_with": measured_on("numpy", "scipy", "numba"),
-            "summary": summary(rows) if place >= 9 else {},
+            "summary": summary(rows),
             "rows": rows,
         }
         options.out.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")

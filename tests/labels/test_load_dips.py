@@ -11,6 +11,7 @@ from physics.paths.passages import passages
 from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.load_distribution import require_equilibrium
+from physics.trace import ContactChanges
 
 DURATION = 0.3
 
@@ -127,3 +128,22 @@ def test_a_load_that_only_rises_and_then_falls_has_no_dip():
 
 def test_of_two_dips_the_first_fall_and_the_last_rise_are_told():
     assert first_and_last_crossing(np.arange(6.0), np.array([1.0, -1.0, 1.0, 1.0, -1.0, 3.0])) == (0.5, 4.25)
+
+
+def test_a_ball_that_bounces_into_the_spall_and_in_it_has_neither_fall_nor_rise(make_scene):
+    scene = make_scene(shallow(4.5e-6), duration=DURATION)
+    number = np.zeros(0, np.int16)
+    always = ContactChanges(np.zeros(0), number, number, np.zeros(0, bool), np.ones((2, 12), bool))
+    undisturbed = ball_passes(scene, always, DURATION)
+    told = np.flatnonzero(np.isfinite(undisturbed.fall_time))
+    k = told[1]
+    entry, leave = undisturbed.entry_time[k], undisturbed.exit_time[k]
+    times = entry + (leave - entry) * np.array([-0.1, 0.2, 0.5, 0.8])
+    row, ball = np.full(4, 1, np.int16), np.full(4, undisturbed.ball[k], np.int16)
+    bouncing = ContactChanges(times, row, ball, np.array([False, True, False, True]), always.initial)
+    table = ball_passes(scene, bouncing, DURATION)
+    assert table.loaded[k]
+    assert np.isnan([table.release_time[k], table.fall_time[k], table.rise_time[k]]).all()
+    others = told[told != k]
+    assert np.array_equal(np.flatnonzero(np.isfinite(table.fall_time)), others)
+    assert np.array_equal(table.fall_time[others], undisturbed.fall_time[others])

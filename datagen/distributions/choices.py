@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -42,6 +43,8 @@ class Choice(Distribution):
         numbers = tuple(number("weights", weight) for weight in weights)
         if numbers and (min(numbers) < 0.0 or sum(numbers) <= 0.0):
             raise DistributionError(f"weights = {list(weights)!r}: none may be below 0 and their sum must be above 0")
+        if not math.isfinite(sum(numbers)):
+            raise DistributionError(f"weights = {list(weights)!r}: their sum is too large a number")
         return cls(tuple(options), numbers)
 
     @classmethod

@@ -125,6 +125,7 @@ def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight(
         ({"choice": [1, 2], "weights": [1]}, "one weight each"),
         ({"choice": [1, 2], "weights": [0, 0]}, "their sum must be above 0"),
         ({"choice": [1, 2], "weights": [-1, 2]}, "below 0"),
+        ({"choice": [1, 2], "weights": [1e308, 1e308]}, "their sum is too large"),
         ({"choice": [1, 2], "weights": 3}, "a list of numbers"),
         ({"balanced": ["a", "b"], "weights": [0.5, 1]}, "whole numbers"),
         ({"balanced": ["a", "b"], "weights": [1, 1000]}, "add up to 1001: balanced takes at most 1000"),

@@ -123,6 +123,11 @@ class Angle(Between):
     high: float = 1e6
 
     def confined(self, distribution: Distribution) -> Distribution:
+        if isinstance(distribution, Normal) and distribution.deviation > self.high:
+            raise DistributionError(
+                f"normal = [{distribution.mean:g}, {distribution.deviation:g}]: the standard deviation must be at most "
+                f"{self.high:g}"
+            )
         return distribution
 
 

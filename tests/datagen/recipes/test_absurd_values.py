@@ -73,6 +73,11 @@ def speed_of(rated_rpm: float, times: float) -> float:
             {"factors": {"clearance": 1e15}},
             "factors.clearance = 1000000000000000.0; allowed: a number from 0 to 1e+06",
         ),
+        (
+            "operation",
+            {"cage_angle_deg": {"normal": [1, 1e308]}},
+            "the standard deviation must be at most 1e+06; allowed: a number from -1e+06 to 1e+06",
+        ),
         ("operation", {"speed_rpm": 1e-300}, "speed_rpm = 1e-300; allowed: a number from 0.001 to 1e+06"),
         ("operation", {"speed_of_rated": 1e-300}, "speed_of_rated = 1e-300; allowed: a number from 1e-06 to 1000"),
         ("chain", {"resonator_gain": 1e300}, "resonator_gain = 1e+300; allowed: a number from 0 to 1e+06"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas
 from numpy.typing import NDArray
 
 from datagen.counts import digits
@@ -27,7 +28,6 @@ from datagen.drawing.style import (
 from labels.schema import LABEL
 
 if TYPE_CHECKING:
-    import pandas
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -39,6 +39,8 @@ WORTH_SHOWING = ("speed_rpm", "load_n", "extent_mm", "snr_db", "depth", "mean_sl
 TITLES = {"snr_db": "SNR"}
 SHOWN_IN = {"depth": (1e6, "µm")}
 BINS, FEW = 24, 8
+DIGITS, MOST_DECIMALS = 10, 12
+MOST_STEPS = 5  # between ticks: numbers as long as −0.0025 have room
 LOGARITHMIC_FROM = 20.0
 
 
@@ -70,8 +72,15 @@ def _grid(panels: int) -> tuple[int, int]:
 
 
 def _values(labels: pandas.DataFrame, column: str) -> NDArray[np.float64]:
-    """The distinct known values of a label that apply to more than healthy records alone."""
-    return np.unique(labels.loc[_applies(labels, column), column].dropna().to_numpy(dtype=np.float64))
+    """The distinct known values of a label that apply to more than healthy records alone, but for rounding."""
+    return np.unique(_but_for_rounding(labels.loc[_applies(labels, column), column].dropna().to_numpy(np.float64)))
+
+
+def _but_for_rounding(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values (N,) with the first digits of the largest: ratios set to 0 dB come out as 0 and 1e-15."""
+    largest = float(np.abs(values).max(initial=0.0))
+    first = np.ceil(np.log10(largest)) if largest > 0.0 else 0.0
+    return np.round(values, int(min(DIGITS - first, MOST_DECIMALS))) + 0.0  # no minus zero
 
 
 def _applies(labels: pandas.DataFrame, column: str) -> pandas.Series:
@@ -102,9 +111,10 @@ def draw_distribution(axes: Axes, labels: pandas.DataFrame, column: str) -> None
     """How often each value of a label occurs, in records, by defective part."""
     factor, unit = SHOWN_IN.get(column, (1.0, LABEL[column].unit))
     table = labels.loc[_applies(labels, column) & labels[column].notna()]
+    known = pandas.Series(_but_for_rounding(table[column].to_numpy(np.float64)) * factor, table.index)
     distinct = _values(labels, column) * factor
     stacked = [
-        (place, table.loc[table["location"] == place, column].to_numpy(dtype=np.float64) * factor)
+        (place, known[table["location"] == place].to_numpy())
         for place in (*COLOURS, "unknown")
         if (table["location"] == place).any()
     ]
@@ -120,6 +130,8 @@ def draw_distribution(axes: Axes, labels: pandas.DataFrame, column: str) -> None
         if logarithmic:
             axes.set_xscale("log")
             plain_log_ticks(axes.xaxis)
+        else:
+            axes.locator_params(axis="x", nbins=MOST_STEPS)
     axes.set(xlabel=unit if unit != "1" else "", ylabel="records")
     whole_numbers(axes.yaxis)
     axes.set_title(_title(column, unit))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -44,12 +45,14 @@ def words(axes: Axes) -> list[str]:
         ("rate_hz", "Rate", [12000.0, 48000.0], ["12000", "48000"]),
         ("snr_db", "SNR", [1.5, 20.0], ["1.5", "20"]),
         ("speed_rpm", "Speed", [1772.01, 1772.04], ["1772.01", "1772.04"]),
+        ("snr_db", "SNR", [0.0, 9.6e-16, -4.4e-16, 20.0], ["0", "20"]),
+        ("snr_db", "SNR", [5.0, np.nextafter(5.0, 6.0), 12.0], ["5", "12"]),
     ],
 )
 def test_a_few_values_are_named_in_plain_numbers(
     column: str, title: str, values: list[float], ticks: list[str]
 ) -> None:
-    assert words(panel(drawn(table(**{column: values * 6})), title)) == ticks
+    assert words(panel(drawn(table(**{column: (values * 6)[:12]})), title)) == ticks
 
 
 def test_counts_have_ticks_at_whole_numbers_only() -> None:
@@ -73,3 +76,19 @@ def test_a_sheet_has_no_more_places_than_fill_its_rows(known: int, places: int) 
     figure = drawn(table(**{column: [1.0, 2.0, 3.0] * 4 for column in WORTH_SHOWING[:known]}))
     assert len(figure.axes) == places
     assert sum(axes.axison for axes in figure.axes) == known + 1
+
+
+def test_a_ratio_set_alike_in_all_records_but_for_rounding_is_one_value() -> None:
+    ratios = 5.0 + 1e-15 * np.arange(12)
+    assert [axes.get_title(loc="left") for axes in drawn(table(snr_db=ratios)).axes] == ["Kinds"]
+
+
+@pytest.mark.parametrize("ends", [(-0.0093, 0.01), (-0.008, 0.009), (-0.0085, 0.0085)])
+def test_numbers_along_a_distribution_do_not_run_into_each_other(ends: tuple[float, float]) -> None:
+    labels = table(**dict.fromkeys(("speed_rpm", "load_n", "snr_db", "rate_hz", "mean_slip"), np.linspace(*ends, 12)))
+    with house_style():
+        figure = draw_overview(labels, "made")
+        figure.draw_without_rendering()
+        boxes = [label.get_window_extent() for label in panel(figure, "Mean slip").get_xticklabels()]
+    assert len(boxes) > 2
+    assert all(left.x1 < right.x0 for left, right in pairwise(boxes))

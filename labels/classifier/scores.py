@@ -23,6 +23,8 @@ FEWEST_A_SIDE = 5
 SAME = 1e-9
 # Share of the largest value by which the lower ends of bins differ at least.
 NEAR = 1e-3
+# ... and by this at least: ratios set to 0 dB are 0 but for rounding.
+ROUNDING = 1e-9
 Names = NDArray[Any]
 Stratum = list[NDArray[np.int64]]
 Score = Callable[..., float]
@@ -206,7 +208,7 @@ def _starts(quantity: Array, bins: int) -> Array:
     measurements of one speed."""
     edges = np.unique(np.quantile(quantity, np.linspace(0.0, 1.0, bins + 1)))
     starts = edges[: max(edges.size - 1, 1)]
-    return starts[np.diff(starts, prepend=-np.inf) > NEAR * np.abs(edges).max()]
+    return starts[np.diff(starts, prepend=-np.inf) > max(NEAR * np.abs(edges).max(), ROUNDING)]
 
 
 def accuracy_against(

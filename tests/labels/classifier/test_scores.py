@@ -133,6 +133,7 @@ def test_the_confusion_counts_rows_of_truth():
     ("speeds", "places"),
     [
         ([1772.0, 1772.0 + 1e-10] * 6, [1772.0]),  # but for rounding the same
+        ([0.0, 9.6e-16, -4.4e-16] * 4, [0.0]),  # likewise: records of 0 dB
         ([1771.9, 1772.3] * 6, [1772.1]),
         ([900.0] * 6 + [1771.9, 1772.1, 1772.3] * 2, [900.0, 1772.2]),  # the lowest of the three fall to the bin before
         ([1730.0, 1750.0, 1772.0, 1797.0] * 3, [1730.0, 1750.0, 1784.5]),

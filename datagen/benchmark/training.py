@@ -137,7 +137,10 @@ def train_rule(training: TrainingSet) -> Rule:
     """The rule, its threshold set on the healthy records as they are; raises BadInput if there are none."""
     healthy = training.rows[(training.classes == HEALTHY) & ~training.rows.noisy]
     if not len(healthy):
-        raise BadInput("no healthy record to set the rule's threshold on", field="--train")
+        problem = "no healthy record that can be judged, to set the rule's threshold on"
+        raise BadInput(
+            problem, field="--train", allowed="one or more; `spallgen features` says why a record is not judged"
+        )
     return fit_rule(healthy.table, healthy.record, healthy.axis)
 
 

@@ -8,6 +8,7 @@ from datagen.benchmark.impulse_training import impulse_training
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import TrainingSet, train_rule, training_records
+from datagen.errors import BadInput
 from labels.features.table import FEATURE_NAMES
 
 pytestmark = pytest.mark.usefixtures("short_records_are_judged")
@@ -29,6 +30,12 @@ def test_the_rule_is_set_on_healthy_records_as_they_are():
     training = TrainingSet(rows, np.full(2 * size, "healthy"), np.full(2 * size, "a"))
     # The 95 % quantile of records evenly spread from 0 to 1, in logarithms as the table has it.
     assert np.log(train_rule(training).threshold) == pytest.approx(0.95, abs=0.005)
+
+
+def test_a_rule_without_healthy_records_that_can_be_judged_says_where_to_look_why():
+    nothing = Rows(np.zeros((0, len(FEATURE_NAMES))), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, bool))
+    with pytest.raises(BadInput, match=r"no healthy record that can be judged.*`spallgen features` says why"):
+        train_rule(TrainingSet(nothing, np.zeros(0, np.str_), np.zeros(0, np.str_)))
 
 
 def test_plain_impulse_trains_are_as_many_as_asked():

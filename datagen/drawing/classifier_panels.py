@@ -82,7 +82,7 @@ def draw_points(axes: Axes, places: Sequence[dict[str, Interval]]) -> None:
                 axes.plot(spot + shift, found.value, "o", color=colour(number), markersize=4)
         axes.plot([], [], "o-", color=colour(number), label=name)
     axes.set(xlim=(-0.5, len(places) - 0.5), ylim=SCORE_ENDS)
-    axes.legend(loc="lower left")
+    axes.legend(loc="best")
     faint_grid(axes)
 
 
@@ -144,7 +144,7 @@ def draw_reliability(axes: Axes, test: CorpusScores) -> None:
         if scores.calibration:
             curve = scores.calibration.reliability
             axes.plot(curve["predicted"], curve["observed"], "o-", color=colour(place), markersize=3, label=name)
-    axes.legend(loc="upper left")
+    axes.legend(loc="best")
     axes.set_xlabel("predicted probability of a spall")
     axes.set_ylabel("share of spalls")
     axes.set_title("reliability")
@@ -165,7 +165,7 @@ def draw_against(axes: Axes, test: CorpusScores, quantity: str) -> None:
     word, label = AGAINST[quantity]
     axes.set(xlabel=label, ylabel="share of faults called right", ylim=SCORE_ENDS)
     axes.set_title(f"faults, by {word}")
-    axes.legend(loc="lower left")
+    axes.legend(loc="best")
     faint_grid(axes)
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from datagen.benchmark.model_scores import Calibration, Confusion
@@ -203,3 +204,18 @@ def test_dollar_signs_in_the_name_of_a_folder_are_no_mathematics(summary_of):
     scores = replace(summary_of(96, 10), corpus="out/mill $\\frac$ 3")
     results = Results("out/made", Options(), {"importances": {}}, [CorpusResults(scores, [], [])], 1.0)
     assert scores_png(results).startswith(b"\x89PNG")
+
+
+def test_the_names_of_models_do_not_lie_upon_low_scores(summary_of):
+    test = summary_of(5, 10)
+    low = replace(test.models["rule"], faults_balanced_accuracy=Interval(0.0, 0.0, 0.6), race_accuracy=HALF)
+    models = dict.fromkeys(("rule", "forest", "logistic", "boosting"), low)
+    with house_style():
+        figure, axes = with_panels(figsize=(4.0, 2.5))
+        draw_scores(axes, replace(test, models=models))
+        figure.draw_without_rendering()
+        names = axes.get_legend().get_window_extent()
+        lines = [line.get_path().interpolated(20).vertices for line in axes.lines if len(line.get_xdata())]
+        places = axes.transData.transform(np.concatenate(lines))
+    assert len(places) > 100
+    assert not any(names.contains(*place) for place in places)

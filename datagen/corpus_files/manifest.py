@@ -114,7 +114,7 @@ def read_manifest(folder: Path) -> Manifest:
     path = manifest_path(folder)
     try:
         found = json.loads(path.read_text())
-        return Manifest(
+        manifest = Manifest(
             name=text(found["name"]),
             identity=row(Identity, found["identity"]),
             recipe=dict(found["recipe"]),
@@ -128,6 +128,9 @@ def read_manifest(folder: Path) -> Manifest:
             refused={text(what): row(Refused, counted) for what, counted in found["refused"].items()},
             origin=text(found["origin"]),
         )
+        if found["format"] != FORMAT:
+            raise ValueError("another format")
+        return manifest
     except (FileNotFoundError, NotADirectoryError):
         raise no_corpus(folder, path.name) from None
     except UNREADABLE as problem:

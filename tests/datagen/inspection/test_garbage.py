@@ -44,7 +44,7 @@ def test_a_manifest_that_is_none_is_told_in_words(text: str, tmp_path: Path) -> 
         assert f"{manifest_path(tmp_path)}: not a manifest of a corpus: {MANIFESTS[text]}" in message
 
 
-@pytest.mark.parametrize("key", ["recipe", "shards", "asked", "refused", "bytes"])
+@pytest.mark.parametrize("key", ["recipe", "shards", "asked", "refused", "bytes", "format"])
 def test_a_manifest_that_lacks_a_key_or_holds_nonsense_says_so(key: str, copy: Path) -> None:
     content = json.loads(manifest_path(copy).read_text())
     for strange in ("x", [7], None):

@@ -16,6 +16,9 @@ SAMPLES_PER_FAST_PERIOD, SAMPLES_WHERE_RAISED = 4.0, 10.0
 # A path to the sensor follows the outer ring, whose acceleration jumps with every contact: with fewer samples, or a
 # smaller multiple of the rate, what the jumps do between samples and above half the rate reaches it.
 SAMPLES_PER_PATH_PERIOD, LEAST_WITH_PATH = 14.0, 3
+# A mode of at most so many periods a sample lies below half the rate. Where a record with a path holds the machine's
+# fastest mode, what folds is small beside that (3e-4 on F1s) without further samples.
+HELD_PERIODS = 0.5
 # A record's rate may be a sixteenth of the fastest mode's frequency: lower ones keep hardly anything of what rings.
 MOST_OVERSAMPLING = round(16.0 * SAMPLES_WHERE_RAISED)
 
@@ -26,10 +29,11 @@ def needed_multiple(scene: Scene, rate: float, fastest_path: float = 0.0) -> int
     And, if there is one, the `fastest_path` (Hz) that the outer ring shakes.
     """
     periods = fast_periods(motion_model(scene), 1.0 / rate)
-    factor = max(1, math.ceil(periods * SAMPLES_PER_FAST_PERIOD))
+    factor, raised = (math.ceil(periods * samples) for samples in (SAMPLES_PER_FAST_PERIOD, SAMPLES_WHERE_RAISED))
     if fastest_path > 0.0:
-        return max(factor, LEAST_WITH_PATH, math.ceil(fastest_path / rate * SAMPLES_PER_PATH_PERIOD))
-    return factor if factor == 1 else math.ceil(periods * SAMPLES_WHERE_RAISED)
+        for_machine = factor if periods <= HELD_PERIODS else raised
+        return max(for_machine, LEAST_WITH_PATH, math.ceil(fastest_path / rate * SAMPLES_PER_PATH_PERIOD))
+    return raised if factor > 1 else 1
 
 
 def oversampling(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:

@@ -194,6 +194,8 @@ def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_
         (RATE, 500.0, 3),  # whatever is shaken by the outer ring is followed at three times the rate or more
         (RATE, 20000.0, 5),  # 14 samples of 20 kHz are 280 kHz: 4.3 times
         (25600.0, 12000.0, 7),  # 168 kHz: 6.6 times
+        (25600.0, 500.0, 3),  # this rate holds the machine's fastest mode
+        (6400.0, 500.0, 17),  # and this does not: ten samples of it, 104 kHz, 16.3 times
     ],
 )
 def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, path, factor):
@@ -202,11 +204,13 @@ def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, p
     assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
 
 
+@pytest.mark.parametrize("keep", [Kept(), Kept(outer=True, fastest_path=800.0)], ids=["alone", "with a path"])
 @pytest.mark.parametrize("name", ["G1", "F1"])
-def test_a_low_rate_takes_in_nothing_of_what_lies_above_it(reference_scene, name):
+def test_a_low_rate_takes_in_nothing_of_what_lies_above_it(reference_scene, name, keep):
     """Spectra below 0.4 of 2 kHz, where a fortieth of the response lies, beside those of 128 times the rate."""
     scene, rate, times = reference_scene(name, 0.4, slip_seed=1), 2000.0, 128
-    low, high = (simulate(scene, one, Accurate(1e-5)).acceleration[:, 1] for one in (rate, times * rate))
+    low = simulate(scene, rate, Accurate(1e-5), keep=keep).acceleration[:, 1]
+    high = simulate(scene, times * rate, Accurate(1e-5)).acceleration[:, 1]
     spectra = [np.fft.rfft(np.hanning(signal.size + 1)[:-1] * signal) for signal in (low, high)]
     kept = np.arange(round(0.4 * 0.4 * rate))
     apart = spectra[0][kept] - spectra[1][kept] / times

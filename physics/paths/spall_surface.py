@@ -62,10 +62,11 @@ def gap_surface(spall: Spall) -> Surface:
 
 
 def floor_ends(spall: Spall) -> Array:
-    """The arcs (N,), rad, at which tapers of a smooth gap meet its floor, one for each taper."""
+    """The arcs (N,), rad, rising, at which tapers of a smooth gap meet its floor: one for each taper, or one for both
+    where they meet each other."""
     half = spall.extent / 2.0
     ends = [(spall.entry_taper, spall.entry_taper - half), (spall.exit_taper, half - spall.exit_taper)]
-    return np.array([end for taper, end in ends if taper > 0.0])
+    return np.unique([end for taper, end in ends if taper > 0.0])
 
 
 def table_arcs(spall: Spall) -> Array:

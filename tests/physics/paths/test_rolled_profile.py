@@ -227,6 +227,17 @@ def test_the_ball_rolls_down_tapers_and_over_the_floor_between_them(gearbox, rac
 
 
 @RACES
+@pytest.mark.parametrize("entry", [0.04, 0.05])
+def test_the_ball_rolls_down_one_taper_and_up_another_that_meets_it(gearbox, race, entry):
+    spall = gap(race, extent=0.08, depth=1e-6, entry_taper=entry, exit_taper=0.08 - entry)
+    path = build_path(spall, gearbox.bearing)
+    down, up = np.linspace(-0.04, 0.0, 10_001)[1:-1], np.linspace(entry - 0.04, 0.04, 10_001)[1:-1]
+    arc, drop = offset_curve(spall, gearbox.bearing, np.concatenate([down, up]))
+    np.testing.assert_allclose(path.depth(arc), drop, rtol=0, atol=2e-11)
+    assert (np.diff(path.breaks) > 0.0).all()
+
+
+@RACES
 @pytest.mark.parametrize(("depth", "entry", "exit_"), [(2e-6, 0.02, 0.012), (5e-6, 0.027, 0.003), (12e-6, 0.0, 0.017)])
 def test_the_deepest_place_of_a_flat_floor_is_its_middle(gearbox, race, depth, entry, exit_):
     spall = gap(race, extent=0.08, depth=depth, entry_taper=entry, exit_taper=exit_)

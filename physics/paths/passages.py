@@ -30,18 +30,23 @@ def passages(scene: Scene, spall_index: int, arc: float, start: float, stop: flo
 
 
 def crossings(scene: Scene, spall_index: int, arcs: Array, start: float, stop: float) -> Passages:
-    """Every crossing of the points at `arcs` (N,), point after point, each as `passages` gives it."""
+    """Every crossing of the points at `arcs` (N,), point after point, each as `passages` gives it.
+
+    None where the cage turns with the race, even if a ball stands on a point.
+    """
     spall = scene.spalls[spall_index]
     bearing = scene.rig.bearing
     cage, race_speed = scene.cage_of(spall.row), scene.race_speed(spall.race)
     sign = float(spall.travel_sign)
+    speed = sign * (cage.mean_speed - race_speed)
+    if speed == 0.0:
+        return Passages(np.zeros(0), np.zeros(0, dtype=np.int64))
     path, breaks = sign * cage.polynomial.c, cage.polynomial.x
     # The race's own turning is taken off piece by piece: t = (t − x) + x inside the piece that starts at x.
     path[-2] -= sign * race_speed
     path[-1] -= sign * race_speed * breaks[:-1]
     # Not checked again: to check a path takes as long as to find the crossings.
     travel = PPoly.construct_fast(path, breaks, extrapolate=True)
-    speed = sign * (cage.mean_speed - race_speed)
     asked = np.array([start, stop])
     inside = np.clip(asked, 0.0, scene.duration)
     first_angle, last_angle = (travel(inside) + speed * (asked - inside)).tolist()

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from variants import slipping_cage
 
+from physics.cage import CagePath
 from physics.paths.passages import passages
 from physics.spall import Spall
 
@@ -91,3 +92,11 @@ def test_an_interval_between_two_passages_holds_none(gearbox, build_scene):
     time = passages(scene, 0, 0.0, 0.0, 0.5).time
     between = passages(scene, 0, 0.0, time[3] + 1e-6, time[4] - 1e-6)
     assert between.time.size == between.ball.size == 0
+
+
+def test_no_ball_passes_where_the_cage_turns_with_the_race_even_if_one_stands_there(gearbox, build_scene):
+    """The tenth of twelve balls is at 270 degrees, and so is the centre of the spall."""
+    scene = build_scene(gearbox, Spall("inner", 1, 9 * gearbox.bearing.spacing, 0.1, 1e-5))
+    locked = dataclasses.replace(scene, cage=CagePath(scene.operation.shaft_speed, scene.duration))
+    found = passages(locked, 0, 0.0, 0.0, 0.5)
+    assert found.time.size == found.ball.size == 0

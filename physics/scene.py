@@ -50,17 +50,7 @@ class Scene:
         if len({spall.race for spall in self.spalls}) > 1:
             raise InvalidParameter("spalls on both races; all spalls of a scene must be on one race", "race")
         for spall in self.spalls:
-            require(
-                spall.row <= bearing.rows,
-                f"spall on row {spall.row}, but bearing {bearing.name} has {bearing.rows} row(s)",
-                "row",
-            )
-            length = spall.rolled_arc * bearing.raceway_radius(spall.race)
-            require(
-                length == 0.0 or length >= SHORTEST_ROLLED,
-                f"a ball is to be rolled over a surface {length:.3g} m long; allowed: from {SHORTEST_ROLLED:g} m",
-                "extent",
-            )
+            self._check_spall(spall)
         require_apart(self.spalls)
         self._check_second_cage()
         self._check_direction()
@@ -69,6 +59,27 @@ class Scene:
             not deviation or [len(row) for row in deviation] == [bearing.balls] * bearing.rows,
             f"ball_deviation must hold {bearing.rows} row(s) of {bearing.balls} values",
             "ball_deviation",
+        )
+
+    def _check_spall(self, spall: Spall) -> None:
+        bearing = self.rig.bearing
+        require(
+            spall.row <= bearing.rows,
+            f"spall on row {spall.row}, but bearing {bearing.name} has {bearing.rows} row(s)",
+            "row",
+        )
+        length = spall.rolled_arc * bearing.raceway_radius(spall.race)
+        require(
+            length == 0.0 or length >= SHORTEST_ROLLED,
+            f"a ball is to be rolled over a surface {length:.3g} m long; allowed: from {SHORTEST_ROLLED:g} m",
+            "extent",
+        )
+        wall = -min(spall.table_depth[0], spall.table_depth[-1]) if spall.profile == "table" else 0.0
+        require(
+            wall < bearing.ball_radius,
+            f"the table begins or ends {wall:.3g} m above the race, in a wall that no ball of "
+            f"{bearing.ball_radius:.3g} m radius rolls over; allowed: below that",
+            "table_depth",
         )
 
     def _check_second_cage(self) -> None:

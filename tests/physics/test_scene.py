@@ -8,6 +8,7 @@ from physics.cage import CagePath
 from physics.checks import InvalidParameter
 from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
+from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.spall import Spall
 
@@ -179,6 +180,27 @@ def test_a_surface_too_short_to_roll_a_ball_over_is_refused(healthy, shape):
         else:
             with pytest.raises(InvalidParameter, match=r"surface 9(\.01)?e-07 m long; allowed: from 1e-06 m"):
                 dataclasses.replace(healthy, spalls=(spall,))
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+@pytest.mark.parametrize("end", [0, -1])
+def test_a_table_that_ends_in_a_wall_as_high_as_the_ball_s_centre_is_refused(healthy, race, end):
+    """Where a wall is lower the ball climbs over its corner, and a ramp may be as high as it likes."""
+    radius = healthy.rig.bearing.ball_radius
+    heights = [0.0, -1.4 * radius, -1.4 * radius, 0.0]
+    for height, allowed in ((0.99 * radius, True), (radius, False), (1.4 * radius, False)):
+        heights[end] = -height
+        spall = Spall(race, 1, 4.0, 0.7, 0.0, profile="table", table_angle=(-0.3, -0.1, 0.1, 0.3), table_depth=heights)
+        if allowed:
+            scene = dataclasses.replace(healthy, spalls=(spall,))
+            highest = build_path(scene.spalls[0], healthy.rig.bearing).depth(np.linspace(-0.4, 0.4, 8001)).min()
+            assert highest == pytest.approx(-1.4 * radius, rel=1e-6)
+        else:
+            with pytest.raises(
+                InvalidParameter, match=r"in a wall that no ball of 0\.00356 m radius rolls over"
+            ) as caught:
+                dataclasses.replace(healthy, spalls=(spall,))
+            assert caught.value.field == "table_depth"
 
 
 def test_a_path_in_closed_form_may_be_as_short_as_it_likes(healthy):

@@ -11,6 +11,7 @@ from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_
 RACES = ("outer", "inner")
 DEFAULT_CONFORMITY = 0.52
 SMALLEST_CONFORMITY = 0.501
+LARGEST_CONTACT_ANGLE = math.radians(60.0)
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ class Bearing:
         require_positive("ball_diameter", self.ball_diameter, "m")
         require_positive("load_deflection", self.load_deflection, "N/m^n")
         require_between("exponent", self.exponent, 1.0, 2.0)
-        require_between("contact_angle", self.contact_angle, 0.0, math.radians(60.0), "rad")
+        require_between("contact_angle", self.contact_angle, 0.0, LARGEST_CONTACT_ANGLE, "rad")
         require_between("clearance", self.clearance, -1e-3, 1e-3, "m")
         require_finite("row_offset", self.stagger, "rad")
         require_between("inner_conformity", self.inner_conformity, SMALLEST_CONFORMITY, 1e3)

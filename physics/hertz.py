@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
-from physics.bearing import DEFAULT_CONFORMITY, RACES, SMALLEST_CONFORMITY, Bearing
-from physics.checks import require_between, require_one_of, require_positive
+from physics.bearing import DEFAULT_CONFORMITY, LARGEST_CONTACT_ANGLE, RACES, SMALLEST_CONFORMITY, Bearing
+from physics.checks import require, require_between, require_one_of, require_positive
 
 # Of bearing steel; the modulus in Pa.
 YOUNG_MODULUS, POISSON_RATIO = 206e9, 0.3
@@ -100,9 +100,15 @@ def race_contact(
     """The contact of a steel ball (m, m, rad) with the groove of one race; `conformity` is groove radius over ball
     diameter.
 
-    InvalidParameter for another race than "outer" and "inner", or a conformity outside 0.501 to 1000.
+    InvalidParameter for another race than "outer" and "inner", diameters that are not above 0 or a ball as large as its
+    pitch circle, a contact angle outside 0 to 60 degrees, or a conformity outside 0.501 to 1000.
     """
     require_one_of("race", race, RACES)
+    require_positive("pitch_diameter", pitch_diameter, "m")
+    require_positive("ball_diameter", ball_diameter, "m")
+    problem = f"ball_diameter = {ball_diameter!r} m; it must be below the pitch diameter of {pitch_diameter!r} m"
+    require(ball_diameter < pitch_diameter, problem, "ball_diameter")
+    require_between("contact_angle", contact_angle, 0.0, LARGEST_CONTACT_ANGLE, "rad")
     require_between("conformity", conformity, SMALLEST_CONFORMITY, 1e3)
     towards = math.cos(contact_angle)
     race_radius = (pitch_diameter + (1.0 if race == "outer" else -1.0) * ball_diameter * towards) / 2.0
@@ -125,7 +131,10 @@ def load_deflection_factor(
     inner_conformity: float = DEFAULT_CONFORMITY,
     outer_conformity: float = DEFAULT_CONFORMITY,
 ) -> float:
-    """K of F = K δ^(3/2) for a ball between both races, N/m^1.5; lengths m, angle rad [P14 Eq. 6]."""
+    """K of F = K δ^(3/2) for a ball between both races, N/m^1.5; lengths m, angle rad [P14 Eq. 6].
+
+    InvalidParameter as for `race_contact`.
+    """
     inner, outer = (
         race_contact(race, pitch_diameter, ball_diameter, contact_angle, conformity)
         for race, conformity in (("inner", inner_conformity), ("outer", outer_conformity))

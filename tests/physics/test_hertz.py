@@ -189,6 +189,10 @@ def test_the_contact_width_of_a_roller_is_that_of_two_cylinders(gearbox):
     [
         (lambda: race_contact("outer", 38.75e-3, 7.12e-3, conformity=0.5), "conformity = 0.5"),
         (lambda: race_contact("cage", 38.75e-3, 7.12e-3), 'race = "cage"'),
+        (lambda: load_deflection_factor(39e-3, 0.0), "ball_diameter = 0.0 m; it must be above 0"),
+        (lambda: load_deflection_factor(math.nan, 8e-3), "pitch_diameter = nan m; it must be above 0"),
+        (lambda: load_deflection_factor(8e-3, 8e-3), r"ball_diameter = 0\.008 m; it must be below the pitch diameter"),
+        (lambda: load_deflection_factor(39e-3, 8e-3, 2.0), r"contact_angle = 2\.0 rad; allowed: 0 to 1\.0472 rad"),
         (lambda: contact_parameters(1.0), "curvature_difference = 1.0"),
         (lambda: PointContact(along=-1.0, across=1.0), "along = -1.0"),
         (lambda: roller_length(0.0), "load_deflection = 0.0"),

@@ -171,11 +171,12 @@ def draw_slip_knots(
 
     They cover −`lead_in` to `duration` (s). The knots are a first-order autoregressive (sampled Ornstein-Uhlenbeck)
     sequence, four per correlation time, scaled so that the spline through them has the stated deviation on average;
-    they are rounded to 1e-12 so that their decimal text is exact. InvalidParameter unless the correlation time is above
-    0, neither deviation nor lead-in below it, and the knots fewer than MOST_KNOTS.
+    they are rounded to 1e-12 so that their decimal text is exact. InvalidParameter unless correlation time and
+    duration are above 0, neither deviation nor lead-in below it, and the knots fewer than MOST_KNOTS.
     """
     require_not_negative("deviation", deviation)
     require_positive("correlation_time", correlation_time, "s")
+    require_positive("duration", duration, "s")
     require_not_negative("lead_in", lead_in, "s")
     step = correlation_time / KNOTS_PER_CORRELATION_TIME
     start = -2.0 * step - lead_in

@@ -49,7 +49,11 @@ def pink_noise(generator: np.random.Generator, noise: PinkNoise, samples: int, r
 
 
 def pink_density(noise: PinkNoise, frequency: Array, rate: float) -> Array:
-    """One-sided power density (F,), (m/s²)²/Hz, at `frequency` (F,) Hz: its integral up to rate / 2 is rms²."""
+    """One-sided power density (F,), (m/s²)²/Hz, at `frequency` (F,) Hz: its integral up to rate / 2 is rms².
+
+    InvalidParameter if the lowest frequency does not lie below half the `rate` (Hz).
+    """
+    noise.check_rate(rate)
     low, high, power = noise.lowest, rate / 2.0, 1.0 - noise.slope
     area = math.log(high / low) if abs(power) < 1e-9 else (high**power - low**power) / power
     inside = frequency >= low

@@ -211,7 +211,19 @@ def test_an_impossible_path_is_refused_by_field_and_value(change, field, message
     assert caught.value.field == field
 
 
-@pytest.mark.parametrize(("deviation", "correlation_time"), [(-0.01, 0.03), (0.01, 0.0), (math.nan, 0.03)])
-def test_slip_cannot_be_drawn_with_a_negative_deviation_or_without_correlation_time(deviation, correlation_time):
-    with pytest.raises(InvalidParameter, match=r"deviation|correlation_time"):
-        draw_slip_knots(np.random.default_rng(0), deviation, correlation_time, 1.0)
+@pytest.mark.parametrize(
+    ("change", "field"),
+    [
+        ({"deviation": -0.01}, "deviation"),
+        ({"deviation": math.nan}, "deviation"),
+        ({"correlation_time": 0.0}, "correlation_time"),
+        ({"duration": -1.0}, "duration"),
+        ({"duration": math.nan}, "duration"),
+        ({"lead_in": -0.1}, "lead_in"),
+    ],
+)
+def test_slip_cannot_be_drawn_with_a_negative_deviation_or_without_correlation_or_duration(change, field):
+    settings = {"deviation": 0.01, "correlation_time": 0.03, "duration": 1.0} | change
+    with pytest.raises(InvalidParameter, match=field) as caught:
+        draw_slip_knots(np.random.default_rng(0), **settings)
+    assert caught.value.field == field

@@ -214,6 +214,8 @@ def test_a_resonance_beyond_half_the_rate_is_refused(frequency):
 def test_pink_noise_that_begins_beyond_half_the_rate_is_refused():
     with pytest.raises(InvalidParameter, match=r"pink lowest frequency = 4096\.0 Hz; allowed: 0 to 4096 Hz"):
         pink_noise(np.random.default_rng(1), PinkNoise(1.0, 4096.0), 64, RATE)
+    with pytest.raises(InvalidParameter, match=r"pink lowest frequency = 5000\.0 Hz"):
+        pink_density(PinkNoise(1.0, 5000.0), np.array([100.0]), RATE)
 
 
 @pytest.mark.parametrize(

@@ -129,7 +129,8 @@ class Bearing:
 
     @property
     def stribeck_factor(self) -> float:
-        """Peak load over mean load of the balls of a row at zero clearance: 4.37 for balls, 4.08 for rollers."""
+        """Load of the most loaded ball at zero clearance over the radial load divided by the number of balls, without
+        contact angle: 4.37 for balls, 4.08 for rollers."""
         n = self.exponent
         return 2.0 * math.sqrt(math.pi) * math.gamma((n + 3.0) / 2.0) / math.gamma((n + 2.0) / 2.0)
 

@@ -2,7 +2,8 @@
 
 Order 2, stable at any step for linear motion; modes far faster than the step lose all but the share ρ∞ = 0.9 of their
 amplitude a step, so it is for scenes whose stiffest parts need not be resolved. About five contact sums a step. With
-ρ∞ = 1 it is the trapezoidal rule. Not to be confused with Newmark's method with γ > 1/2, whose damping costs an order.
+ρ∞ = 1 it is the implicit midpoint rule. Not to be confused with Newmark's method with γ > 1/2, whose damping costs an
+order.
 
 The state is longer by seven: how far the method's own acceleration, which lags the equation's by a share of a step, is
 ahead of it, and the length of that step. After a step of another length the method starts afresh from the equation's.

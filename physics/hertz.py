@@ -174,7 +174,11 @@ def roller_length(load_deflection: float) -> float:
 
 
 def is_roller(bearing: Bearing) -> bool:
-    """True if the elements are rollers: the exponent is nearer to 10/9 than to 3/2."""
+    """True if the elements are rollers: the exponent is nearer to 10/9 than to 3/2.
+
+    Contact width, mass and static rating know these two alone. Of another exponent below their mean, K is read as if it
+    were in N/m^(10/9), and the length that follows may be wrong ten times over.
+    """
     return bearing.exponent < (BALL_EXPONENT + ROLLER_EXPONENT) / 2.0
 
 

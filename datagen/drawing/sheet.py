@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
     from matplotlib.gridspec import SubplotSpec
 
 WIDTH, HEIGHT, DPI = 13.0, 12.5, 120
+# Characters of a line across the sheet.
+CARE_CHARACTERS = 200
 
 
 def sheet_png(portrait: Portrait) -> bytes:
@@ -70,6 +73,7 @@ def draw_sheet(portrait: Portrait) -> Figure:
     draw_envelope_spectrum(figure.add_subplot(frequency_rows[1]), portrait)
     figure.text(0.06, 0.975, heading(portrait), fontsize=13, fontweight="bold", color=INK)
     figure.text(0.06, 0.954, summary(portrait), fontsize=9, color=GREY)
+    figure.text(0.06, 0.938, care(portrait), fontsize=8, color=VERMILLION)
     return figure
 
 
@@ -121,6 +125,13 @@ def summary(portrait: Portrait) -> str:
     if math.isfinite(labels["error_estimate"]):
         parts.append(f"estimated error {digits(labels['error_estimate'] * 100.0, 2)} %")
     return "  ·  ".join(parts)
+
+
+def care(portrait: Portrait) -> str:
+    """One line: why the record is to be read with care, shortened if that is long; empty if it need not be."""
+    reasons = str(portrait.labels["validity"])
+    told = textwrap.shorten(reasons, CARE_CHARACTERS, placeholder=" … (the label validity has all)")
+    return f"Read with care: {told}" if told else ""
 
 
 def _noise(portrait: Portrait) -> str:

@@ -10,7 +10,7 @@ from datagen.drawing.frequency_panels import cursors, draw_envelope_spectrum, li
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.portrayed import corpus_portrait, recipe_portrait
 from datagen.drawing.preview import draw_preview
-from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, draw_sheet, heading, sheet_png, summary
+from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, care, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, with_panels
 from datagen.drawing.time_panels import draw_close_up, draw_spectrogram, free_lanes, vertical_modes
 from datagen.errors import BadInput
@@ -241,6 +241,16 @@ def test_the_summary_says_why_there_is_no_ratio_of_signal_to_noise(portrait, lay
     drawn = portrait("healthy")
     silent = replace(drawn, labels={**drawn.labels, "snr_db": math.nan, "background_layers": layers})
     assert reason in summary(silent)
+
+
+def test_a_sheet_says_why_its_record_is_to_be_read_with_care(portrait):
+    drawn = portrait("healthy")
+    warned = replace(drawn, labels={**drawn.labels, "validity": "0.43 of the samples are cut off; " + "more " * 60})
+    texts = [text.get_text() for text in draw_sheet(warned).texts]
+    assert [text for text in texts if "0.43 of the samples are cut off" in text] == [care(warned)]
+    assert len(care(warned)) < 230
+    assert care(warned).endswith("(the label validity has all)")
+    assert not care(replace(drawn, labels={**drawn.labels, "validity": ""}))
 
 
 def test_a_preview_says_so_where_it_has_to_compile_first(recipe_file, tmp_path, monkeypatch):

@@ -37,7 +37,7 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
     facts = RecordFacts(
         score=found[race].score,
         inner=race == "inner",
-        peakedness=math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300)),
+        peakedness=peakedness(energy),
         predictability=predictability(signal),
         noise=log_noise_share(signal),
     )
@@ -53,6 +53,11 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
         mean=mean,
         pairs=pairs,
     )
+
+
+def peakedness(energy: Array) -> float:
+    """Log of the mean over the median of an `energy` (T,): the rarer and larger its bursts, the larger."""
+    return math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300))
 
 
 def predictability(signal: Array) -> float:

@@ -38,6 +38,15 @@ def test_sensor_noise_and_mains_hum_are_a_stopped_machine():
     assert found(stopped()).reason == STOPPED
 
 
+@pytest.mark.parametrize("size", [9_500, 80_000])
+def test_lines_as_wide_as_those_of_hum_are_of_no_shaft_however_long_the_record(size):
+    time, generator = np.arange(size) / RATE, np.random.default_rng(1)
+    hum = sum(0.1 / k * np.cos(2.0 * np.pi * 50.0 * k * time) for k in range(1, 17))
+    # A shaft of 25 Hz, whose even multiples are those of the mains.
+    known = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 25.0)
+    assert found(5e-3 * generator.standard_normal(size) + hum, known=known).evidence < TURNING_EVIDENCE
+
+
 @pytest.mark.parametrize("gain", [0.01, 0.1, 1.0, 10.0, 100.0])
 def test_no_gain_makes_a_stopped_machine_run_or_a_running_one_stop(gain):
     assert found(gain * np.round(stopped() / STEP)).reason == STOPPED

@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 
 from labels.spall_size.columns.event_shapes import event_shapes
 from labels.spall_size.columns.table import PAIR_COLUMNS
-from labels.spall_size.estimation.gathering import gather_evidence, predictability
+from labels.spall_size.estimation.gathering import gather_evidence, peakedness, predictability
 from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.signal.alignment import Alignment, aligned
 from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
@@ -204,3 +204,12 @@ def test_prewhitened_noise_is_told_in_units_of_its_median_size():
 def test_differences_of_white_noise_have_twice_its_variance_whatever_its_scale(scale):
     noise = scale * np.random.default_rng(0).standard_normal(100_000)
     assert predictability(noise) == pytest.approx(-math.log(2.0), abs=0.02)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_the_energy_of_white_noise_is_as_peaked_as_its_median_says_whatever_its_scale(scale):
+    energy = (scale * np.random.default_rng(0).standard_normal(100_000)) ** 2
+    # Half of the squares of a standard normal variable, whose mean is 1, are below 0.6745².
+    assert peakedness(energy) == pytest.approx(-2.0 * math.log(0.6745), abs=0.02)
+    energy[::100] *= 1e4
+    assert peakedness(energy) == pytest.approx(math.log(100.0) - 2.0 * math.log(0.6745), abs=0.1)

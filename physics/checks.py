@@ -76,9 +76,10 @@ def require_not_negative(field: str, value: float, unit: str = "", what: str = "
 
 
 def require_below_nyquist(field: str, frequency: float, rate: float, what: str = "") -> None:
-    """Raise InvalidParameter unless `frequency` (Hz) lies below half the `rate` (Hz)."""
+    """Raise InvalidParameter unless `frequency` (Hz), 0 or above, lies below half the `rate` (Hz)."""
     require_positive("rate", rate, "Hz")
-    require_between(field, frequency, 0.0, math.nextafter(rate / 2.0, 0.0), "Hz", what)
+    message = f"{what or field} = {frequency!r} Hz; allowed: from 0 to below {rate / 2.0:.10g} Hz, half the rate"
+    require(_is_finite(frequency) and 0.0 <= frequency < rate / 2.0, message, field)
 
 
 def settle_tuples(instance: object, *fields: str) -> None:

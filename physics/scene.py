@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from physics.bearing import RACES
 from physics.cage import CagePath
-from physics.checks import InvalidParameter, require, require_one_of, settle_tuples
+from physics.checks import InvalidParameter, require, require_count, require_one_of, settle_tuples
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.rig import Rig
@@ -118,7 +118,8 @@ class Scene:
         return (self.cage,) if self.second_cage is None else (self.cage, self.second_cage)
 
     def cage_of(self, row: int) -> CagePath:
-        """The path of the cage that holds the balls of `row` (1 or 2)."""
+        """The path of the cage that holds the balls of `row`; raises InvalidParameter for a row that there is not."""
+        require_count("row", row, 1, self.rig.bearing.rows)
         return self.cages[min(row, len(self.cages)) - 1]
 
     def race_speed(self, race: str) -> float:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from physics._jit import njit_lean
 from physics.arrays import Array, Index
 from physics.assembly import assemble, ball_numbers
+from physics.checks import require_count
 from physics.contact.forces import FORCE, Contacts, of_ball
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
@@ -23,9 +24,13 @@ TOLERANCE = 1e-9
 def ball_load(scene: Scene, time: Array, row: int, ball: NDArray[np.integer]) -> Array:
     """Normal load (K,), N, of `ball` (K,), from 1, of `row` at each of the increasing times (K,), s.
 
-    Raises SimulationFailed where no position carries the load on the shaft.
+    Raises InvalidParameter for a row or ball that there is not, SimulationFailed where no position carries the load on
+    the shaft.
     """
     bearing, (rows, balls) = scene.rig.bearing, ball_numbers(scene)
+    require_count("row", row, 1, bearing.rows)
+    for number in (ball.min(initial=1), ball.max(initial=1)):
+        require_count("ball", int(number), 1, bearing.balls)
     column = np.zeros((bearing.rows, bearing.balls), dtype=np.int64)
     real = np.flatnonzero(balls >= 0)
     column[rows[real], balls[real]] = real

@@ -73,6 +73,13 @@ def test_a_spall_on_a_row_that_the_bearing_lacks_is_refused(healthy, single_row)
         dataclasses.replace(healthy, rig=single_row, spalls=(second,))
 
 
+@pytest.mark.parametrize("row", [0, 3])
+def test_no_cage_holds_a_row_that_the_bearing_lacks(healthy, row):
+    assert healthy.cage_of(2) is healthy.cage
+    with pytest.raises(InvalidParameter, match=f"row = {row}; allowed: whole numbers 1 to 2"):
+        healthy.cage_of(row)
+
+
 @pytest.mark.parametrize("apart", [0.0, 0.09, -0.09, 2 * math.pi - 0.09])
 def test_overlapping_spalls_of_one_row_are_refused(healthy, apart):
     other = dataclasses.replace(SPALL, angle=SPALL.angle + apart)

@@ -42,8 +42,8 @@ def test_the_fastest_of_its_modes_is_that_of_the_chain():
 @pytest.mark.parametrize(
     ("chain", "message"),
     [
-        (SensorChain(MODES), r"sensor resonance = 7100\.0 Hz; allowed: 0 to 7000 Hz"),
-        (SensorChain(mounting=Mounting(7500.0)), r"mounting cutoff = 7500\.0 Hz; allowed: 0 to 7000 Hz"),
+        (SensorChain(MODES), r"sensor resonance = 7100\.0 Hz; allowed: from 0 to below 7000 Hz"),
+        (SensorChain(mounting=Mounting(7500.0)), r"mounting cutoff = 7500\.0 Hz; allowed: from 0 to below 7000 Hz"),
     ],
 )
 def test_a_rate_too_low_for_a_mode_or_the_mounting_is_refused(chain, message):

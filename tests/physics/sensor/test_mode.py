@@ -89,5 +89,5 @@ def test_an_impossible_mode_is_refused_with_its_number(fields, message):
 
 def test_a_resonance_at_half_the_rate_is_refused():
     still = np.zeros((8, 2))
-    with pytest.raises(InvalidParameter, match=r"sensor resonance = 500\.0 Hz; allowed: 0 to 500 Hz"):
+    with pytest.raises(InvalidParameter, match=r"sensor resonance = 500\.0 Hz; allowed: from 0 to below 500 Hz"):
         mode_accelerations([SensorMode(500.0, 0.1)], OuterMotion(1000.0, still, still, still))

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from physics.checks import InvalidParameter
 from physics.imperfections import Imperfections
 from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import equilibrium
@@ -24,3 +25,17 @@ def test_it_is_the_load_that_the_equilibrium_of_all_balls_gives_this_one(gearbox
     found = ball_load(scene, INSTANTS, row, BALLS)
     assert found == pytest.approx(expected, abs=1e-7 * every.max())  # a billionth of the shaft's load, unbalanced
     assert np.count_nonzero(found) > 10
+
+
+@pytest.mark.parametrize(
+    ("row", "ball", "message"),
+    [
+        (0, 1, "row = 0; allowed: whole numbers 1 to 2"),
+        (3, 1, "row = 3; allowed: whole numbers 1 to 2"),
+        (1, 0, "ball = 0; allowed: whole numbers 1 to 12"),
+        (2, 13, "ball = 13; allowed: whole numbers 1 to 12"),
+    ],
+)
+def test_a_row_or_ball_that_there_is_not_is_refused(gearbox, build_scene, row, ball, message):
+    with pytest.raises(InvalidParameter, match=message):
+        ball_load(build_scene(gearbox), np.zeros(1), row, np.array([ball]))

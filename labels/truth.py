@@ -85,11 +85,11 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
     row = scene.spalls[defect].row
     ball, entry, deepest, leave = _crossings(scene, defect, duration)
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
-    loaded = np.zeros(ball.size, np.bool_)
+    loaded = lost = np.zeros(ball.size, np.bool_)
     if changes is not None:
-        release, regain, loaded = contact_events(changes, row, ball, entry, leave)
+        release, regain, loaded, lost = contact_events(changes, row, ball, entry, leave)
     ended = np.isnan(release) | np.isfinite(regain)
-    kept = loaded & ~_loses_contact(changes, row, ball, entry, leave) & (entry >= 0.0) & (leave <= duration)
+    kept = loaded & ~lost & (entry >= 0.0) & (leave <= duration)
     fall, rise = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
     fall[kept], rise[kept] = load_dips(scene, row, ball[kept], entry[kept], leave[kept])
     return PassTable(
@@ -106,23 +106,6 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
         fall_time=fall,
         rise_time=rise,
     )
-
-
-def _loses_contact(changes: ContactChanges | None, row: int, ball: Index, entry: Array, leave: Array) -> Flags:
-    """Whether the `ball` (N,) of the `row` lets go at some moment from `entry` to `leave` (N,), s.
-
-    So does one that bounces into the spall, of which no release is told as it does not touch at entry.
-    """
-    lost = np.zeros(ball.size, np.bool_)
-    if changes is None:
-        return lost
-    losses = ~changes.made & (changes.row == row)
-    for number in np.unique(ball):
-        passing = ball == number
-        times = np.sort(changes.time[losses & (changes.ball == number)])
-        before, until = np.searchsorted(times, entry[passing], "left"), np.searchsorted(times, leave[passing], "right")
-        lost[passing] = until > before
-    return lost
 
 
 def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Index, Array, Array, Array]:

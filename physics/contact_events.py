@@ -1,4 +1,4 @@
-"""Release, regain and load of ball passes, read from the log of when each ball touched the races."""
+"""Release, regain, load and loss of contact of ball passes, read from the log of when each ball touched the races."""
 
 from __future__ import annotations
 
@@ -12,22 +12,23 @@ from physics.trace import ContactChanges
 
 def contact_events(
     changes: ContactChanges, row: int, ball: NDArray[np.int16], entry: Array, leave: Array
-) -> tuple[Array, Array, Flags]:
-    """`release` (N,) and `regain` (N,), s, and `loaded` (N,) of passes of `ball` (N,), from 1, of the `row`.
+) -> tuple[Array, Array, Flags, Flags]:
+    """`release`, `regain` (N,), s, `loaded` and `lost` (N,) of passes of `ball` (N,), from 1, of the `row`.
 
     A pass lasts from `entry` to `leave` (N,), s. `release` is the first loss of contact in it and `regain` the
     beginning of contact that ends the last loss in it, be it later; both are NaN if the ball kept contact or did not
     touch at entry (or at 0, if that is later), and `regain` alone if contact does not begin again. `loaded`: the ball
-    touches both races at some moment of the pass.
+    touches both races at some moment of the pass. `lost`: contact is lost in it, be it that of a ball
+    that did not touch at entry.
     """
     own = changes.row == row
     order = np.lexsort((changes.time[own], changes.ball[own]))
     balls, times, begins = (column[own][order] for column in (changes.ball, changes.time, changes.made))
     first = np.searchsorted(balls, np.arange(1, changes.initial.shape[1] + 2))
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
-    loaded = np.zeros(ball.size, np.bool_)
-    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded)
-    return release, regain, loaded
+    loaded, lost = np.zeros(ball.size, np.bool_), np.zeros(ball.size, np.bool_)
+    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded, lost)
+    return release, regain, loaded, lost
 
 
 @njit
@@ -42,8 +43,9 @@ def _fill_events(
     release: Array,
     regain: Array,
     loaded: Flags,
+    lost: Flags,
 ) -> None:
-    """Fill `release`, `regain` and `loaded` (N,) from the changes of each ball, which lie from `first` (B + 1,) on.
+    """Fill what `contact_events` gives from the changes of each ball, which lie from `first` (B + 1,) on.
 
     Each ball's `times` (C,) rise; contact `begins` (C,) at them or is lost, and stood as in `initial` (B,) before.
     """
@@ -62,6 +64,7 @@ def _fill_events(
             elif made and not ended:
                 regain[k] = time
                 ended = True
+        lost[k] = not np.isnan(release[k])
         if not touches_at_entry:
             release[k] = np.nan
         # A loss that did not end leaves no regain of an earlier one.

@@ -1,4 +1,4 @@
-"""Release, regain and load of passes against logs of contact that are written out."""
+"""Release, regain, load and loss of contact of passes against logs of contact that are written out."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ NEVER = np.nan
 
 
 def events(initial, log, *passes):
-    """Release, regain and load of `passes` (entry, leave) of ball 2 in row 1; the `log` has (time, made) of that ball.
+    """Release, regain, load and loss of `passes` (entry, leave) of ball 2 in row 1, whose `log` has (time, made).
 
     Ball 1 and row 2 do the opposite all along.
     """
@@ -29,32 +29,36 @@ def events(initial, log, *passes):
 @pytest.mark.parametrize(
     ("initial", "log", "expected"),
     [
-        (True, [], (NEVER, NEVER, True)),
-        (False, [], (NEVER, NEVER, False)),
-        (True, [(4.5, False), (5.5, True)], (4.5, 5.5, True)),
-        (True, [(4.5, False), (6.5, True)], (4.5, 6.5, True)),
-        (True, [(4.5, False)], (4.5, NEVER, True)),
-        (True, [(4.2, False), (4.6, True), (5.1, False), (6.2, True), (7.0, False), (8.0, True)], (4.2, 6.2, True)),
-        (True, [(4.2, False), (4.6, True), (5.1, False)], (4.2, NEVER, True)),
-        (True, [(3.0, False)], (NEVER, NEVER, False)),
-        (True, [(3.0, False), (5.0, True), (5.5, False), (5.8, True)], (NEVER, NEVER, True)),
-        (False, [(3.0, True), (4.5, False), (5.5, True)], (4.5, 5.5, True)),
-        (True, [(4.0, False), (6.0, True)], (4.0, 6.0, True)),
-        (True, [(6.5, False), (7.5, True)], (NEVER, NEVER, True)),
+        (True, [], (NEVER, NEVER, True, False)),
+        (False, [], (NEVER, NEVER, False, False)),
+        (True, [(4.5, False), (5.5, True)], (4.5, 5.5, True, True)),
+        (True, [(4.5, False), (6.5, True)], (4.5, 6.5, True, True)),
+        (True, [(4.5, False)], (4.5, NEVER, True, True)),
+        (
+            True,
+            [(4.2, False), (4.6, True), (5.1, False), (6.2, True), (7.0, False), (8.0, True)],
+            (4.2, 6.2, True, True),
+        ),
+        (True, [(4.2, False), (4.6, True), (5.1, False)], (4.2, NEVER, True, True)),
+        (True, [(3.0, False)], (NEVER, NEVER, False, False)),
+        (True, [(3.0, False), (5.0, True), (5.5, False), (5.8, True)], (NEVER, NEVER, True, True)),
+        (False, [(3.0, True), (4.5, False), (5.5, True)], (4.5, 5.5, True, True)),
+        (True, [(4.0, False), (6.0, True)], (4.0, 6.0, True, True)),
+        (True, [(6.5, False), (7.5, True)], (NEVER, NEVER, True, False)),
     ],
 )
 def test_a_pass_from_4_to_6_tells_what_its_own_ball_does(initial, log, expected):
-    release, regain, loaded = events(initial, log, (4.0, 6.0))
-    assert (release[0], regain[0], loaded[0]) == pytest.approx(expected, nan_ok=True)
+    release, regain, loaded, lost = events(initial, log, (4.0, 6.0))
+    assert (release[0], regain[0], loaded[0], lost[0]) == pytest.approx(expected, nan_ok=True)
 
 
 def test_a_pass_that_begins_before_the_record_takes_contact_as_it_stands_at_0():
-    assert events(True, [(0.5, False), (1.5, True)], (-1.0, 1.0)) == [[0.5], [1.5], [True]]
-    release, regain, loaded = events(False, [(0.5, True), (0.7, False), (0.9, True)], (-1.0, 1.0))
+    assert events(True, [(0.5, False), (1.5, True)], (-1.0, 1.0)) == [[0.5], [1.5], [True], [True]]
+    release, regain, loaded, lost = events(False, [(0.5, True), (0.7, False), (0.9, True)], (-1.0, 1.0))
     assert np.isnan([release[0], regain[0]]).all()
-    assert loaded == [True]
+    assert loaded == lost == [True]
 
 
 def test_passes_of_one_ball_do_not_share_their_events():
     log = [(1.5, False), (1.8, True), (4.5, False), (4.8, True)]
-    assert events(True, log, (1.0, 2.0), (4.0, 5.0)) == [[1.5, 4.5], [1.8, 4.8], [True, True]]
+    assert events(True, log, (1.0, 2.0), (4.0, 5.0)) == [[1.5, 4.5], [1.8, 4.8], [True, True], [True, True]]

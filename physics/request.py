@@ -67,7 +67,8 @@ class HalvedSteps:
     """The nonlinear model by a `method` of integrators.method_table.MARCHES, to a stated accuracy.
 
     Steps are halved, down to 32 a sample, until the response differs from one at half the step by no more than the
-    `accuracy`, a relative RMS error of the acceleration, 1e-6 to 0.1.
+    `accuracy`, a relative RMS error of the acceleration, 1e-6 to 0.1. Where a ball passes a taper or the floor of a
+    spall within a step, which halving leaves as it is, they are held against shorter steps, up to 256 a sample.
 
     Raises InvalidParameter for an accuracy out of range or another method.
     """

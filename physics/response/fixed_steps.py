@@ -19,8 +19,13 @@ from physics.trace import Kept, Trace
 
 STEPS_PER_FAST_PERIOD = 6.2
 MOST_SUBSTEPS = 32
+# Steps end at the edges of a spall. Where a ball passes a taper or the floor within a step, halving the step leaves it
+# as it is, so steps are held against ones of which it takes this many, as far as so many a sample are enough.
+STEPS_OF_A_PIECE = 2.0
+MOST_HELD_AGAINST = 256
 # On a line spall the start of contact, F ~ (t − t0)^n, limits the order to n + 1; with rollers that is 2.1.
 ORDER = 2.0
+ROUNDING = 1e-9  # of a floor that two tapers leave nothing of
 
 
 def respond_by_fixed_steps(
@@ -36,9 +41,9 @@ def respond_by_fixed_steps(
     """Trace of `scene` at k / rate from its `rest` at t = 0 by `substeps` steps a sample of `method`.
 
     None stands for the fewest that are stable and resolve the fastest mode. They are doubled until the response keeps
-    the `accuracy`, which may be infinite, by what one of half the step makes of it. Without an accuracy there is no
-    second response, and no estimate of the error. Raises SimulationFailed for steps that are not stable, and where
-    MOST_SUBSTEPS do not keep the accuracy.
+    the `accuracy`, which may be infinite, by what one of half the step makes of it, or of an even shorter one where
+    `steps_over_spalls` asks for that. Without an accuracy there is no second response, and no estimate of the error.
+    Raises SimulationFailed for steps that are not stable, and where MOST_SUBSTEPS do not keep the accuracy.
     """
     start = starting_state(motion_model(scene), rest.displacement[0])
     least = stable_substeps(scene, METHODS[method], rest, rate)
@@ -51,11 +56,13 @@ def respond_by_fixed_steps(
     if accuracy is None:
         return response(steps)
     most = max(MOST_SUBSTEPS, steps)
-    coarse, fine = response(steps), response(2 * steps)
+    finest = 1 if METHODS[method].controls_step else steps_over_spalls(scene, rate)
+    coarse, fine = response(steps), response(max(2 * steps, finest))
     error = _estimated_error(coarse, fine)
     while error > accuracy and 2 * steps <= most:
         steps *= 2
-        coarse, fine = fine, response(2 * steps)
+        coarse = fine if steps >= finest else response(steps)
+        fine = response(2 * steps) if 2 * steps > finest else fine
         error = _estimated_error(coarse, fine)
     if error > accuracy:
         raise SimulationFailed(
@@ -69,6 +76,17 @@ def respond_by_fixed_steps(
 def default_substeps(scene: Scene, rate: float) -> int:
     """Fewest steps a sample that give the fastest linear mode about six steps a period."""
     return max(1, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * STEPS_PER_FAST_PERIOD))
+
+
+def steps_over_spalls(scene: Scene, rate: float) -> int:
+    """Steps a sample of which a ball takes STEPS_OF_A_PIECE over every taper and floor, MOST_HELD_AGAINST at most."""
+    fastest = 0.0
+    for spall in scene.spalls:
+        floor = spall.extent - spall.entry_taper - spall.exit_taper
+        speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+        pieces = [piece for piece in (spall.entry_taper, floor, spall.exit_taper) if piece > ROUNDING * spall.extent]
+        fastest = max(fastest, speed / min(pieces))
+    return min(max(1, math.ceil(STEPS_OF_A_PIECE * fastest / rate)), MOST_HELD_AGAINST)
 
 
 def _estimated_error(coarse: Trace, fine: Trace) -> float:

@@ -1,0 +1,56 @@
+"""What fixed steps say of their error where a spall is passed within one of them."""
+
+import math
+
+import pytest
+from variants import changed
+
+from physics.outcome import Outcome, SimulationFailed
+from physics.request import Accurate, FixedSteps, HalvedSteps
+from physics.response.fixed_steps import MOST_HELD_AGAINST, steps_over_spalls
+from physics.rms import relative_error
+from physics.simulate import simulate
+
+RATE = 65536.0
+
+
+def passed_at_once(reference_scene, degrees):
+    """F1 at ten times its speed with a short spall: a tenth of a degree is passed in a third of a sample."""
+    extent = math.radians(degrees)
+    fast = reference_scene("F1", 0.04, speed_factor=10.0)
+    return changed(fast, spall={"extent": extent, "entry_taper": 0.2 * extent, "exit_taper": 0.2 * extent})
+
+
+def test_a_spall_that_ends_steps_oftener_than_they_come_is_no_less_wrong_for_halves_that_agree(reference_scene):
+    scene = passed_at_once(reference_scene, 0.1)
+    exact = simulate(scene, RATE, Accurate(1e-6)).acceleration
+    one, two = (simulate(scene, RATE, FixedSteps(count)).acceleration for count in (1, 2))
+    assert 100.0 * relative_error(one, two) < relative_error(one, exact)
+    kept = simulate(scene, RATE, HalvedSteps(1e-4))
+    assert relative_error(kept.acceleration, exact) < min(1e-4, 2.0 * kept.error_estimate)
+    told = simulate(scene, RATE, FixedSteps(1, estimate_error=True))
+    assert relative_error(told.acceleration, exact) < told.error_estimate
+
+
+def test_a_spall_too_short_for_the_most_steps_is_refused_and_the_default_says_how_wrong_it_is(reference_scene):
+    scene = passed_at_once(reference_scene, 0.02)
+    with pytest.raises(SimulationFailed, match="with 32 steps") as failure:
+        simulate(scene, RATE, HalvedSteps(1e-4))
+    assert failure.value.outcome is Outcome.INACCURATE
+    exact, trace = simulate(scene, RATE, Accurate(1e-6)), simulate(scene, RATE, Accurate(1e-3))
+    assert relative_error(trace.acceleration, exact.acceleration) < trace.error_estimate < 1e-3
+
+
+@pytest.mark.parametrize("name", ["G0", "G1", "F1", "F2"])
+def test_at_the_rated_speed_halves_are_enough(name, reference_scene):
+    assert steps_over_spalls(reference_scene(name, 0.02), RATE) == 1
+
+
+def test_two_steps_are_asked_for_over_the_shortest_piece_of_a_spall(reference_scene):
+    scene = passed_at_once(reference_scene, 0.1)
+    speed = abs(scene.cage.mean_speed - scene.race_speed(scene.spalls[0].race))
+    assert steps_over_spalls(scene, RATE) == math.ceil(2.0 * speed / (0.2 * math.radians(0.1) * RATE)) > 16
+    walls = changed(scene, spall={"entry_taper": 0.0, "exit_taper": 0.0})
+    assert steps_over_spalls(walls, RATE) == math.ceil(2.0 * speed / (math.radians(0.1) * RATE))
+    sharp = changed(scene, spall={"entry_taper": 1e-9})
+    assert steps_over_spalls(sharp, RATE) == MOST_HELD_AGAINST

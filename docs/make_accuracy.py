@@ -21,15 +21,18 @@ BESIDE = 1.5  # of the outermost dots, to the ends of the axis
 def table() -> str:
     """One row a set of scenes."""
     lines = [
-        "| length | scenes | no trajectory converges (called chaotic) | judged | kept 1e-3 | kept what the recipe asks "
-        "for | worst error | error over its estimate, 5 to 95 % | cost over hindsight (scenes) |",
-        "|---" * 9 + "|",
+        "| length | scenes | no trajectory converges (called chaotic) | their spectra apart, at most | judged "
+        "| kept 1e-3 | kept what the recipe asks for | worst error | error over its estimate, 5 to 95 % "
+        "| cost over hindsight (scenes) |",
+        "|---" * 10 + "|",
     ]
     for length, name in SETS.items():
         found = json.loads((DOCS / name).read_text(encoding="utf-8"))["summary"]
         low, _, high = found["error_over_estimate"]
+        apart = found["unsettled_spectra_apart_db"]
         lines.append(
             f"| {length} | {found['scenes']} | {found['unsettled']} ({found['unsettled_called_chaotic']}) | "
+            f"{'–' if apart is None else f'{apart:.1f} dB'} | "
             f"{found['judged']} | {found['kept_the_accuracy']} ({100.0 * found['share_kept']:.1f} %) | "
             f"{found['own_accuracy_kept']} | {found['worst_error']:.1e} | {low:.2f} to {high:.2f} | "
             f"{found['cost_over_hindsight']:.2f} ({found['rivalled']}) |"

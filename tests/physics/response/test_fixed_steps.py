@@ -53,4 +53,20 @@ def test_two_steps_are_asked_for_over_the_shortest_piece_of_a_spall(reference_sc
     walls = changed(scene, spall={"entry_taper": 0.0, "exit_taper": 0.0})
     assert steps_over_spalls(walls, RATE) == math.ceil(2.0 * speed / (math.radians(0.1) * RATE))
     sharp = changed(scene, spall={"entry_taper": 1e-9})
-    assert steps_over_spalls(sharp, RATE) == MOST_HELD_AGAINST
+    assert steps_over_spalls(sharp, RATE) == math.ceil(2.0 * speed / (1e-9 * RATE)) > MOST_HELD_AGAINST
+
+
+def test_a_method_that_misses_the_impulse_of_a_nearly_rectangular_edge_is_refused(reference_scene):
+    scene, method = reference_scene("F1", 0.04), "generalised_alpha"
+    taper = 1e-5 * scene.spalls[0].extent
+    scene = changed(scene, spall={"entry_taper": taper, "exit_taper": taper})
+    exact = simulate(scene, RATE, Accurate(1e-6)).acceleration
+    # 6e-3 at any step: the impulse of the film comes from one place in the middle of each taper.
+    half, wrong = (simulate(scene, RATE, FixedSteps(count, method=method)).acceleration for count in (16, 32))
+    assert 2.0 * relative_error(half, wrong) < 4e-3 < relative_error(wrong, exact)
+    with pytest.raises(SimulationFailed, match="generalised_alpha with 32 steps") as failure:
+        simulate(scene, RATE, HalvedSteps(2e-3, method=method))
+    assert failure.value.outcome is Outcome.INACCURATE
+    kept = simulate(scene, RATE, HalvedSteps(2e-2, method=method))
+    assert relative_error(kept.acceleration, exact) < kept.error_estimate
+    assert relative_error(simulate(scene, RATE, HalvedSteps(1e-4)).acceleration, exact) < 1e-4

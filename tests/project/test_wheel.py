@@ -47,14 +47,15 @@ def test_the_wheel_holds_the_packages_and_the_recipes_and_no_test(wheel):
 
 
 def test_the_installed_wheel_generates_and_checks_a_corpus_away_from_the_checkout(wheel, tmp_path):
+    # Where the path names a checkout, pip takes what was built there for the package.
+    clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     home = tmp_path / "environment"
     venv.create(home, with_pip=True, system_site_packages=False)
     python = home / "bin" / "python"
     # The dependencies are those of this environment; only the package itself is installed anew.
     site = next(Path(path) for path in sys.path if path.endswith("site-packages"))
-    subprocess.run([python, "-m", "pip", "install", "-q", "--no-deps", wheel], cwd=tmp_path, check=True)
+    subprocess.run([python, "-m", "pip", "install", "-q", "--no-deps", wheel], cwd=tmp_path, env=clean, check=True)
     (next((home / "lib").glob("python*")) / "site-packages" / "dependencies.pth").write_text(f"{site}\n")
-    clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     corpus = tmp_path / "corpus"
     for arguments in (["generate", "quickstart", "--out", corpus, "--limit", "2", "--workers", "1"], ["check", corpus]):
         done = subprocess.run(

@@ -131,7 +131,7 @@ def test_a_resonance_drawn_beyond_half_the_rate_is_drawn_again_and_counted() -> 
     assert all(scenario.chain.modes[0].frequency < RATE / 2.0 for scenario in scenarios)
     redraws = [redraw for scenario in scenarios for redraw in scenario.redraws]
     assert {(redraw.scope, redraw.field) for redraw in redraws} == {("machine", "frequency")}
-    assert "allowed: 0 to 16384 Hz" in redraws[0].reason
+    assert "allowed: from 0 to below 16384 Hz" in redraws[0].reason
 
 
 def test_a_fixed_ratio_is_drawn_for_each_record() -> None:

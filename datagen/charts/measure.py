@@ -152,7 +152,7 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
     if contestant.part:
         passes = PART_PASSES * scene.rig.bearing.spacing / scene.cage.mean_speed
         scene = subject.lasting(min(scene.duration, SCORED_FROM + max(PART, passes)))
-    ended = Run(
+    unmeasured = Run(
         group=contestant.group,
         name=contestant.name,
         setting=contestant.setting,
@@ -168,9 +168,9 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
         seconds, result = timed(contestant, scene, subject.rate, rounds)
         response = contestant.response(scene, subject.rate, result)
     except SimulationFailed as failure:
-        return replace(ended, failure=str(failure))
+        return replace(unmeasured, failure=str(failure))
     return replace(
-        ended,
+        unmeasured,
         duration=scene.duration,
         seconds=seconds,
         real_time=scene.duration / seconds,

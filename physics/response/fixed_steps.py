@@ -54,8 +54,8 @@ def respond_by_fixed_steps(
     steps = substeps or max(default_substeps(scene, rate), least)
     require_stable(METHODS[method], rate, steps, least)
 
-    def response(steps: int, method: str = method) -> Trace:
-        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), method, keep)
+    def response(steps: int, by: str = method) -> Trace:
+        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), by, keep)
 
     if accuracy is None:
         return response(steps)
